@@ -110,6 +110,8 @@ typedef enum koksma_light_selection {
     KOKSMA_LIGHTS_ONE,     /* one, chosen in proportion to its estimated contribution (Shirley 1991, section 5.4) */
     KOKSMA_LIGHTS_POWER,   /* one, in proportion to its power */
     KOKSMA_LIGHTS_UNIFORM, /* one, all with equal probability */
+    KOKSMA_LIGHTS_AUTO /* the default: ONE where the integrator follows paths between diffuse surfaces and the scene
+                              has more than 8 lights, else ALL */
 } koksma_light_selection;
 
 /* Return the word of a scene file or option: "shuffled", "pixel", "all", ...; NULL for a value past the last. */
@@ -198,7 +200,7 @@ typedef struct koksma_render_options {
 enum { KOKSMA_MAX_SPP = 1 << 20, KOKSMA_MAX_DEPTH = 64 };
 
 /* Sets the defaults: pattern n-rooks, 16 samples a pixel, the size in the scene file, seed 0, pairing shuffled, scope
-   pixel, all lights, integrator distribution, filter box. */
+   pixel, lights auto, integrator distribution, filter box. */
 KOKSMA_API void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene);
 
 /* Sets patterns from a text: "PATTERN" for all uses without another one, "USE=PATTERN" for one use, "USE+USE=PATTERN"

@@ -28,7 +28,8 @@ const char *koksma_light_selection_name(koksma_light_selection selection)
     static const char *const names[] = {[KOKSMA_LIGHTS_ALL] = "all",
                                         [KOKSMA_LIGHTS_ONE] = "one",
                                         [KOKSMA_LIGHTS_POWER] = "power",
-                                        [KOKSMA_LIGHTS_UNIFORM] = "uniform"};
+                                        [KOKSMA_LIGHTS_UNIFORM] = "uniform",
+                                        [KOKSMA_LIGHTS_AUTO] = "auto"};
     return NAME_AT(names, selection);
 }
 

@@ -59,11 +59,56 @@ static koksma_status make_materials(koksma__frame *f)
     return KOKSMA_OK;
 }
 
+/* The same in arrays for blocks. */
+static koksma_status make_lane_materials(koksma__frame *f)
+{
+    const size_t n = f->scene->n_materials + 1;
+    koksma__lane_materials *t = &f->lane_materials;
+    float **const columns[] = {&t->albedo[0][0], &t->albedo[0][1], &t->albedo[0][2], &t->albedo[1][0],
+                               &t->albedo[1][1], &t->albedo[1][2], &t->parameters[0], &t->parameters[1],
+                               &t->parameters[2], &t->parameters[3], &t->diffuse, &t->u[0], &t->u[1], &t->u[2],
+                               &t->v[0], &t->v[1], &t->v[2]};
+    const size_t n_columns = sizeof columns / sizeof *columns;
+    float *room = calloc(n * n_columns, sizeof *room);
+    t->form = calloc(2 * n, sizeof *t->form);
+    t->albedo[0][0] = room;
+    if (!room || !t->form) {
+        return koksma__fail_memory(n * n_columns * sizeof *room);
+    }
+    t->traits = t->form + n;
+    t->form[0] = KOKSMA__UNLIT;
+    for (size_t k = 0; k < n_columns; k++) {
+        *columns[k] = room + k * n;
+    }
+    for (size_t i = 1; i < n; i++) {
+        const koksma__shading_material *m = &f->shading_materials[i - 1];
+        const koksma__batch_material *b = &f->materials[i - 1];
+        const float numbers[] = {m->albedo[0][0], m->albedo[0][1], m->albedo[0][2], m->albedo[1][0], m->albedo[1][1],
+                                 m->albedo[1][2], m->values[0], m->values[1], m->values[2], m->values[3], m->derived,
+                                 b->su, b->sv, b->s0, b->tu, b->tv, b->t0};
+        t->form[i] = (int32_t)m->bsdf->form;
+        t->traits[i] = 1 << m->bsdf->form | (int32_t)m->bsdf->lobes << KOKSMA__LOBES_AT |
+                       (m->bsdf->takes_choice ? KOKSMA__TAKES_CHOICE : 0) | (m->image ? KOKSMA__HAS_IMAGE : 0) |
+                       (b->checker ? KOKSMA__IS_CHECKER : 0);
+        for (size_t k = 0; k < n_columns; k++) {
+            (*columns[k])[i] = numbers[k];
+        }
+    }
+    return KOKSMA_OK;
+}
+
 /* ---- The frame ------------------------------------------------------------------------------------------- */
 
 static int depth_of(const koksma_render_options *options)
 {
     return options->depth < 0 ? options->integrator->depth : options->depth;
+}
+
+koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options)
+{
+    const koksma__integrator_flags *flags = options->integrator->flags;
+    const bool many = scene->n_lights > KOKSMA__FEW_LIGHTS && flags->followed & KOKSMA__LOBE_DIFFUSE;
+    return options->lights != KOKSMA_LIGHTS_AUTO ? options->lights : many ? KOKSMA_LIGHTS_ONE : KOKSMA_LIGHTS_ALL;
 }
 
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options)
@@ -73,7 +118,7 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
     for (size_t i = 0; i < scene->n_materials; i++) {
         lobes |= scene->materials[i].bsdf->lobes;
     }
-    const bool one = options->lights != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
+    const bool one = koksma__light_selection(scene, options) != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
     const int lights = one ? 1 : (int)scene->n_lights;
     return (koksma__use_list){.lens = scene->camera.lens_radius > 0,
                               .time = scene->moves,
@@ -126,6 +171,10 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
 {
     const koksma_render_options *options = f->options;
     KOKSMA__TRY(make_materials(f));
+    KOKSMA__TRY(make_lane_materials(f));
+    for (int k = 0; k < 3; k++) {
+        f->background[k] = (float)f->scene->background[k];
+    }
     KOKSMA__TRY(koksma__lights_init(f->scene, &f->lights));
     f->camera = make_camera(&f->scene->camera, options->width, options->height);
     f->uses = koksma__frame_uses(f->scene, options);
@@ -152,6 +201,8 @@ void koksma__frame_close(koksma__frame *f)
     koksma__lights_fini(&f->lights);
     free(f->materials);
     free(f->shading_materials);
+    free(f->lane_materials.form);
+    free(f->lane_materials.albedo[0][0]);
 }
 
 static koksma_status check(const koksma_render_options *o)
@@ -182,6 +233,8 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     KOKSMA__TRY(check(options));
     out->flags = options->integrator->flags;
     out->depth = depth_of(options);
+    out->light_selection = koksma__light_selection(scene, options);
+    out->together = KOKSMA__BLOCK;
     out->channels = scene->grey ? 1 : 3;
     out->batch = koksma__batch();
     return make_frame(out, run);

@@ -13,33 +13,39 @@
 #include "render/filters/filters.h"
 #include "render/frustum_cull.h"
 #include "render/integrators/integrator_flags.h"
-#include "render/lights/lights.h"
+#include "render/pipelines/vertices.h"
 #include "render/samples/sampler.h"
 
 typedef struct koksma__frame {
     const koksma_scene *scene;
     const koksma_render_options *options;
-    const koksma__integrator_flags *flags; /* of the integrator */
-    int depth;                             /* bounces at most */
+    const koksma__integrator_flags *flags;  /* of the integrator */
+    koksma_light_selection light_selection; /* never AUTO */
+    int depth;                              /* bounces at most */
     int channels;
     const koksma__batch_table *batch;
     koksma__geometry geometry;          /* the scene's own */
     koksma__frustum_cull *frustum_cull; /* NULL: all shapes are tried for every ray */
     koksma__use_list uses;
     koksma__sampler sampler;
+    size_t together; /* samples of a group, unless one pixel has more: the pipeline's */
     koksma__batch_camera camera;
     koksma__lights lights;
     koksma__batch_material *materials;
     koksma__shading_material *shading_materials;
+    koksma__lane_materials lane_materials;
+    float background[3];
     koksma__filter_table *filter; /* NULL: box */
     void *cache;                  /* the integrator's own */
 } koksma__frame;
 
 /* Pixels first .. first + count - 1, and their samples: pixel first + p has samples start[p] .. start[p + 1] - 1. The
    pixels are of one row unless sampling is adaptive. */
+enum { KOKSMA__GROUP_PIXELS = 128 }; /* at most */
+
 typedef struct koksma__group {
     size_t first, count;
-    size_t start[KOKSMA__BLOCK + 1];
+    size_t start[KOKSMA__GROUP_PIXELS + 1];
 } koksma__group;
 
 /* What the samples of a group come to. capacity floats a channel; layers are NULL when no one wants them. */
@@ -57,7 +63,8 @@ typedef struct koksma__pipeline {
     int preference; /* among those that take a picture */
     /* Whether it can render this picture. */
     bool (*takes)(const koksma__frame *frame);
-    bool culls; /* it wants frame->frustum_cull */
+    bool culls;      /* it wants frame->frustum_cull */
+    size_t together; /* samples that it takes at once, if a pixel has fewer */
     /* A task's scratch. Errors: MEMORY. */
     koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **scratch);
     void (*close)(void *scratch);
@@ -76,16 +83,23 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
                                  const koksma_run *run, koksma__frame *out);
 void koksma__frame_close(koksma__frame *frame);
 
+/* Which lights get shadow rays: for AUTO one where paths are followed among more than KOKSMA__FEW_LIGHTS, else all. */
+enum { KOKSMA__FEW_LIGHTS = 8 };
+koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options);
+
 /* What samples will be spent on. */
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);
 
-/* As many pixels from `first` on as fill a block, one at least, none from `end` on. */
+/* As many pixels from `first` on as have frame->together samples, one at least, none from `end` on. */
 void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);
 
 /* The pairs of a use of all samples of a group, one pixel after the other; with on_film each pixel's own position is
    added. The pairs are padded with copies to whole lanes. */
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
                                  koksma__sample_scratch *scratch, float *pairs);
+
+/* The samples of the largest group, in whole lanes, if a pixel has `most`. */
+size_t koksma__group_capacity(const koksma__frame *frame, size_t most);
 
 /* What a task needs to draw its samples and to know what they come to. */
 typedef struct koksma__task_scratch {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Pixels in groups that fill KOKSMA__BLOCK lanes, their samples, and the scratch memory of a task. A group is as many
+ * Pixels in groups that fill the pipeline's lanes, their samples, and the scratch memory of a task. A group is as many
  * whole pixels as fit, one at least; the last pixel's samples are repeated to whole lanes, so that loops over lanes
  * have no remainder.
  */
@@ -16,13 +16,21 @@ void koksma__group_fill(const koksma__frame *f, size_t first, size_t end, koksma
     group->first = first;
     group->count = 0;
     group->start[0] = 0;
-    while (first + group->count < end && group->count < KOKSMA__BLOCK) {
+    /* Uses draw the same pixels in turn, which must not push each other's sets out of the scratch. */
+    const size_t kept = f->sampler.kept_dim ? f->sampler.kept_slots : KOKSMA__GROUP_PIXELS;
+    const size_t most = kept < KOKSMA__GROUP_PIXELS ? kept : KOKSMA__GROUP_PIXELS;
+    while (first + group->count < end && group->count < most) {
         const size_t n = group->start[group->count] + f->sampler.count(&f->sampler, first + group->count);
-        if (group->count && n > KOKSMA__BLOCK) {
+        if (group->count && n > f->together) {
             return;
         }
         group->start[++group->count] = n;
     }
+}
+
+size_t koksma__group_capacity(const koksma__frame *f, size_t most)
+{
+    return koksma__whole_lanes(most < f->together ? f->together : most);
 }
 
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,

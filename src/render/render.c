@@ -116,8 +116,8 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     j->run = run;
     j->caller = pthread_self();
     f->sampler.run = run && run->keep_going ? &inner : NULL;
-    j->capacity = koksma__whole_lanes(f->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK : f->sampler.most);
     koksma_status status = koksma__pipeline_for(f, &j->pipeline);
+    j->capacity = koksma__group_capacity(f, f->sampler.most);
     const koksma_status film = koksma__film_init(f, all_layers, tasks, out, &j->film);
     status = status ? status : film;
     status = status ? status : koksma__parallel(run, tasks, render_rows, j);
@@ -139,6 +139,7 @@ void koksma_render_options_init(koksma_render_options *options, const koksma_sce
     *options = (koksma_render_options){.spp = 16,
                                        .width = scene->width,
                                        .height = scene->height,
+                                       .lights = KOKSMA_LIGHTS_AUTO,
                                        .integrator = koksma_integrator_find("distribution"),
                                        .depth = -1,
                                        .filter = koksma_filter_find("box")};

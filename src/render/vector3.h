@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "warps/shared/disk_maps.h"
+#include "render/lanes3.h"
 
 #define KOKSMA__PI_F 3.14159265358979f
 
@@ -55,19 +55,10 @@ static inline void koksma__mirror3(const float w[3], const float n[3], float out
     }
 }
 
-/* A direction about n with density cosine / pi: the concentric map of the square to the disk, lifted (Malley's
-   method). */
+/* A direction about n with density cosine / pi. */
 static inline void koksma__cosine_direction(const float n[3], const float u[2], float w[3])
 {
-    const double square[2] = {(double)u[0], (double)u[1]};
-    double disk[3];
-    float a[3], b[3];
-    koksma__map_concentric(square, disk);
-    koksma__lift_cosine(disk);
-    koksma__frame3(n, a, b);
-    for (int k = 0; k < 3; k++) {
-        w[k] = (float)disk[0] * a[k] + (float)disk[1] * b[k] + (float)disk[2] * n[k];
-    }
+    koksma__v3_to(koksma__v3_cosine_direction(koksma__v3_of(n), u[0], u[1]), w);
 }
 
 #endif

@@ -365,8 +365,8 @@ koksma_status koksma__irradiance_cache_open(koksma__frame *frame, const koksma_r
     c->pixel = (float)(2 * tan(frame->scene->camera.fov_rad / 2) / c->options.height);
     c->smallest = c->pixel * LEAST * 0.01f;
     memset(c->buckets, -1, sizeof c->buckets);
-    const koksma__use_list uses = {.lights = c->options.lights == KOKSMA_LIGHTS_ALL ? (int)frame->lights.n : 1,
-                                   .light_choice = c->options.lights != KOKSMA_LIGHTS_ALL,
+    const koksma__use_list uses = {.lights = frame->light_selection == KOKSMA_LIGHTS_ALL ? (int)frame->lights.n : 1,
+                                   .light_choice = frame->light_selection != KOKSMA_LIGHTS_ALL,
                                    .vertices = frame->depth + 1};
     koksma_status status = koksma_pattern_spec("sobol:scramble=owen", &c->options.pattern);
     status = status ? status : koksma__pixel_samples(&c->options, &uses, &c->paths.sampler);

@@ -38,6 +38,7 @@ static const koksma__parameter parameters[] = {
 const koksma__light_kind koksma__light_directional = {
     .kind = {.name = "directional", .title = "parallel light from far away", .cite = "-", .parameters = parameters},
     .distance = KOKSMA__LIGHT_PARALLEL,
+    .form = KOKSMA__BEAMS_PARALLEL,
     .open = open_light,
     .sample = sample,
     .centre = centre,

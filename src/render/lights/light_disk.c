@@ -20,10 +20,9 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
 
 static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
 {
-    const double square[2] = {(double)u[0], (double)u[1]};
-    double x[2];
-    koksma__map_concentric(square, x);
-    return koksma__flat_light_sample(light, p, (float)x[0] * light->half[0], (float)x[1] * light->half[0], out);
+    float x, y;
+    koksma__concentric(u[0], u[1], &x, &y);
+    return koksma__flat_light_sample(light, p, x * light->half[0], y * light->half[0], out);
 }
 
 static const koksma__parameter parameters[] = {
@@ -40,6 +39,7 @@ const koksma__light_kind koksma__light_disk = {
              .keys = KOKSMA__FLAT_KEYS,
              .example = KOKSMA__FLAT_EXAMPLE},
     .is_flat = true,
+    .form = KOKSMA__BEAMS_DISK,
     .parse = parse,
     .open = open_light,
     .sample = sample,

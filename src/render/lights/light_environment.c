@@ -9,20 +9,12 @@
 #include "render/lights/light_environment.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "image/formats.h"
 #include "render/lights/surface_lights.h"
-
-#define FLOOR 0.01f
-
-struct koksma__environment {
-    float radiance[3]; /* scale of the image */
-    const koksma_image *image;
-    float turn; /* as a part of a full turn */
-    float mean;
-    float *row_cdf, *column_cdf; /* height + 1; height rows of width + 1 */
-};
 
 static void pixel(const koksma_image *image, size_t i, float rgb[3])
 {
@@ -52,28 +44,50 @@ static double accumulate(const float *weights, size_t n, float *cdf)
     return total;
 }
 
-static koksma_status tabulate(koksma__environment *e)
+/* n + 1 numbers in whole steps, and one more. */
+static size_t padded(size_t n)
 {
-    const size_t width = (size_t)e->image->width, height = (size_t)e->image->height;
+    return (n / KOKSMA__ENVIRONMENT_STEP + 2) * KOKSMA__ENVIRONMENT_STEP;
+}
+
+/* Fills what lies behind n + 1 cumulative numbers, and takes out the coarse ones. */
+static void finish(float *cdf, size_t n, float *coarse)
+{
+    for (size_t i = n + 1; i < padded(n); i++) {
+        cdf[i] = 2;
+    }
+    for (size_t i = 0; i < padded(n) / KOKSMA__ENVIRONMENT_STEP; i++) {
+        coarse[i] = cdf[i * KOKSMA__ENVIRONMENT_STEP];
+    }
+}
+
+static koksma_status tabulate(const koksma_image *image, koksma__environment *e)
+{
+    const size_t width = (size_t)image->width, height = (size_t)image->height, stride = padded(width);
     float *weights = malloc((width + height) * sizeof *weights), *rows = weights ? weights + width : NULL;
-    e->row_cdf = malloc((height + 1) * sizeof *e->row_cdf);
-    e->column_cdf = malloc(height * (width + 1) * sizeof *e->column_cdf);
-    if (!weights || !e->row_cdf || !e->column_cdf) {
+    e->stride = stride;
+    e->row_cdf = malloc(padded(height) * sizeof *e->row_cdf);
+    e->row_coarse = malloc(padded(height) / KOKSMA__ENVIRONMENT_STEP * sizeof *e->row_coarse);
+    e->column_cdf = malloc(height * stride * sizeof *e->column_cdf);
+    e->column_coarse = malloc(height * stride / KOKSMA__ENVIRONMENT_STEP * sizeof *e->column_coarse);
+    if (!weights || !e->row_cdf || !e->row_coarse || !e->column_cdf || !e->column_coarse) {
         free(weights);
-        return koksma__fail_memory(height * (width + 1) * sizeof *e->column_cdf);
+        return koksma__fail_memory(height * stride * sizeof *e->column_cdf);
     }
     double sines = 0;
     for (size_t y = 0; y < height; y++) {
+        float *columns = e->column_cdf + y * stride;
         for (size_t x = 0; x < width; x++) {
             float rgb[3];
-            pixel(e->image, y * width + x, rgb);
+            pixel(image, y * width + x, rgb);
             weights[x] = koksma__luminance3(rgb);
         }
-        rows[y] =
-            (float)(accumulate(weights, width, e->column_cdf + y * (width + 1)) * (double)row_sine(e->image, y));
-        sines += (double)row_sine(e->image, y);
+        rows[y] = (float)(accumulate(weights, width, columns) * (double)row_sine(image, y));
+        finish(columns, width, e->column_coarse + y * stride / KOKSMA__ENVIRONMENT_STEP);
+        sines += (double)row_sine(image, y);
     }
     const double total = accumulate(rows, height, e->row_cdf);
+    finish(e->row_cdf, height, e->row_coarse);
     e->mean = (float)(total / (sines * (double)width)) * koksma__luminance3(e->radiance);
     free(weights);
     return KOKSMA_OK;
@@ -87,19 +101,25 @@ koksma_status koksma__environment_open(const koksma__light *light, koksma__envir
     for (int k = 0; k < 3; k++) {
         e->radiance[k] = (float)light->radiance[k];
     }
-    e->image = light->image;
     e->turn = (float)(light->angle_rad / (2 * M_PI));
     e->mean = koksma__luminance3(e->radiance);
-    const koksma_status status = e->image ? koksma__image_check(e->image, "the environment's image") : KOKSMA_OK;
-    return status || !e->image ? status : tabulate(e);
+    const koksma_image *image = light->image;
+    const koksma_status status = image ? koksma__image_check(image, "the environment's image") : KOKSMA_OK;
+    if (status || !image) {
+        return status;
+    }
+    e->texels = image->pixels;
+    e->channels = image->channels;
+    e->green = image->channels == 3;
+    e->width = image->width;
+    e->height = image->height;
+    return tabulate(image, e);
 }
 
 void koksma__environment_close(koksma__environment *e)
 {
     if (e) {
-        free(e->row_cdf);
-        free(e->column_cdf);
-        free(e);
+        KOKSMA__FREE(e->row_cdf, e->row_coarse, e->column_cdf, e->column_coarse, e);
     }
 }
 
@@ -121,72 +141,39 @@ static size_t find(const float *cdf, size_t n, float u, float *within)
     return low;
 }
 
-static void direction_of(const koksma__environment *e, float x, float y, float w[3])
-{
-    const float azimuth = 2 * KOKSMA__PI_F * (x - e->turn), polar = KOKSMA__PI_F * y;
-    w[0] = -sinf(polar) * sinf(azimuth);
-    w[1] = cosf(polar);
-    w[2] = sinf(polar) * cosf(azimuth);
-}
-
-/* The position of w in the image, both in [0,1). */
-static void position_of(const koksma__environment *e, const float w[3], float *x, float *y)
-{
-    const float turns = atan2f(-w[0], w[2]) / (2 * KOKSMA__PI_F) + e->turn;
-    *x = turns - floorf(turns);
-    *x = *x < 1 ? *x : 0;
-    *y =
-        atan2f(sqrtf(w[0] * w[0] + w[2] * w[2]), w[1]) / KOKSMA__PI_F; /* an arc cosine knows no angles below 2^-12 */
-    *y = *y < 1 ? *y : 1 - 0x1p-24f;
-}
-
 float koksma__environment_sample(const koksma__environment *e, const float u[2], float w[3])
 {
-    float x = u[0], y = u[1];
-    if (!e->image || y < FLOOR) { /* all directions alike */
-        y = e->image ? y / FLOOR : y;
-        const float up = 1 - 2 * y;
-        direction_of(e, x, acosf(up) / KOKSMA__PI_F, w);
+    float x = u[0], y = u[1], sine;
+    if (!e->texels || y < KOKSMA__ENVIRONMENT_FLOOR) { /* all directions alike */
+        const float up = 1 - 2 * (e->texels ? y / KOKSMA__ENVIRONMENT_FLOOR : y), rest = 1 - up * up;
+        sine = sqrtf(rest > 0 ? rest : 0);
+        y = 2 * koksma__arc_turns(sine, up);
     } else {
-        const size_t width = (size_t)e->image->width;
+        const size_t width = (size_t)e->width;
         float in_row, in_column;
-        const size_t row = find(e->row_cdf, (size_t)e->image->height, (y - FLOOR) / (1 - FLOOR), &in_row);
-        const size_t column = find(e->column_cdf + row * (width + 1), width, x, &in_column);
-        direction_of(e, ((float)column + in_column) / (float)width, ((float)row + in_row) / (float)e->image->height,
-                     w);
+        const float v = (y - KOKSMA__ENVIRONMENT_FLOOR) / (1 - KOKSMA__ENVIRONMENT_FLOOR);
+        const size_t row = find(e->row_cdf, (size_t)e->height, v, &in_row);
+        const size_t column = find(e->column_cdf + row * e->stride, width, x, &in_column);
+        x = ((float)column + in_column) / (float)width;
+        y = ((float)row + in_row) / (float)e->height;
     }
+    koksma__v3_to(koksma__environment_direction(e, x, y, &sine), w);
     return koksma__environment_pdf(e, w);
 }
 
 float koksma__environment_pdf(const koksma__environment *e, const float w[3])
 {
-    const float alike = 1 / (4 * KOKSMA__PI_F);
-    if (!e->image) {
-        return alike;
-    }
-    float x, y;
-    position_of(e, w, &x, &y);
-    const size_t width = (size_t)e->image->width, height = (size_t)e->image->height;
-    const size_t column = (size_t)(x * (float)width), row = (size_t)(y * (float)height);
-    const float *cdf = e->column_cdf + row * (width + 1);
-    const float cell =
-        (e->row_cdf[row + 1] - e->row_cdf[row]) * (cdf[column + 1] - cdf[column]) * (float)(width * height);
-    const float sine = sqrtf(w[0] * w[0] + w[2] * w[2]);
-    const float image = cell / (2 * KOKSMA__PI_F * KOKSMA__PI_F * (sine > 1e-6f ? sine : 1e-6f));
-    return FLOOR * alike + (1 - FLOOR) * image;
+    return e->texels ? koksma__environment_texel_pdf(e, koksma__environment_texel(e, koksma__v3_of(w)))
+                     : 0.25f / KOKSMA__PI_F;
 }
 
 void koksma__environment_radiance(const koksma__environment *e, const float w[3], float out[3])
 {
-    float rgb[3] = {1, 1, 1};
-    if (e->image) {
-        float x, y;
-        position_of(e, w, &x, &y);
-        const size_t column = (size_t)(x * (float)e->image->width), row = (size_t)(y * (float)e->image->height);
-        pixel(e->image, row * (size_t)e->image->width + column, rgb);
-    }
-    for (int k = 0; k < 3; k++) {
-        out[k] = e->radiance[k] * rgb[k];
+    if (e->texels) {
+        const koksma__texel texel = koksma__environment_texel(e, koksma__v3_of(w));
+        koksma__v3_to(koksma__environment_texel_radiance(e, texel), out);
+    } else {
+        memcpy(out, e->radiance, sizeof e->radiance);
     }
 }
 
@@ -269,6 +256,7 @@ const koksma__light_kind koksma__light_environment = {
              .keys = (const char *const[]){"image", "scale", "angle_deg", "radiance", NULL},
              .example = "\"radiance\": [0.2, 0.3, 0.4]"},
     .distance = KOKSMA__LIGHT_AROUND,
+    .form = KOKSMA__BEAMS_AROUND,
     .parse = parse,
     .open = open_light,
     .close = close_light,

@@ -50,6 +50,7 @@ const koksma__light_kind koksma__light_rectangle = {
              .keys = KOKSMA__FLAT_KEYS,
              .example = KOKSMA__FLAT_EXAMPLE},
     .is_flat = true,
+    .form = KOKSMA__BEAMS_RECTANGLE,
     .parse = parse,
     .open = open_light,
     .sample = sample,

@@ -21,29 +21,14 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
 
 static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
 {
-    float axis[3], a[3], b[3];
-    const float radius = light->half[0];
-    for (int k = 0; k < 3; k++) {
-        axis[k] = light->centre[k] - p[k];
-    }
-    const float square = koksma__dot3(axis, axis), distance = sqrtf(square), part = radius * radius / square;
-    if (!(part < 1)) {
+    koksma__v3 d, w;
+    const koksma__v3 axis = koksma__v3_subtract(koksma__v3_of(light->centre), koksma__v3_of(p));
+    out->pdf = koksma__cone_beam(axis, light->half[0], u[0], u[1], &d, &w);
+    if (!(out->pdf > 0)) {
         return false; /* inside */
     }
-    for (int k = 0; k < 3; k++) {
-        axis[k] /= distance;
-    }
-    koksma__frame3(axis, a, b);
-    const float rest = part / (1 + sqrtf(1 - part)), off = u[0] * rest;
-    const float cosine = 1 - off, sine = sqrtf(off * (2 - off)), turn = 2 * KOKSMA__PI_F * u[1];
-    const float x = sine * cosf(turn), y = sine * sinf(turn);
-    const float inside = radius * radius - square * sine * sine;
-    const float t = distance * cosine - sqrtf(inside > 0 ? inside : 0);
-    for (int k = 0; k < 3; k++) {
-        out->w[k] = x * a[k] + y * b[k] + cosine * axis[k];
-        out->d[k] = t * out->w[k];
-    }
-    out->pdf = 1 / (2 * KOKSMA__PI_F * rest);
+    koksma__v3_to(d, out->d);
+    koksma__v3_to(w, out->w);
     koksma__set_value(light, 1 / out->pdf, out);
     return true;
 }
@@ -77,6 +62,7 @@ const koksma__light_kind koksma__light_sphere = {
              .title = "a sphere that shines outwards",
              .cite = "shirley1996",
              .parameters = parameters},
+    .form = KOKSMA__BEAMS_CONE,
     .parse = parse,
     .open = open_light,
     .sample = sample,

@@ -45,9 +45,21 @@ typedef enum koksma__light_distance {
     KOKSMA__LIGHT_AROUND    /* comes from all directions that hit nothing */
 } koksma__light_distance;
 
+/* Which formula of batch_beams.c samples a kind for blocks of points. */
+typedef enum koksma__beam_form {
+    KOKSMA__BEAMS_RAYS, /* none: sample(), point by point */
+    KOKSMA__BEAMS_RECTANGLE,
+    KOKSMA__BEAMS_DISK,
+    KOKSMA__BEAMS_CONE, /* a sphere */
+    KOKSMA__BEAMS_PARALLEL,
+    KOKSMA__BEAMS_AROUND, /* an environment, of which a scene has one */
+    KOKSMA__N_BEAM_FORMS
+} koksma__beam_form;
+
 typedef struct koksma__light_kind {
     koksma__kind kind; /* parameters are written to koksma__light; its own at KOKSMA__LIGHT_VALUE(i) */
     koksma__light_distance distance;
+    koksma__beam_form form;
     bool is_flat; /* shines to the side of its normal only; u, v along its axes, as far as half */
     /* NULL, or: reads the fields that are no parameters; name is the scene file's. */
     koksma_status (*parse)(const char *name, const field *f, koksma_scene *scene, koksma__light *light);

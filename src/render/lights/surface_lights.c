@@ -82,18 +82,16 @@ void koksma__emitter_open(koksma__shading_light *light, double area, float reach
 bool koksma__flat_light_sample(const koksma__shading_light *light, const float p[3], float u, float v,
                                koksma__beam *out)
 {
+    koksma__v3 d, w;
     for (int k = 0; k < 3; k++) {
         out->d[k] = light->centre[k] + u * light->axis_u[k] + v * light->axis_v[k] - p[k];
     }
-    const float square = koksma__dot3(out->d, out->d), at_light = -koksma__dot3(light->normal, out->d);
-    if (!(at_light > 0)) {
+    d = koksma__v3_of(out->d);
+    out->pdf = koksma__flat_beam(d, koksma__v3_of(light->normal), light->area, &w);
+    if (!(out->pdf > 0)) {
         return false;
     }
-    const float length = sqrtf(square);
-    for (int k = 0; k < 3; k++) {
-        out->w[k] = out->d[k] / length;
-    }
-    out->pdf = square * length / (at_light * light->area);
+    koksma__v3_to(w, out->w);
     koksma__set_value(light, 1 / out->pdf, out);
     return true;
 }

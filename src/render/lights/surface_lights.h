@@ -33,6 +33,33 @@ bool koksma__flat_light_centre(const koksma__shading_light *light, const float p
 float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
                        const float n[3]);
 
+/* The direction w of length 1, and its density, of a sample that lies d away on a surface that is sampled by area; 0:
+   behind it. */
+KOKSMA__INLINE float koksma__flat_beam(koksma__v3 d, koksma__v3 normal, float area, koksma__v3 *w)
+{
+    const float square = koksma__v3_dot(d, d), length = sqrtf(square), at_light = -koksma__v3_dot(normal, d);
+    *w = koksma__v3_scale(d, 1 / length);
+    const float pdf = square * length / (at_light * area);
+    return at_light > 0 ? pdf : 0;
+}
+
+/* A sample of the cone in which a sphere is seen whose centre is `axis` away (light_sphere.c): the vector d to the
+   sphere, its direction w and density; 0: from within. */
+KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, float v, koksma__v3 *d, koksma__v3 *w)
+{
+    const float square = koksma__v3_dot(axis, axis), distance = sqrtf(square), part = radius * radius / square;
+    const int outside = part < 1;
+    const float rest = part / (1 + sqrtf(outside ? 1 - part : 0)), off = u * rest, sine2 = off * (2 - off);
+    float x, y;
+    koksma__sine_cosine_turns(v, &y, &x);
+    const float sine = sqrtf(sine2 > 0 ? sine2 : 0), inside = radius * radius - square * sine2;
+    const float t = distance * (1 - off) - sqrtf(inside > 0 ? inside : 0);
+    *w = koksma__v3_about(koksma__v3_scale(axis, 1 / distance), sine * x, sine * y, 1 - off);
+    *d = koksma__v3_scale(*w, t);
+    const float pdf = 1 / (2 * KOKSMA__PI_F * rest);
+    return outside ? pdf : 0;
+}
+
 /* All of it from the centre: intensity `strength` times radiance, falling with the square of the distance. */
 bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 

@@ -12,6 +12,7 @@ const koksma__bsdf koksma__bsdf_checker = {
     .diffuse = KOKSMA__CHECKER,
     .is_lambert = true,
     .reciprocal = true,
+    .form = KOKSMA__FORM_LAMBERT,
     .value = koksma__lambert_bsdf_value,
     .sample = koksma__lambert_bsdf_sample,
 };

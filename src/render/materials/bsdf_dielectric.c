@@ -83,6 +83,7 @@ const koksma__bsdf koksma__bsdf_dielectric = {
              .cite = "whitted1980 veach1997",
              .parameters = parameters},
     .lobes = KOKSMA__LOBE_SPECULAR,
+    .takes_choice = true,
     .value = value,
     .sample = sample,
     .split = split,

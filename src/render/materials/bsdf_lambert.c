@@ -12,6 +12,7 @@ const koksma__bsdf koksma__bsdf_lambert = {
     .diffuse = KOKSMA__ALBEDO | KOKSMA__IMAGE,
     .is_lambert = true,
     .reciprocal = true,
+    .form = KOKSMA__FORM_LAMBERT,
     .value = koksma__lambert_bsdf_value,
     .sample = koksma__lambert_bsdf_sample,
 };

@@ -44,6 +44,7 @@ const koksma__bsdf koksma__bsdf_phong = {
              .cite = "shirley1991",
              .parameters = parameters},
     .lobes = KOKSMA__LOBE_GLOSSY,
+    .form = KOKSMA__FORM_LOBES,
     .value = value,
     .sample = sample,
 };

@@ -83,6 +83,8 @@ const koksma__bsdf koksma__bsdf_utah = {
     .diffuse = KOKSMA__ALBEDO | KOKSMA__CHECKER,
     .check = check,
     .prepare = prepare,
+    .form = KOKSMA__FORM_LOBES,
+    .takes_choice = true,
     .value = value,
     .sample = sample,
 };

@@ -3,20 +3,23 @@
 #ifndef KOKSMA_RENDER_MATERIALS_LOBES_H
 #define KOKSMA_RENDER_MATERIALS_LOBES_H
 
+#include "render/lanes3.h"
 #include "render/materials/materials.h"
 #include "render/vector3.h"
 
-/* Lambert: albedo / pi; the density of koksma__cosine_direction. */
+/* Lambert: albedo / pi; the density of koksma__cosine_direction, for the cosine of the direction. */
+KOKSMA__INLINE float koksma__lambert_pdf(float cosine)
+{
+    return cosine > 0 ? cosine * (1 / KOKSMA__PI_F) : 0;
+}
+
 static inline float koksma__lambert_value(const koksma__surface *s, const float w[3], float value[3])
 {
-    const float cosine = koksma__dot3(s->n, w);
-    if (!(cosine > 0)) {
-        return 0;
-    }
+    const float pdf = koksma__lambert_pdf(koksma__dot3(s->n, w));
     for (int k = 0; k < 3; k++) {
-        value[k] += s->albedo[k] * cosine / KOKSMA__PI_F;
+        value[k] += s->albedo[k] * pdf;
     }
-    return cosine / KOKSMA__PI_F;
+    return pdf;
 }
 
 /* value and sample of a surface that is Lambert and nothing else. */
@@ -34,7 +37,7 @@ static inline bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigne
         return false;
     }
     koksma__cosine_direction(s->n, u, out->w);
-    out->pdf = koksma__dot3(s->n, out->w) / KOKSMA__PI_F;
+    out->pdf = koksma__lambert_pdf(koksma__dot3(s->n, out->w));
     out->lobe = KOKSMA__LOBE_DIFFUSE;
     for (int k = 0; k < 3; k++) {
         out->weight[k] = s->albedo[k];
@@ -46,26 +49,33 @@ static inline bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigne
    cos^e, each weighing `reflectance`; those under the surface are lost. Times the cosine the material is reflectance
    x density.
  */
+KOKSMA__INLINE float koksma__lobe_pdf(koksma__v3 n, koksma__v3 out, float exponent, koksma__v3 w)
+{
+    const float cosine = koksma__v3_dot(koksma__v3_mirror(out, n), w), above = koksma__v3_dot(n, w);
+    const float least = cosine > 0 ? cosine : 0, inside = least < 1 ? least : 1;
+    const float pdf = (exponent + 1) * (0.5f / KOKSMA__PI_F) * koksma__power(inside, exponent);
+    return (cosine > 0) & (above > 0) ? pdf : 0;
+}
+
+KOKSMA__INLINE koksma__v3 koksma__lobe_direction(koksma__v3 n, koksma__v3 out, float exponent, float u, float v)
+{
+    const float cosine = koksma__power(1 - u, 1 / (exponent + 1)), rest = 1 - cosine * cosine;
+    const float sine = sqrtf(rest > 0 ? rest : 0);
+    float x, y;
+    koksma__sine_cosine_turns(v, &y, &x);
+    return koksma__v3_about(koksma__v3_mirror(out, n), sine * x, sine * y, cosine);
+}
+
 static inline float koksma__cosine_lobe_pdf(const koksma__surface *s, float exponent, const float w[3])
 {
-    float mirror[3];
-    koksma__mirror3(s->out, s->n, mirror);
-    const float cosine = koksma__dot3(mirror, w), e = exponent;
-    return cosine > 0 && koksma__dot3(s->n, w) > 0 ? (e + 1) / (2 * KOKSMA__PI_F) * powf(cosine, e) : 0;
+    return koksma__lobe_pdf(koksma__v3_of(s->n), koksma__v3_of(s->out), exponent, koksma__v3_of(w));
 }
 
 /* False under the surface. */
 static inline bool koksma__cosine_lobe_direction(const koksma__surface *s, float exponent, const float u[2],
                                                  float w[3])
 {
-    float mirror[3], a[3], b[3];
-    koksma__mirror3(s->out, s->n, mirror);
-    koksma__frame3(mirror, a, b);
-    const float cosine = powf(1 - u[0], 1 / (exponent + 1)), turn = 2 * KOKSMA__PI_F * u[1];
-    const float rest = 1 - cosine * cosine, sine = sqrtf(rest > 0 ? rest : 0);
-    for (int k = 0; k < 3; k++) {
-        w[k] = sine * cosf(turn) * a[k] + sine * sinf(turn) * b[k] + cosine * mirror[k];
-    }
+    koksma__v3_to(koksma__lobe_direction(koksma__v3_of(s->n), koksma__v3_of(s->out), exponent, u[0], u[1]), w);
     return koksma__dot3(s->n, w) > 0;
 }
 

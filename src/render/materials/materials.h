@@ -20,6 +20,16 @@ enum { KOKSMA__LOBE_DIFFUSE = 1, KOKSMA__LOBE_GLOSSY = 2, KOKSMA__LOBE_SPECULAR 
 /* Fields of the diffuse part: "albedo"; "albedos" in the squares of a checker; "albedo": {"image": FILE}. */
 enum { KOKSMA__ALBEDO = 1, KOKSMA__CHECKER = 2, KOKSMA__IMAGE = 4 };
 
+/* Which formula of batch_materials.c shades blocks of a material; parameters 0 to 3 are the reflectance and the exponent
+   of the lobes or the roughness of the facets. */
+typedef enum koksma__material_form {
+    KOKSMA__FORM_RAYS,    /* none: value() and sample(), ray by ray */
+    KOKSMA__FORM_LAMBERT, /* albedo */
+    KOKSMA__FORM_LOBES,   /* Lambert and a cosine lobe; `derived` is the part of directions that Lambert gets */
+    KOKSMA__FORM_FACETS,  /* facets.h */
+    KOKSMA__N_FORMS
+} koksma__material_form;
+
 /* A material in floats, as the renderer reads it. */
 typedef struct koksma__shading_material {
     const struct koksma__bsdf *bsdf;
@@ -52,6 +62,8 @@ typedef struct koksma__bsdf {
     unsigned lobes;    /* that it has */
     unsigned diffuse;  /* which fields of the diffuse part it takes; 0: none */
     bool is_lambert;   /* its value is albedo cosine / pi and nothing else, so that lambert_lanes.c can shade it */
+    koksma__material_form form;
+    bool takes_choice; /* sample() depends on choice */
     bool reciprocal;   /* value / cosine is the same with w and out exchanged */
     /* NULL, or: why these parameters are refused together; NULL if they are not. */
     const char *(*check)(const koksma__material *material);

@@ -124,6 +124,15 @@ typedef struct koksma__batch_lights {
     KOKSMA__LIGHT_LANES(fixed); /* of an environment */
 } koksma__batch_lights;
 
+struct koksma__surfaces;
+struct koksma__light_lanes;
+struct koksma__beams;
+struct koksma__directions;
+struct koksma__lens;
+struct koksma__vertices;
+struct koksma__paths;
+struct koksma__environment;
+
 typedef struct koksma__batch_table {
 #define KERNEL(result, name, arguments) result(*name) arguments;
 #include "render/pipelines/batch.def"

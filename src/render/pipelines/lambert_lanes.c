@@ -26,7 +26,7 @@ static bool takes(const koksma__frame *frame)
 {
     const koksma_scene *scene = frame->scene;
     bool can = scene->grey && !scene->moves && !(scene->camera.lens_radius > 0) && frame->flags->areas &&
-               frame->flags->ambient && !frame->flags->indirect && frame->options->lights == KOKSMA_LIGHTS_ALL;
+               frame->flags->ambient && !frame->flags->indirect && frame->light_selection == KOKSMA_LIGHTS_ALL;
     for (size_t i = 0; can && i < scene->n_lights; i++) {
         can = scene->lights[i].kind->lanes && !scene->lights[i].visible;
     }
@@ -221,6 +221,7 @@ const koksma__pipeline koksma__pipeline_lambert_lanes = {
     .preference = 1,
     .takes = takes,
     .culls = true,
+    .together = KOKSMA__BLOCK,
     .open = open_scratch,
     .close = close_scratch,
     .is_empty = is_empty,

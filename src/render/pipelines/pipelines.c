@@ -20,6 +20,7 @@ koksma_status koksma__pipeline_for(koksma__frame *frame, const koksma__pipeline 
         }
     }
     *out = best;
+    frame->together = best->together;
     return best->culls && frame->geometry.shapes && !frame->frustum_cull
                ? koksma__frustum_cull_open(&frame->camera, frame->geometry.shapes, frame->options->width,
                                            frame->options->height, &frame->frustum_cull)

@@ -33,6 +33,7 @@
 #include <string.h>
 
 #include <koksma/image.h>
+#include <koksma/warp.h>
 
 #include "core/status.h"
 #include "render/pipelines/pipelines.h"
@@ -79,281 +80,354 @@ enum { TOGETHER = 1024 }; /* samples that are followed together: bounds the queu
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
 
-static void aim(const koksma__frame *frame, const float film[2], const float lens[2], float time, koksma__path *path)
+static koksma__lens lens_of(const koksma__camera *camera)
 {
-    const koksma__batch_camera *c = &frame->camera;
-    const koksma__camera *camera = &frame->scene->camera;
-    double offset[2] = {0, 0};
-    if (lens) {
-        const double square[2] = {(double)lens[0], (double)lens[1]};
-        camera->lens_map->map(square, offset);
-    }
-    const float radius = (float)camera->lens_radius, focus = (float)camera->focus_distance;
+    koksma__lens lens = {.radius = (float)camera->lens_radius,
+                         .focus = (float)camera->focus_distance,
+                         .open = (float)camera->shutter[0],
+                         .interval = (float)(camera->shutter[1] - camera->shutter[0])};
     for (int k = 0; k < 3; k++) {
-        const float d = c->base[k] + film[0] * c->step_x[k] + film[1] * c->step_y[k];
-        const float shift =
-            radius * ((float)offset[0] * (float)camera->right[k] + (float)offset[1] * (float)camera->down[k]);
-        path->o[k] = c->eye[k] + time * (float)camera->motion[k] + shift;
-        path->d[k] = lens ? d - shift / focus : d;
-        path->beta[k] = 1;
+        lens.right[k] = (float)camera->right[k];
+        lens.down[k] = (float)camera->down[k];
+        lens.motion[k] = (float)camera->motion[k];
     }
-    path->time = time;
+    return lens;
 }
 
+/* Points on the lens of radius 1. */
+static void map_to_lens(const koksma__frame *frame, const float *pairs, int n, koksma__lanes x, koksma__lanes y)
+{
+    const koksma_warp *map = frame->scene->camera.lens_map;
+    for (int i = 0; i < n; i++) {
+        x[i] = pairs[2 * i];
+        y[i] = pairs[2 * i + 1];
+    }
+    if (map == koksma_warp_find("concentric-disk")) {
+        frame->batch->to_disk(n, x, y);
+        return;
+    }
+    for (int i = 0; i < n; i++) {
+        const double square[2] = {(double)x[i], (double)y[i]};
+        double disk[2];
+        map->map(square, disk);
+        x[i] = (float)disk[0];
+        y[i] = (float)disk[1];
+    }
+}
+
+/* Paths from the eye; positions, lens points and times have copies up to whole lanes. */
 static koksma_status start_paths(const koksma__trace *trace, const koksma__values *values, size_t first, size_t end)
 {
     const koksma__frame *frame = trace->frame;
     const koksma__camera *camera = &frame->scene->camera;
-    const float *lens = NULL, *times = NULL;
-    koksma_status status = KOKSMA_OK;
+    const koksma__lens lens = lens_of(camera);
+    koksma__queue *queue = &trace->scratch->queues[0];
+    const float *points = NULL, *times = NULL;
     if (camera->lens_radius > 0) {
-        status = koksma__wavefront_draw(trace, KOKSMA__USE_LENS, &lens);
+        KOKSMA__TRY(koksma__wavefront_draw(trace, KOKSMA__USE_LENS, &points));
     }
-    if (!status && frame->scene->moves) {
-        status = koksma__wavefront_draw(trace, KOKSMA__USE_TIME, &times);
+    if (frame->scene->moves) {
+        KOKSMA__TRY(koksma__wavefront_draw(trace, KOKSMA__USE_TIME, &times));
     }
-    const float open = (float)camera->shutter[0], interval = (float)(camera->shutter[1] - camera->shutter[0]);
-    for (size_t i = first; !status && i < end; i++) {
-        koksma__path path = {.from = -1, .sample = (uint32_t)i};
-        aim(frame, values->film + 2 * i, lens ? lens + 2 * i : NULL, times ? open + interval * times[2 * i] : open,
-            &path);
-        status = koksma__wavefront_push(&trace->scratch->queues[0], &path);
+    for (size_t start = first; start < end; start += KOKSMA__BLOCK) {
+        const int n = (int)(end - start < KOKSMA__BLOCK ? end - start : KOKSMA__BLOCK);
+        const int whole = (int)koksma__whole_lanes((size_t)n);
+        _Alignas(64) koksma__lanes x, y, u;
+        KOKSMA__TRY(koksma__wavefront_reserve(queue));
+        koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
+        if (points) {
+            map_to_lens(frame, points + 2 * start, whole, x, y);
+        }
+        for (int i = 0; times && i < whole; i++) {
+            u[i] = times[2 * (start + (size_t)i)];
+        }
+        frame->batch->start(&frame->camera, &lens, values->film + 2 * start, points ? x : NULL, y, times ? u : NULL,
+                            whole, to);
+        for (int i = 0; i < whole; i++) {
+            to->sample[i] = (uint32_t)(start + (size_t)(i < n ? i : n - 1));
+        }
+        queue->n += (size_t)n;
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* ---- What rays meet ------------------------------------------------------------------------------------- */
 
-static void gather(const koksma__path *paths, int n, int whole, koksma__rays *rays, int32_t *from)
+static koksma__v3 direction_at(const koksma__paths *p, int i)
 {
-    for (int i = 0; i < whole; i++) {
-        const koksma__path *p = &paths[i < n ? i : n - 1];
-        rays->ox[i] = p->o[0];
-        rays->oy[i] = p->o[1];
-        rays->oz[i] = p->o[2];
-        rays->dx[i] = p->d[0];
-        rays->dy[i] = p->d[1];
-        rays->dz[i] = p->d[2];
-        rays->time[i] = p->time;
-        from[i] = p->from;
-    }
+    return koksma__v3_unit((koksma__v3){p->rays.dx[i], p->rays.dy[i], p->rays.dz[i]});
 }
 
 /* The part of the light that counts for a ray which met a light by its own direction: the power heuristic against
-   sampling that light. */
-static float met_weight(const koksma__frame *frame, const koksma__path *path, size_t light, const float w[3], float t,
-                        const float n[3])
+   sampling that light, whose density for the direction is pdf. */
+static float met_weight(const koksma__frame *frame, const koksma__paths *p, int i, size_t light, float pdf)
 {
-    if (!(path->pdf > 0)) {
-        return path->pdf < 0 ? 0 : 1; /* 1: from the eye or a mirror, no other way to see it */
+    if (!(p->pdf[i] > 0)) {
+        return p->pdf[i] < 0 ? 0 : 1; /* 1: from the eye or a mirror, no other way to see it */
     }
-    const koksma__shading_light *l = &frame->lights.lights[light];
-    const float pdf = l->kind->pdf ? l->kind->pdf(l, path->o, w, t, n) : 0;
-    const float sampled = pdf * koksma__light_probability(frame, path->o, path->n, (int)light);
-    return path->pdf * path->pdf / (path->pdf * path->pdf + sampled * sampled);
+    const float o[3] = {p->rays.ox[i], p->rays.oy[i], p->rays.oz[i]}, n[3] = {p->n[0][i], p->n[1][i], p->n[2][i]};
+    const float sampled = pdf * koksma__light_probability(frame, o, n, (int)light);
+    return p->pdf[i] * p->pdf[i] / (p->pdf[i] * p->pdf[i] + sampled * sampled);
 }
 
-static void add_scaled(const float beta[3], const float value[3], float scale, float *sum)
+static void add_scaled(koksma__vertices *v, int i, const float value[3], float scale)
 {
     for (int k = 0; k < 3; k++) {
-        sum[k] += beta[k] * value[k] * scale;
+        v->light[k][i] += v->paths->beta[k][i] * value[k] * scale;
     }
 }
 
-static void add_miss(const koksma__frame *frame, const koksma__path *path, float *sum)
+/* What environments send against the rays that hit nothing. */
+static void add_misses(const koksma__frame *frame, koksma__vertices *v)
 {
-    const float background[3] = {(float)frame->scene->background[0], (float)frame->scene->background[1],
-                                 (float)frame->scene->background[2]};
     const koksma__lights *lights = &frame->lights;
-    add_scaled(path->beta, background, 1, sum);
-    for (size_t i = lights->first_around; i < lights->n; i++) {
-        const koksma__shading_light *l = &lights->lights[i];
-        if (l->kind->radiance && l->visible) {
-            float w[3] = {path->d[0], path->d[1], path->d[2]}, radiance[3];
-            koksma__unit3(w);
-            l->kind->radiance(l, w, radiance);
-            add_scaled(path->beta, radiance, met_weight(frame, path, i, w, 0, w), sum);
+    for (size_t l = lights->first_around; l < lights->n; l++) {
+        const koksma__shading_light *light = &lights->lights[l];
+        _Alignas(64) koksma__lanes radiance[3], pdf;
+        if (!light->kind->radiance || !light->visible) {
+            continue;
+        }
+        if (light->kind->form == KOKSMA__BEAMS_AROUND) {
+            frame->batch->around(light->data, &v->paths->rays, v->hits.primitive, v->whole, radiance, pdf);
+        }
+        for (int i = 0; i < v->n; i++) {
+            if (v->hits.primitive[i] < 0) {
+                float w[3], value[3] = {radiance[0][i], radiance[1][i], radiance[2][i]}, density = pdf[i];
+                if (light->kind->form != KOKSMA__BEAMS_AROUND) {
+                    koksma__v3_to(direction_at(v->paths, i), w);
+                    light->kind->radiance(light, w, value);
+                    density = light->kind->pdf ? light->kind->pdf(light, w, w, 0, w) : 0;
+                }
+                add_scaled(v, i, value, met_weight(frame, v->paths, i, l, density));
+            }
         }
     }
 }
 
-static void add_emission(const koksma__frame *frame, const koksma__path *path, const koksma__hits *hits, int i,
-                         float *sum)
+static void add_emission(const koksma__frame *frame, koksma__vertices *v, int i)
 {
+    const koksma__hits *hits = &v->hits;
+    const koksma__rays *rays = &v->paths->rays;
     const size_t light = (size_t)frame->geometry.light(&frame->geometry, hits->primitive[i]);
+    const koksma__shading_light *l = &frame->lights.lights[light];
     if (!hits->back[i]) {
-        float w[3] = {path->d[0], path->d[1], path->d[2]};
-        const float n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
-        const float length = sqrtf(koksma__dot3(w, w));
-        koksma__unit3(w);
-        add_scaled(path->beta, frame->lights.lights[light].radiance,
-                   met_weight(frame, path, light, w, hits->t[i] * length, n), sum);
+        const float o[3] = {rays->ox[i], rays->oy[i], rays->oz[i]}, n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
+        const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]}, length = sqrtf(koksma__dot3(d, d));
+        float w[3];
+        koksma__v3_to(direction_at(v->paths, i), w);
+        const float pdf = l->kind->pdf ? l->kind->pdf(l, o, w, hits->t[i] * length, n) : 0;
+        add_scaled(v, i, l->radiance, met_weight(frame, v->paths, i, light, pdf));
     }
 }
 
-static void set_surface(const koksma__frame *frame, const koksma__path *path, const koksma__hits *h, int i,
-                        koksma__surface *s)
+/* Albedos of images. */
+static void add_textures(const koksma__frame *frame, koksma__vertices *v)
 {
-    const koksma__shading_material *material = &frame->shading_materials[h->material[i]];
-    const koksma__batch_material *m = &frame->materials[h->material[i]];
-    int which = 0;
-    if (m->checker) {
-        const float u = h->u[i], v = h->v[i];
-        const float half = 0.5f * (floorf(m->su * u + m->sv * v + m->s0) + floorf(m->tu * u + m->tv * v + m->t0));
-        which = half != floorf(half);
-    }
-    *s = (koksma__surface){.material = material,
-                           .p = {h->px[i], h->py[i], h->pz[i]},
-                           .n = {h->nx[i], h->ny[i], h->nz[i]},
-                           .out = {-path->d[0], -path->d[1], -path->d[2]},
-                           .inside = h->back[i] != 0,
-                           .primitive = h->primitive[i]};
-    koksma__unit3(s->out);
-    memcpy(s->albedo, material->albedo[which], sizeof s->albedo);
-    if (material->image) {
-        const size_t shape = (size_t)h->primitive[i];
-        const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
-        texture(material->image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
-                half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], !half, s->albedo);
+    const koksma__hits *h = &v->hits;
+    for (int i = 0; i < v->n; i++) {
+        const koksma_image *image = v->surfaces.form[i] < 0 ? NULL : frame->shading_materials[h->material[i]].image;
+        if (image) {
+            const size_t shape = (size_t)h->primitive[i];
+            const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
+            float albedo[3];
+            texture(image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
+                    half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], !half, albedo);
+            for (int k = 0; k < 3; k++) {
+                v->surfaces.albedo[k][i] = albedo[k];
+            }
+        }
     }
 }
 
 /* What the eye sees first, for the layers. */
-static void note_first(koksma__values *values, size_t sample, const koksma__path *path, const koksma__hits *h, int i,
-                       const koksma__surface *s)
+static void note_first(koksma__values *values, const koksma__vertices *v, int i)
 {
-    static const float none[3] = {0, 0, 0};
-    const float n[3] = {h->nx[i], h->ny[i], h->nz[i]};
+    const koksma__hits *h = &v->hits;
+    const koksma__rays *r = &v->paths->rays;
+    const size_t sample = v->paths->sample[i];
     const bool hit = h->primitive[i] >= 0;
-    memcpy(values->albedo + 3 * sample, s ? s->albedo : none, sizeof none);
-    memcpy(values->normal + 3 * sample, hit ? n : none, sizeof none);
-    values->depth[sample] = hit ? h->t[i] * sqrtf(koksma__dot3(path->d, path->d)) : 0;
+    const float n[3] = {h->nx[i], h->ny[i], h->nz[i]}, d[3] = {r->dx[i], r->dy[i], r->dz[i]};
+    for (int k = 0; k < 3; k++) {
+        values->albedo[3 * sample + (size_t)k] = v->surfaces.form[i] < 0 ? 0 : v->surfaces.albedo[k][i];
+        values->normal[3 * sample + (size_t)k] = hit ? n[k] : 0;
+    }
+    values->depth[sample] = hit ? h->t[i] * sqrtf(koksma__dot3(d, d)) : 0;
 }
 
 /* ---- Going on --------------------------------------------------------------------------------------------- */
 
-/* Paths that start on a diffuse surface (of a record of the irradiance cache) see no lights in mirrors. */
-static koksma_status go_on(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
-                           const koksma__scatter *chosen, float scale)
+/* Both directions of lane i, where its material has two that this integrator follows. */
+static koksma_status branch(const koksma__trace *trace, const koksma__vertices *v, int i)
 {
-    const float pdf = trace->first > 0 && !(chosen->pdf > 0) ? -1 : chosen->pdf;
-    koksma__path next = {.pdf = pdf, .time = path->time, .from = s->primitive, .sample = path->sample};
-    for (int k = 0; k < 3; k++) {
-        next.o[k] = s->p[k];
-        next.d[k] = chosen->w[k];
-        next.n[k] = s->n[k];
-        next.beta[k] = path->beta[k] * chosen->weight[k] * scale;
-    }
-    return koksma__max3(next.beta) > 0 ? koksma__wavefront_push(trace->next, &next) : KOKSMA_OK;
-}
-
-static koksma_status branch(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
-                            const koksma__scatter directions[2])
-{
+    const koksma__surface s = koksma__surface_at(&v->surfaces, i);
+    koksma__scatter directions[2];
+    s.material->bsdf->split(&s, &directions[0], &directions[1]);
     koksma_status status = KOKSMA_OK;
-    for (int i = 0; !status && i < 2; i++) {
-        if (koksma__max3(path->beta) * koksma__max3(directions[i].weight) > 0.001f) {
-            status = go_on(trace, path, s, &directions[i], 1);
+    for (int b = 0; !status && b < 2; b++) {
+        koksma__path next = {.time = v->paths->rays.time[i], .from = s.primitive, .sample = v->paths->sample[i]};
+        for (int k = 0; k < 3; k++) {
+            next.o[k] = s.p[k];
+            next.d[k] = directions[b].w[k];
+            next.n[k] = s.n[k];
+            next.beta[k] = v->paths->beta[k][i] * directions[b].weight[k];
+        }
+        if (koksma__max3(next.beta) > 0.001f) {
+            status = koksma__wavefront_push(trace->next, &next);
         }
     }
     return status;
 }
 
-static koksma_status scatter(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s)
+/* The pairs that the lanes' directions take: (u[0], u[1]), and u[2] for the choice of a lobe. */
+static koksma_status draw_directions(const koksma__trace *trace, const koksma__vertices *v, koksma__lanes u[3])
+{
+    const unsigned lobes = koksma__lobes_of(&v->surfaces) & trace->frame->flags->followed;
+    const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
+    const float *us;
+    memset(u, 0, 3 * sizeof *u);
+    if (lobes & ~(unsigned)KOKSMA__LOBE_SPECULAR) {
+        KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE, &us));
+        trace->frame->batch->pairs(us, v->paths->sample, v->whole, u[0], u[1]);
+    }
+    if (v->surfaces.traits & KOKSMA__TAKES_CHOICE) {
+        KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE_CHOICE, &us));
+        trace->frame->batch->pairs(us, v->paths->sample, v->whole, u[2], NULL);
+    }
+    return KOKSMA_OK;
+}
+
+/* Ends some of the paths at random, whose weights are below 1; the others get brighter. A path that has lost nothing
+   goes on: ending it would only add variance. */
+static koksma_status play_roulette(const koksma__trace *trace, const koksma__vertices *v, koksma__directions *to)
+{
+    const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
+    const float *ends;
+    _Alignas(64) koksma__lanes u;
+    KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_ROULETTE, &ends));
+    trace->frame->batch->pairs(ends, v->paths->sample, v->whole, u, NULL);
+    trace->frame->batch->roulette(u, v->whole, to);
+    return KOKSMA_OK;
+}
+
+static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
 {
     const koksma__integrator_flags *flags = trace->frame->flags;
-    const unsigned lobes = flags->followed & s->material->bsdf->lobes;
-    const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
-    const float *us, *choices, *ends;
-    koksma__scatter directions[2];
-    if (!lobes || trace->bounce >= trace->frame->depth) {
+    const koksma__batch_table *batch = trace->frame->batch;
+    koksma__queue *queue = trace->next;
+    koksma__directions to;
+    _Alignas(64) koksma__lanes u[3];
+    if (!(flags->followed & koksma__lobes_of(&v->surfaces)) || trace->bounce >= trace->frame->depth) {
         return KOKSMA_OK;
     }
-    if (flags->branches && s->material->bsdf->split) {
-        s->material->bsdf->split(s, &directions[0], &directions[1]);
-        return branch(trace, path, s, directions);
-    }
-    koksma_status status = koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE, &us);
-    status = status ? status : koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE_CHOICE, &choices);
-    if (status ||
-        !s->material->bsdf->sample(s, lobes, us + 2 * path->sample, choices[2 * path->sample], &directions[0])) {
-        return status;
-    }
-    float survival_probability = 1;
-    if (flags->roulette && trace->bounce >= 4) {
-        float beta[3];
-        for (int k = 0; k < 3; k++) {
-            beta[k] = path->beta[k] * directions[0].weight[k];
-        }
-        const float weight = koksma__max3(beta);
-        if (weight < 1) { /* a path that has lost nothing goes on: ending it would only add variance */
-            survival_probability = weight;
-            status = koksma__wavefront_draw(trace, base + KOKSMA__USE_ROULETTE, &ends);
-            if (status || !(ends[2 * path->sample] < survival_probability)) {
-                return status;
-            }
+    for (int i = 0; flags->branches && i < v->n; i++) {
+        if (v->surfaces.form[i] >= 0 && trace->frame->shading_materials[v->hits.material[i]].bsdf->split) {
+            KOKSMA__TRY(branch(trace, v, i));
+            v->surfaces.form[i] = KOKSMA__UNLIT;
         }
     }
-    return go_on(trace, path, s, &directions[0], 1 / survival_probability);
+    KOKSMA__TRY(draw_directions(trace, v, u));
+    batch->scatter(&v->surfaces, flags->followed, u, v->whole, &to);
+    if (batch->weigh(v->paths, v->whole, &to) && flags->roulette && trace->bounce >= 4) {
+        KOKSMA__TRY(play_roulette(trace, v, &to));
+    }
+    /* paths that start on a diffuse surface (of a record of the irradiance cache) see no lights in mirrors */
+    for (int i = 0; trace->first > 0 && i < v->n; i++) {
+        to.pdf[i] = to.pdf[i] > 0 ? to.pdf[i] : -1;
+    }
+    KOKSMA__TRY(koksma__wavefront_reserve(queue));
+    queue->n += (size_t)batch->close_up(v, &to, &queue->blocks[queue->n / KOKSMA__BLOCK], queue->n % KOKSMA__BLOCK);
+    return KOKSMA_OK;
 }
 
 /* ---- One block -------------------------------------------------------------------------------------------- */
 
-static koksma_status add_local(const koksma__frame *frame, const koksma__path *path, const koksma__surface *s,
-                               float *sum)
+/* Ambient light, and what the integrator knows of the light between diffuse surfaces. */
+static koksma_status add_local(const koksma__frame *frame, koksma__vertices *v)
 {
-    float light[3] = {0, 0, 0};
-    koksma_status status = KOKSMA_OK;
-    if (frame->flags->ambient) {
-        for (int k = 0; k < 3; k++) {
+    for (int i = 0; (frame->flags->ambient || frame->flags->indirect) && i < v->n; i++) {
+        float light[3] = {0, 0, 0};
+        if (v->surfaces.form[i] < 0) {
+            continue;
+        }
+        for (int k = 0; frame->flags->ambient && k < 3; k++) {
             light[k] = (float)frame->scene->ambient[k];
         }
+        if (frame->flags->indirect) {
+            const koksma__surface s = koksma__surface_at(&v->surfaces, i);
+            if (s.material->bsdf->lobes & KOKSMA__LOBE_DIFFUSE) {
+                KOKSMA__TRY(frame->flags->indirect(frame, &s, v->paths->rays.time[i], light));
+            }
+        }
+        for (int k = 0; k < 3; k++) {
+            light[k] *= v->surfaces.albedo[k][i];
+        }
+        add_scaled(v, i, light, 1);
     }
-    if (frame->flags->indirect && s->material->bsdf->lobes & KOKSMA__LOBE_DIFFUSE) {
-        status = frame->flags->indirect(frame, s, path->time, light);
-    }
-    for (int k = 0; k < 3; k++) {
-        light[k] *= s->albedo[k];
-    }
-    add_scaled(path->beta, light, 1, sum);
-    return status;
+    return KOKSMA_OK;
 }
 
-static koksma_status trace_block(const koksma__trace *trace, const koksma__path *paths, int n, koksma__values *values)
+/* Copies of the last path, up to whole lanes. */
+static void fill_lanes(koksma__paths *p, int n, int whole)
+{
+    for (int i = n; i < whole; i++) {
+        p->rays.ox[i] = p->rays.ox[n - 1];
+        p->rays.oy[i] = p->rays.oy[n - 1];
+        p->rays.oz[i] = p->rays.oz[n - 1];
+        p->rays.dx[i] = p->rays.dx[n - 1];
+        p->rays.dy[i] = p->rays.dy[n - 1];
+        p->rays.dz[i] = p->rays.dz[n - 1];
+        p->rays.time[i] = p->rays.time[n - 1];
+        for (int k = 0; k < 3; k++) {
+            p->beta[k][i] = p->beta[k][n - 1];
+        }
+        p->from[i] = p->from[n - 1];
+        p->sample[i] = p->sample[n - 1];
+    }
+}
+
+static koksma_status trace_block(const koksma__trace *trace, koksma__paths *paths, int n, koksma__values *values)
 {
     const koksma__frame *frame = trace->frame;
-    const int whole = (int)koksma__whole_lanes((size_t)n);
-    koksma__rays rays;
-    koksma__hits hits;
-    koksma__vertices v = {.paths = paths, .hits = &hits, .n = n, .whole = whole};
-    KOKSMA__LANES(int32_t, from);
-    gather(paths, n, whole, &rays, from);
-    frame->geometry.closest(&frame->geometry, &rays, paths->from >= 0 || trace->bounce ? from : NULL, whole, &hits);
-    memcpy(hits.time, rays.time, sizeof hits.time);
+    koksma__vertices *v = trace->scratch->vertices;
+    koksma__hits *hits = &v->hits;
+    v->paths = paths;
+    v->n = n;
+    v->whole = (int)koksma__whole_lanes((size_t)n);
+    v->moves = frame->scene->moves;
+    v->chooses = frame->light_selection != KOKSMA_LIGHTS_ALL;
+    v->surfaces.hits = hits;
+    v->surfaces.materials = frame->shading_materials;
+    v->surfaces.table = &frame->lane_materials;
+    fill_lanes(paths, n, v->whole);
+    frame->geometry.closest(&frame->geometry, &paths->rays, trace->bounce ? paths->from : NULL, v->whole, hits);
+    if (frame->scene->moves) {
+        memcpy(hits->time, paths->rays.time, sizeof hits->time);
+    }
     values->rays += (uint64_t)n;
+    frame->batch->surfaces(&paths->rays, n, v->whole, &v->surfaces);
+    frame->batch->background(frame->background, v);
+    if (v->surfaces.traits & KOKSMA__HAS_IMAGE) {
+        add_textures(frame, v);
+    }
+    add_misses(frame, v);
     for (int i = 0; i < n; i++) {
-        const koksma__path *path = &paths[i];
-        float *sum = trace->scratch->sums + 3 * path->sample;
-        v.lit[i] = hits.primitive[i] >= 0 && hits.material[i] >= 0;
-        if (v.lit[i]) {
-            set_surface(frame, path, &hits, i, &v.surfaces[i]);
-            KOKSMA__TRY(add_local(frame, path, &v.surfaces[i], sum));
-        } else if (hits.primitive[i] >= 0) {
-            add_emission(frame, path, &hits, i, sum);
-        } else {
-            add_miss(frame, path, sum);
-        }
-        if (values->albedo && trace->bounce == trace->first) {
-            note_first(values, path->sample, path, &hits, i, v.lit[i] ? &v.surfaces[i] : NULL);
+        if ((v->surfaces.form[i] < 0) & (hits->primitive[i] >= 0)) {
+            add_emission(frame, v, i);
         }
     }
-    koksma_status status = koksma__wavefront_light(trace, &v, values);
-    for (int i = 0; !status && i < n; i++) {
-        if (v.lit[i]) {
-            status = scatter(trace, &paths[i], &v.surfaces[i]);
-        }
+    for (int i = 0; values->albedo && trace->bounce == trace->first && i < n; i++) {
+        note_first(values, v, i);
     }
-    return status;
+    KOKSMA__TRY(add_local(frame, v));
+    KOKSMA__TRY(koksma__wavefront_light(trace, v, values));
+    KOKSMA__TRY(scatter(trace, v));
+    for (int i = 0; i < n; i++) {
+        float *sum = trace->scratch->sums + 3 * (size_t)paths->sample[i];
+        sum[0] += v->light[0][i];
+        sum[1] += v->light[1][i];
+        sum[2] += v->light[2][i];
+    }
+    return KOKSMA_OK;
 }
 
 /* ---- One group -------------------------------------------------------------------------------------------- */
@@ -369,6 +443,15 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
     }
 }
 
+/* Which pixels of the group have a path left. */
+static void mark_alive(const koksma__group *group, koksma__wavefront_scratch *scratch, const koksma__queue *queue)
+{
+    memset(scratch->is_alive, group->count == 1, sizeof scratch->is_alive);
+    for (size_t i = 0; group->count > 1 && i < queue->n; i++) {
+        scratch->is_alive[scratch->pixel_of[queue->blocks[i / KOKSMA__BLOCK].sample[i % KOKSMA__BLOCK]]] = true;
+    }
+}
+
 koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *values)
 {
     koksma__wavefront_scratch *scratch = trace->scratch;
@@ -378,10 +461,11 @@ koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *val
         const koksma__queue *queue = &scratch->queues[now];
         trace->next = &scratch->queues[1 - now];
         trace->next->n = 0;
+        mark_alive(trace->group, scratch, queue);
         for (size_t start = 0; !status && start < queue->n; start += KOKSMA__BLOCK) {
             const size_t left = queue->n - start;
             const int n = left < KOKSMA__BLOCK ? (int)left : KOKSMA__BLOCK;
-            status = trace_block(trace, queue->paths + start, n, values);
+            status = trace_block(trace, &queue->blocks[start / KOKSMA__BLOCK], n, values);
         }
         trace->bounce++;
     }
@@ -408,6 +492,10 @@ static koksma_status trace_group(const koksma__frame *frame, void *opened, const
         scratch->drawn[i].done = false;
     }
     memset(scratch->sums, 0, 3 * n * sizeof *scratch->sums);
+    for (size_t p = 0; group->count > 1 && p < group->count; p++) {
+        memset(scratch->pixel_of + group->start[p], (int)p, group->start[p + 1] - group->start[p]);
+    }
+    memset(scratch->is_alive, true, sizeof scratch->is_alive); /* the lens and time of all */
     for (size_t first = 0; !status && first < n; first += TOGETHER) {
         status = trace_samples(&trace, first, n - first < TOGETHER ? n : first + TOGETHER, values);
     }
@@ -425,6 +513,7 @@ const koksma__pipeline koksma__pipeline_wavefront = {
     .name = "wavefront",
     .title = "every scene and option: blocks of paths, one vertex at a time",
     .takes = takes,
+    .together = TOGETHER,
     .open = koksma__wavefront_open,
     .close = koksma__wavefront_close,
     .trace = trace_group};

@@ -4,6 +4,7 @@
 #define KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
 
 #include "render/frame.h"
+#include "render/pipelines/vertices.h"
 
 /* Pairs that a task may keep of all uses: 1 GiB. */
 #define KOKSMA__MAX_DRAWN ((size_t)1 << 27)
@@ -19,11 +20,11 @@ typedef struct koksma__path {
 } koksma__path;
 
 typedef struct koksma__queue {
-    koksma__path *paths;
-    size_t n, capacity;
+    koksma__paths *blocks;
+    size_t n, capacity; /* paths; capacity in whole blocks */
 } koksma__queue;
 
-/* The pairs of a use, drawn for all samples of the group when the first of them needs it. */
+/* The pairs of a use. */
 typedef struct koksma__drawn {
     uint32_t use;
     bool done;
@@ -35,7 +36,11 @@ typedef struct koksma__wavefront_scratch {
     koksma__drawn *drawn;
     size_t n_drawn, capacity;
     koksma__queue queues[2];
-    float *sums; /* 3 a sample */
+    float *sums;                         /* 3 a sample */
+    uint8_t *pixel_of;                   /* of a sample: which of the group */
+    bool is_alive[KOKSMA__GROUP_PIXELS]; /* pixels of the group with a path at this bounce */
+    koksma__vertices *vertices;
+    float (*estimates)[KOKSMA__BLOCK]; /* of each light, for choosing one */
 } koksma__wavefront_scratch;
 
 /* One group at one bounce. */
@@ -47,29 +52,24 @@ typedef struct koksma__trace {
     int bounce, first; /* the bounce at which paths started: 0 at the eye */
 } koksma__trace;
 
-/* A block of vertices; those that are lit have a surface. */
-typedef struct koksma__vertices {
-    const koksma__path *paths;
-    const koksma__hits *hits;
-    koksma__surface surfaces[KOKSMA__BLOCK];
-    bool lit[KOKSMA__BLOCK];
-    int n, whole;
-} koksma__vertices;
-
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out);
 void koksma__wavefront_close(void *opened);
 
 koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path);
 
-/* The pairs of a use: pair i is sample i's. Errors: the sampler's, ARGUMENT (too many), MEMORY. */
+/* Makes room for a block of paths more. Errors: MEMORY. */
+koksma_status koksma__wavefront_reserve(koksma__queue *queue);
+
+/* The pairs of a use: pair i is sample i's. They are drawn when a path first needs the use, in the pixels that have a
+   path at this bounce. Errors: the sampler's, ARGUMENT (too many), MEMORY. */
 koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, const float **pairs);
 
 /* Follows the paths that are in the first queue, at trace->bounce, to their ends; their light is added to the sums of
    their samples. */
 koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *values);
 
-/* Adds what the lights give at the vertices to the sums of their samples. */
-koksma_status koksma__wavefront_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values);
+/* Adds what the lights give at the vertices to their light. */
+koksma_status koksma__wavefront_light(const koksma__trace *trace, koksma__vertices *v, koksma__values *values);
 
 /* The probability that light `light` is among those that a vertex at p with normal n samples. */
 float koksma__light_probability(const koksma__frame *frame, const float p[3], const float n[3], int light);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a task of the wavefront tracer owns: two queues of paths, sums of light, and the samples that it has drawn.
- * The samples of a use are drawn for a whole group when the first path needs them, and then kept for the group: which
- * uses a picture needs depends on what its rays meet.
+ * What a task of the wavefront tracer owns: two queues of paths in blocks of lanes, sums of light, and the samples that
+ * it has drawn. The samples of a use are drawn when the first path needs them, for the pixels of the group that have a
+ * path left, and kept for the bounce: which uses a picture needs depends on what its rays meet.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/capacity.h"
 #include "core/status.h"
@@ -20,7 +21,8 @@ void koksma__wavefront_close(void *opened)
         free(scratch->drawn[i].pairs);
     }
     koksma__sample_scratch_fini(&scratch->draw);
-    KOKSMA__FREE(scratch->drawn, scratch->queues[0].paths, scratch->queues[1].paths, scratch->sums, scratch);
+    KOKSMA__FREE(scratch->drawn, scratch->queues[0].blocks, scratch->queues[1].blocks, scratch->sums,
+                 scratch->pixel_of, scratch->vertices, scratch->estimates, scratch);
 }
 
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out)
@@ -30,41 +32,97 @@ koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity
     KOKSMA__REQUIRE_MEMORY(scratch, sizeof *scratch);
     scratch->capacity = capacity;
     scratch->sums = malloc(3 * capacity * sizeof *scratch->sums);
+    scratch->pixel_of = calloc(capacity, sizeof *scratch->pixel_of);
+    scratch->vertices = aligned_alloc(64, sizeof *scratch->vertices);
+    scratch->estimates = aligned_alloc(64, (frame->lights.n + 1) * sizeof *scratch->estimates);
     koksma_status status = koksma__sample_scratch_init(&scratch->draw, &frame->sampler);
-    if (!status && !scratch->sums) {
+    if (!status && (!scratch->sums || !scratch->pixel_of || !scratch->vertices || !scratch->estimates)) {
         status = koksma__fail_memory(3 * capacity * sizeof *scratch->sums);
     }
     if (status) {
         koksma__wavefront_close(scratch);
         *out = NULL;
+    } else {
+        memset(scratch->vertices, 0, sizeof *scratch->vertices);
+        memset(scratch->is_alive, true, sizeof scratch->is_alive);
     }
     return status;
 }
 
-koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path)
+koksma_status koksma__wavefront_reserve(koksma__queue *queue)
 {
-    koksma__path *paths =
-        koksma__room_for_one(queue->paths, queue->n, &queue->capacity, 4 * KOKSMA__BLOCK, sizeof *paths);
-    KOKSMA__TRY(paths ? KOKSMA_OK : KOKSMA_MEMORY);
-    queue->paths = paths;
-    queue->paths[queue->n++] = *path;
+    if (queue->n + KOKSMA__BLOCK > queue->capacity) { /* realloc does not keep the alignment */
+        const size_t blocks = 2 * queue->capacity / KOKSMA__BLOCK + 4, filled = queue->capacity / KOKSMA__BLOCK;
+        koksma__paths *larger = aligned_alloc(64, blocks * sizeof *larger);
+        KOKSMA__REQUIRE_MEMORY(larger, blocks * sizeof *larger);
+        if (filled) {
+            memcpy(larger, queue->blocks, filled * sizeof *larger);
+        }
+        free(queue->blocks);
+        queue->blocks = larger;
+        queue->capacity = blocks * KOKSMA__BLOCK;
+    }
     return KOKSMA_OK;
 }
+
+koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path)
+{
+    KOKSMA__TRY(koksma__wavefront_reserve(queue));
+    koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
+    const size_t i = queue->n++ % KOKSMA__BLOCK;
+    to->rays.ox[i] = path->o[0];
+    to->rays.oy[i] = path->o[1];
+    to->rays.oz[i] = path->o[2];
+    to->rays.dx[i] = path->d[0];
+    to->rays.dy[i] = path->d[1];
+    to->rays.dz[i] = path->d[2];
+    to->rays.time[i] = path->time;
+    for (int k = 0; k < 3; k++) {
+        to->beta[k][i] = path->beta[k];
+        to->n[k][i] = path->n[k];
+    }
+    to->pdf[i] = path->pdf;
+    to->from[i] = path->from;
+    to->sample[i] = path->sample;
+    return KOKSMA_OK;
+}
+
+/* ---- Samples -------------------------------------------------------------------------------------------------- */
 
 static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, koksma__drawn **out)
 {
     KOKSMA__FAIL_IF(scratch->n_drawn * scratch->capacity > KOKSMA__MAX_DRAWN, KOKSMA_ARGUMENT,
                     "more than %zu samples of this many uses: fewer samples a pixel would do", scratch->capacity);
+    const size_t n = 2 * (scratch->capacity + KOKSMA__LANE_STEP); /* pixels are drawn up to whole lanes */
     koksma__drawn *list = realloc(scratch->drawn, (scratch->n_drawn + 1) * sizeof *list);
-    float *pairs = malloc(2 * scratch->capacity * sizeof *pairs);
+    float *pairs = malloc(n * sizeof *pairs);
     scratch->drawn = list ? list : scratch->drawn;
     if (!list || !pairs) {
         free(pairs);
-        return koksma__fail_memory(2 * scratch->capacity * sizeof *pairs);
+        return koksma__fail_memory(n * sizeof *pairs);
     }
     *out = &list[scratch->n_drawn++];
     **out = (koksma__drawn){.use = use, .pairs = pairs};
     return KOKSMA_OK;
+}
+
+/* Runs of pixels that have paths, from the first to the last: copies that fill the lanes of one run lie where the next
+   will be drawn, or where nothing is. */
+static koksma_status draw_alive(const koksma__trace *trace, uint32_t use, float *pairs)
+{
+    koksma__wavefront_scratch *scratch = trace->scratch;
+    const koksma__group *group = trace->group;
+    koksma_status status = KOKSMA_OK;
+    for (size_t p = 0, end = 0; !status && p < group->count; p = end + 1) {
+        koksma__group run = {.first = group->first + p};
+        for (end = p; end < group->count && scratch->is_alive[end]; end++) {
+            run.start[++run.count] = group->start[end + 1] - group->start[p];
+        }
+        if (run.count) {
+            status = koksma__group_draw(trace->frame, &run, use, false, &scratch->draw, pairs + 2 * group->start[p]);
+        }
+    }
+    return status;
 }
 
 koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, const float **pairs)
@@ -76,8 +134,8 @@ koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, c
     }
     koksma_status status = drawn ? KOKSMA_OK : new_use(scratch, use, &drawn);
     if (!status && !drawn->done) {
-        status = koksma__group_draw(trace->frame, trace->group, use, false, &scratch->draw, drawn->pairs);
-        drawn->done = true;
+        status = draw_alive(trace, use, drawn->pairs);
+        drawn->done = !status;
     }
     *pairs = status ? NULL : drawn->pairs;
     return status;

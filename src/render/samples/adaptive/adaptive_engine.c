@@ -153,7 +153,7 @@ static koksma_status render_round(job *j, const koksma_run *how)
         most = n > most ? n : most; /* a continued sequence is drawn from its start */
     }
     j->frame.sampler.most = most;
-    j->capacity = koksma__whole_lanes(most < KOKSMA__BLOCK ? KOKSMA__BLOCK : most);
+    j->capacity = koksma__group_capacity(&j->frame, most);
     return koksma__parallel(how, (run->pixels + PIXELS_A_TASK - 1) / PIXELS_A_TASK, render_task, j);
 }
 

@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Samples of lights for blocks of points, and what rays see of an environment. Each form of light has one loop, for a
+ * light that all lanes share, or for lanes with lights of their own; kinds without a form are sampled point by point.
+ * Texels of an environment are looked up between loops over lanes, so that a block's misses of the cache overlap.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "render/lights/light_environment.h"
+#include "render/lights/surface_lights.h"
+#include "render/pipelines/batch_kernel.h"
+#include "render/pipelines/vertices.h"
+
+/* What the loops read of a light. */
+typedef struct emitter {
+    koksma__v3 centre, u, v, normal, radiance;
+    float area, radius;
+} emitter;
+
+/* The lights of all lanes. */
+typedef struct emitters {
+    _Alignas(64) koksma__lanes centre[3];
+    _Alignas(64) koksma__lanes u[3];
+    _Alignas(64) koksma__lanes v[3];
+    _Alignas(64) koksma__lanes normal[3];
+    _Alignas(64) koksma__lanes radiance[3];
+    _Alignas(64) koksma__lanes area;
+    _Alignas(64) koksma__lanes radius;
+    KOKSMA__LANES(int32_t, form);
+} emitters;
+
+static emitter emitter_of(const koksma__shading_light *l)
+{
+    return (emitter){.centre = koksma__v3_of(l->centre),
+                     .u = koksma__v3_scale(koksma__v3_of(l->axis_u), l->half[0]),
+                     .v = koksma__v3_scale(koksma__v3_of(l->axis_v),
+                                           l->kind->form == KOKSMA__BEAMS_DISK ? l->half[0] : l->half[1]),
+                     .normal = koksma__v3_of(l->normal),
+                     .radiance = koksma__v3_of(l->radiance),
+                     .area = l->area,
+                     .radius = l->half[0]};
+}
+
+static void put(koksma__v3 v, int i, koksma__lanes *to)
+{
+    to[0][i] = v.x;
+    to[1][i] = v.y;
+    to[2][i] = v.z;
+}
+
+#define AT(a, i) ((koksma__v3){(a)[0][i], (a)[1][i], (a)[2][i]})
+
+/* The emitter of lane i: one for all, if there is one. */
+INLINE emitter pick(const emitter *one, const emitters *restrict each, int i)
+{
+    return one ? *one : (emitter){AT(each->centre, i),   AT(each->u, i), AT(each->v, i), AT(each->normal, i),
+                                  AT(each->radiance, i), each->area[i],  each->radius[i]};
+}
+
+INLINE void set_beam(koksma__beams *restrict out, int i, int mine, koksma__v3 d, koksma__v3 w, koksma__v3 value,
+                     float pdf, int lit)
+{
+    out->d[0][i] = mine ? d.x : out->d[0][i];
+    out->d[1][i] = mine ? d.y : out->d[1][i];
+    out->d[2][i] = mine ? d.z : out->d[2][i];
+    out->w[0][i] = mine ? w.x : out->w[0][i];
+    out->w[1][i] = mine ? w.y : out->w[1][i];
+    out->w[2][i] = mine ? w.z : out->w[2][i];
+    out->value[0][i] = mine ? value.x : out->value[0][i];
+    out->value[1][i] = mine ? value.y : out->value[1][i];
+    out->value[2][i] = mine ? value.z : out->value[2][i];
+    out->pdf[i] = mine ? pdf : out->pdf[i];
+    out->lit[i] = mine ? lit : out->lit[i];
+}
+
+#define MINE(form_, i) (one ? l->light[i] >= 0 : each->form[i] == (form_))
+#define POSITION(h, i) ((koksma__v3){(h)->px[i], (h)->py[i], (h)->pz[i]})
+
+INLINE void flat_beams(const emitter *one, const emitters *restrict each, const koksma__light_lanes *restrict l,
+                       const koksma__hits *restrict h, const koksma__lanes *restrict u, bool disk, int n,
+                       koksma__beams *restrict out)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const emitter e = pick(one, each, i);
+        float x = 2 * u[0][i] - 1, y = 2 * u[1][i] - 1;
+        if (disk) {
+            koksma__concentric(u[0][i], u[1][i], &x, &y);
+        }
+        const koksma__v3 on =
+            koksma__v3_add(e.centre, koksma__v3_add(koksma__v3_scale(e.u, x), koksma__v3_scale(e.v, y)));
+        const koksma__v3 d = koksma__v3_subtract(on, POSITION(h, i));
+        koksma__v3 w;
+        const float pdf = koksma__flat_beam(d, e.normal, e.area, &w);
+        set_beam(out, i, MINE(disk ? KOKSMA__BEAMS_DISK : KOKSMA__BEAMS_RECTANGLE, i), d, w,
+                 koksma__v3_scale(e.radiance, 1 / pdf), pdf, pdf > 0);
+    }
+}
+
+INLINE void cone_beams(const emitter *one, const emitters *restrict each, const koksma__light_lanes *restrict l,
+                       const koksma__hits *restrict h, const koksma__lanes *restrict u, int n,
+                       koksma__beams *restrict out)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const emitter e = pick(one, each, i);
+        koksma__v3 d, w;
+        const float pdf =
+            koksma__cone_beam(koksma__v3_subtract(e.centre, POSITION(h, i)), e.radius, u[0][i], u[1][i], &d, &w);
+        set_beam(out, i, MINE(KOKSMA__BEAMS_CONE, i), d, w, koksma__v3_scale(e.radiance, 1 / pdf), pdf, pdf > 0);
+    }
+}
+
+INLINE void parallel_beams(const emitter *one, const emitters *restrict each, const koksma__light_lanes *restrict l,
+                           int n, koksma__beams *restrict out)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const emitter e = pick(one, each, i);
+        const koksma__v3 w = koksma__v3_scale(e.normal, -1);
+        set_beam(out, i, MINE(KOKSMA__BEAMS_PARALLEL, i), koksma__v3_scale(w, KOKSMA__AWAY), w, e.radiance, 0, 1);
+    }
+}
+
+/* ---- Environments --------------------------------------------------------------------------------------------- */
+
+/* Radiance and density along w. */
+static void look_around(const koksma__environment *e, const koksma__lanes *restrict w, int n,
+                        koksma__lanes *restrict radiance, float *restrict pdf)
+{
+    KOKSMA__LANES(int32_t, rows);
+    KOKSMA__LANES(int32_t, columns);
+    _Alignas(64) koksma__lanes sines;
+    if (!e->texels) {
+        LANES_APART
+        for (int i = 0; i < STEP(n); i++) {
+            radiance[0][i] = e->radiance[0];
+            radiance[1][i] = e->radiance[1];
+            radiance[2][i] = e->radiance[2];
+            pdf[i] = 0.25f / KOKSMA__PI_F;
+        }
+        return;
+    }
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const koksma__texel t = koksma__environment_texel(e, AT(w, i));
+        rows[i] = t.row;
+        columns[i] = t.column;
+        sines[i] = t.sine;
+    }
+    for (int i = 0; i < n; i++) {
+        const koksma__texel t = {rows[i], columns[i], sines[i]};
+        put(koksma__environment_texel_radiance(e, t), i, radiance);
+        pdf[i] = koksma__environment_texel_pdf(e, t);
+    }
+}
+
+/* Cumulative tables, one a lane, with their coarse numbers. */
+typedef struct tables {
+    const float *cdf[KOKSMA__BLOCK], *coarse[KOKSMA__BLOCK];
+} tables;
+
+/* The cells of n tables of this many cells that hold u, and where in them: binary searches of the coarse numbers in
+   step, whose misses of the cache overlap, and then how many of the 15 numbers after are not above u. */
+static void find(const tables *t, int32_t cells, const float *u, int n, int32_t *found, float *within)
+{
+    KOKSMA__LANES(int32_t, high);
+    const int32_t steps = (cells + KOKSMA__ENVIRONMENT_STEP - 1) / KOKSMA__ENVIRONMENT_STEP;
+    for (int i = 0; i < n; i++) {
+        found[i] = 0;
+        high[i] = steps;
+    }
+    for (int32_t left = steps; left > 1; left -= left / 2) {
+        for (int i = 0; i < n; i++) {
+            const int32_t middle = (found[i] + high[i]) / 2;
+            const bool above = t->coarse[i][middle] <= u[i];
+            found[i] = above ? middle : found[i];
+            high[i] = above ? high[i] : middle;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        const float *step = t->cdf[i] + (size_t)found[i] * KOKSMA__ENVIRONMENT_STEP, at = u[i];
+        int32_t passed = 0;
+        for (int k = 1; k < KOKSMA__ENVIRONMENT_STEP; k++) {
+            passed += step[k] <= at;
+        }
+        found[i] = found[i] * KOKSMA__ENVIRONMENT_STEP + passed;
+        const float size = step[passed + 1] - step[passed], part = size > 0 ? (at - step[passed]) / size : 0.5f;
+        within[i] = part < 1 ? part : 1 - 0x1p-24f;
+    }
+}
+
+/* Positions in the image by importance; lanes that sample all directions alike have any. */
+static void place(const koksma__environment *e, const koksma__lanes *restrict u, int n, float *restrict x,
+                  float *restrict y)
+{
+    tables t = {0};
+    KOKSMA__LANES(int32_t, rows);
+    KOKSMA__LANES(int32_t, columns);
+    _Alignas(64) koksma__lanes part = {0}, in_row, in_column;
+    for (int i = 0; i < n; i++) {
+        const float v = (u[1][i] - KOKSMA__ENVIRONMENT_FLOOR) / (1 - KOKSMA__ENVIRONMENT_FLOOR);
+        part[i] = v > 0 ? v : 0;
+        t.cdf[i] = e->row_cdf;
+        t.coarse[i] = e->row_coarse;
+    }
+    find(&t, e->height, part, n, rows, in_row);
+    for (int i = 0; i < n; i++) {
+        t.cdf[i] = e->column_cdf + (size_t)rows[i] * e->stride;
+        t.coarse[i] = e->column_coarse + (size_t)rows[i] * e->stride / KOKSMA__ENVIRONMENT_STEP;
+    }
+    find(&t, e->width, u[0], n, columns, in_column);
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        x[i] = ((float)columns[i] + in_column[i]) / (float)e->width;
+        y[i] = ((float)rows[i] + in_row[i]) / (float)e->height;
+    }
+}
+
+static void around_beams(const koksma__environment *e, const emitters *each, const koksma__light_lanes *restrict l,
+                         const koksma__lanes *restrict u, int n, koksma__beams *restrict out)
+{
+    _Alignas(64) koksma__lanes x, y, w[3], radiance[3], pdf;
+    if (e->texels) {
+        place(e, u, n, x, y);
+    }
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int alike = !e->texels | (u[1][i] < KOKSMA__ENVIRONMENT_FLOOR);
+        const float height = e->texels ? u[1][i] * (1 / KOKSMA__ENVIRONMENT_FLOOR) : u[1][i], up = 1 - 2 * height;
+        const float rest = 1 - up * up, polar = 2 * koksma__arc_turns(sqrtf(rest > 0 ? rest : 0), up);
+        float sine;
+        const koksma__v3 direction =
+            koksma__environment_direction(e, alike ? u[0][i] : x[i], alike ? polar : y[i], &sine);
+        w[0][i] = direction.x;
+        w[1][i] = direction.y;
+        w[2][i] = direction.z;
+    }
+    look_around(e, w, n, radiance, pdf);
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int mine = each ? each->form[i] == KOKSMA__BEAMS_AROUND : l->light[i] >= 0;
+        const koksma__v3 direction = AT(w, i), value = koksma__v3_scale(AT(radiance, i), 1 / pdf[i]);
+        set_beam(out, i, mine, koksma__v3_scale(direction, KOKSMA__AWAY), direction, value, pdf[i],
+                 (value.x > 0) | (value.y > 0) | (value.z > 0));
+    }
+}
+
+void BATCH_NAME(around)(const struct koksma__environment *e, const koksma__rays *rays, const int32_t *hit, int n,
+                        float (*radiance)[KOKSMA__BLOCK], float *pdf)
+{
+    _Alignas(64) koksma__lanes w[3];
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const koksma__v3 d = koksma__v3_unit((koksma__v3){rays->dx[i], rays->dy[i], rays->dz[i]});
+        const int missed = hit[i] < 0; /* the others look up, all at one texel */
+        w[0][i] = missed ? d.x : 0;
+        w[1][i] = missed ? d.y : 1;
+        w[2][i] = missed ? d.z : 0;
+    }
+    look_around(e, w, n, radiance, pdf);
+}
+
+/* ---- All kinds -------------------------------------------------------------------------------------------------- */
+
+static void ray_beams(const koksma__light_lanes *l, const koksma__hits *h, const koksma__lanes *u, int n,
+                      koksma__beams *out)
+{
+    for (int i = 0; i < n; i++) {
+        const koksma__shading_light *light = l->light[i] < 0 ? NULL : &l->lights[l->light[i]];
+        if (light && (l->centres || light->kind->form == KOKSMA__BEAMS_RAYS)) {
+            const float p[3] = {h->px[i], h->py[i], h->pz[i]}, pair[2] = {u[0][i], u[1][i]};
+            koksma__beam beam;
+            out->lit[i] = l->centres ? light->kind->centre && light->kind->centre(light, p, &beam)
+                                     : light->kind->sample(light, p, pair, &beam);
+            if (out->lit[i]) {
+                put(koksma__v3_of(beam.d), i, out->d);
+                put(koksma__v3_of(beam.w), i, out->w);
+                put(koksma__v3_of(beam.value), i, out->value);
+                out->pdf[i] = beam.pdf;
+            }
+        }
+    }
+}
+
+static void shared_beams(const koksma__shading_light *light, const koksma__light_lanes *l, const koksma__hits *h,
+                         const koksma__lanes *u, int n, koksma__beams *out)
+{
+    const emitter one = emitter_of(light);
+    switch (light->kind->form) {
+    case KOKSMA__BEAMS_RECTANGLE:
+        flat_beams(&one, NULL, l, h, u, false, n, out);
+        break;
+    case KOKSMA__BEAMS_DISK:
+        flat_beams(&one, NULL, l, h, u, true, n, out);
+        break;
+    case KOKSMA__BEAMS_CONE:
+        cone_beams(&one, NULL, l, h, u, n, out);
+        break;
+    case KOKSMA__BEAMS_PARALLEL:
+        parallel_beams(&one, NULL, l, n, out);
+        break;
+    case KOKSMA__BEAMS_AROUND:
+        around_beams(light->data, NULL, l, u, n, out);
+        break;
+    default:
+        ray_beams(l, h, u, n, out);
+    }
+}
+
+static void own_beams(const koksma__light_lanes *l, const koksma__hits *h, const koksma__lanes *u, int n,
+                      koksma__beams *out)
+{
+    emitters each;
+    unsigned forms = 0;
+    const koksma__environment *around = NULL;
+    for (int i = 0; i < n; i++) {
+        const koksma__shading_light *light = &l->lights[l->light[i] < 0 ? 0 : l->light[i]];
+        const emitter e = emitter_of(light);
+        put(e.centre, i, each.centre);
+        put(e.u, i, each.u);
+        put(e.v, i, each.v);
+        put(e.normal, i, each.normal);
+        put(e.radiance, i, each.radiance);
+        each.area[i] = e.area;
+        each.radius[i] = e.radius;
+        each.form[i] = l->light[i] < 0 ? -1 : (int32_t)light->kind->form;
+        forms |= l->light[i] < 0 ? 0 : 1u << light->kind->form;
+        around = each.form[i] == KOKSMA__BEAMS_AROUND ? light->data : around;
+    }
+    if (forms & 1u << KOKSMA__BEAMS_RECTANGLE) {
+        flat_beams(NULL, &each, l, h, u, false, n, out);
+    }
+    if (forms & 1u << KOKSMA__BEAMS_DISK) {
+        flat_beams(NULL, &each, l, h, u, true, n, out);
+    }
+    if (forms & 1u << KOKSMA__BEAMS_CONE) {
+        cone_beams(NULL, &each, l, h, u, n, out);
+    }
+    if (forms & 1u << KOKSMA__BEAMS_PARALLEL) {
+        parallel_beams(NULL, &each, l, n, out);
+    }
+    if (around) {
+        around_beams(around, &each, l, u, n, out);
+    }
+    if (forms & 1u << KOKSMA__BEAMS_RAYS) {
+        ray_beams(l, h, u, n, out);
+    }
+}
+
+void BATCH_NAME(beams)(const struct koksma__light_lanes *l, const koksma__hits *hits, const float (*u)[KOKSMA__BLOCK],
+                       int n, struct koksma__beams *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < n; i++) {
+        out->visible[i] = l->light[i] >= 0 && l->lights[l->light[i]].visible;
+    }
+    if (l->centres) {
+        ray_beams(l, hits, u, n, out);
+    } else if (l->same >= 0) {
+        shared_beams(&l->lights[l->same], l, hits, u, n, out);
+    } else {
+        own_beams(l, hits, u, n, out);
+    }
+}

@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Materials on blocks of surfaces: value and density of given directions, and sampling. Each form of material has one
+ * loop over the lanes, which keeps what it computes in the lanes of its form; a block that has no lane of a form skips
+ * its loop. Materials without a form are asked ray by ray.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "render/materials/facets.h"
+#include "render/materials/lobes.h"
+#include "render/pipelines/batch_kernel.h"
+#include "render/pipelines/vertices.h"
+
+/* ---- Surfaces ----------------------------------------------------------------------------------------------- */
+
+/* Which of a checker's albedos the lanes have: 1 in every other square. */
+static void find_squares(const koksma__lane_materials *t, const koksma__hits *restrict h, const int32_t *restrict at,
+                         int n, int32_t *restrict odd)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int32_t m = at[i];
+        const float u = t->u[0][m] * h->u[i] + t->u[1][m] * h->v[i] + t->u[2][m];
+        const float v = t->v[0][m] * h->u[i] + t->v[1][m] * h->v[i] + t->v[2][m];
+        const float half = 0.5f * (floorf(u) + floorf(v));
+        odd[i] = half != floorf(half);
+    }
+}
+
+void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, struct koksma__surfaces *restrict s)
+{
+    const koksma__lane_materials *t = s->table;
+    const koksma__hits *restrict h = s->hits;
+    KOKSMA__LANES(int32_t, at);
+    KOKSMA__LANES(int32_t, odd);
+    int32_t traits = 0;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const koksma__v3 out = koksma__v3_unit((koksma__v3){-rays->dx[i], -rays->dy[i], -rays->dz[i]});
+        s->out[0][i] = out.x;
+        s->out[1][i] = out.y;
+        s->out[2][i] = out.z;
+        at[i] = (h->primitive[i] >= 0) & (i < lanes) ? h->material[i] + 1 : 0;
+        odd[i] = 0;
+    }
+    for (int i = 0; i < STEP(n); i++) {
+        s->form[i] = t->form[at[i]];
+        traits |= t->traits[at[i]];
+    }
+    s->traits = (unsigned)traits;
+    if (traits & KOKSMA__IS_CHECKER) {
+        find_squares(t, h, at, n, odd);
+    }
+    for (int k = 0; k < 3; k++) {
+        const float *even = t->albedo[0][k], *other = t->albedo[1][k];
+        for (int i = 0; i < STEP(n); i++) {
+            s->albedo[k][i] = odd[i] ? other[at[i]] : even[at[i]];
+        }
+    }
+    for (int k = 0; traits & (1 << KOKSMA__FORM_LOBES | 1 << KOKSMA__FORM_FACETS) && k < 4; k++) {
+        for (int i = 0; i < STEP(n); i++) {
+            s->parameters[k][i] = t->parameters[k][at[i]];
+        }
+    }
+    for (int i = 0; traits & 1 << KOKSMA__FORM_LOBES && i < STEP(n); i++) {
+        s->diffuse[i] = t->diffuse[at[i]];
+    }
+}
+
+/* ---- Values --------------------------------------------------------------------------------------------------- */
+
+#define AT(a, i) ((koksma__v3){(a)[0][i], (a)[1][i], (a)[2][i]})
+#define NORMAL(h, i) ((koksma__v3){(h)->nx[i], (h)->ny[i], (h)->nz[i]})
+
+static void lambert_values(const koksma__surfaces *restrict s, const koksma__lanes *restrict w, int n,
+                           koksma__bsdf_values *restrict out)
+{
+    const koksma__hits *restrict h = s->hits;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int mine = s->form[i] == KOKSMA__FORM_LAMBERT;
+        const float all = koksma__lambert_pdf(koksma__v3_dot(NORMAL(h, i), AT(w, i))), pdf = mine ? all : 0;
+        out->value[0][i] += s->albedo[0][i] * pdf;
+        out->value[1][i] += s->albedo[1][i] * pdf;
+        out->value[2][i] += s->albedo[2][i] * pdf;
+        out->pdf[i] += pdf;
+    }
+}
+
+/* Which lobes are asked for, as factors; of directions Lambert's gets the part fixed + shared koksma__surfaces.diffuse. */
+typedef struct lobe_shares {
+    float diffuse, glossy, fixed, shared;
+} lobe_shares;
+
+static lobe_shares shares_of(unsigned lobes)
+{
+    const float diffuse = lobes & KOKSMA__LOBE_DIFFUSE ? 1 : 0, glossy = lobes & KOKSMA__LOBE_GLOSSY ? 1 : 0;
+    return (lobe_shares){diffuse, glossy, diffuse * (1 - glossy), diffuse * glossy};
+}
+
+static void lobe_values(const koksma__surfaces *restrict s, const koksma__lanes *restrict w, unsigned lobes, int n,
+                        koksma__bsdf_values *restrict out)
+{
+    const koksma__hits *restrict h = s->hits;
+    const lobe_shares shares = shares_of(lobes);
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int mine = s->form[i] == KOKSMA__FORM_LOBES;
+        const koksma__v3 normal = NORMAL(h, i), direction = AT(w, i);
+        const float lambert = shares.diffuse * koksma__lambert_pdf(koksma__v3_dot(normal, direction));
+        const float lobe = shares.glossy * koksma__lobe_pdf(normal, AT(s->out, i), s->parameters[3][i], direction);
+        const float part = shares.fixed + shares.shared * s->diffuse[i];
+        out->value[0][i] += mine ? s->albedo[0][i] * lambert + s->parameters[0][i] * lobe : 0;
+        out->value[1][i] += mine ? s->albedo[1][i] * lambert + s->parameters[1][i] * lobe : 0;
+        out->value[2][i] += mine ? s->albedo[2][i] * lambert + s->parameters[2][i] * lobe : 0;
+        out->pdf[i] += mine ? part * lambert + (1 - part) * lobe : 0;
+    }
+}
+
+static void facet_values(const koksma__surfaces *restrict s, const koksma__lanes *restrict w, int n,
+                         koksma__bsdf_values *restrict out)
+{
+    const koksma__hits *restrict h = s->hits;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int mine = s->form[i] == KOKSMA__FORM_FACETS;
+        const koksma__facets facets = koksma__facets_of(NORMAL(h, i), AT(s->out, i), s->parameters[3][i]);
+        const koksma__facet_terms t = koksma__facet_terms_of(&facets, AT(w, i));
+        const float scale = t.pdf * t.ratio;
+        out->value[0][i] += mine ? scale * koksma__schlick(s->parameters[0][i], t.at_facet) : 0;
+        out->value[1][i] += mine ? scale * koksma__schlick(s->parameters[1][i], t.at_facet) : 0;
+        out->value[2][i] += mine ? scale * koksma__schlick(s->parameters[2][i], t.at_facet) : 0;
+        out->pdf[i] += mine ? t.pdf : 0;
+    }
+}
+
+static void ray_values(const koksma__surfaces *s, const koksma__lanes *w, unsigned lobes, int n,
+                       koksma__bsdf_values *out)
+{
+    for (int i = 0; i < n; i++) {
+        if (s->form[i] == KOKSMA__FORM_RAYS) {
+            const koksma__surface surface = koksma__surface_at(s, i);
+            const koksma__bsdf *bsdf = surface.material->bsdf;
+            const float direction[3] = {w[0][i], w[1][i], w[2][i]};
+            float value[3] = {0, 0, 0};
+            out->pdf[i] += bsdf->value(&surface, direction, lobes & bsdf->lobes, value);
+            for (int k = 0; k < 3; k++) {
+                out->value[k][i] += value[k];
+            }
+        }
+    }
+}
+
+static void values(const koksma__surfaces *s, const koksma__lanes *w, unsigned lobes, int n, koksma__bsdf_values *out)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        out->value[0][i] = out->value[1][i] = out->value[2][i] = out->pdf[i] = 0;
+    }
+    if (s->traits & 1u << KOKSMA__FORM_LAMBERT && lobes & KOKSMA__LOBE_DIFFUSE) {
+        lambert_values(s, w, n, out);
+    }
+    if (s->traits & 1u << KOKSMA__FORM_LOBES) {
+        lobe_values(s, w, lobes, n, out);
+    }
+    if (s->traits & 1u << KOKSMA__FORM_FACETS && lobes & KOKSMA__LOBE_GLOSSY) {
+        facet_values(s, w, n, out);
+    }
+    if (s->traits & 1u << KOKSMA__FORM_RAYS) {
+        ray_values(s, w, lobes, n, out);
+    }
+}
+
+/* ---- Light that is reflected ---------------------------------------------------------------------------------- */
+
+/* Adds to shadows and reflected what is not weighed (met NULL) or weighed by the power heuristic against met. */
+INLINE void weigh(const koksma__light_lanes *restrict l, const koksma__beams *restrict b,
+                  const koksma__bsdf_values *restrict values, bool weighed, int n, koksma__lanes *restrict reflected)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const float probability = l->probability[i], sampled = b->pdf[i] * probability, met = values->pdf[i];
+        const float ours = sampled * sampled, shared = ours / (ours + met * met);
+        const int shares = weighed & (b->visible[i] != 0) & (sampled > 0);
+        const float scale = (shares ? shared : 1) / probability;
+        reflected[0][i] += values->value[0][i] * b->value[0][i] * scale;
+        reflected[1][i] += values->value[1][i] * b->value[1][i] * scale;
+        reflected[2][i] += values->value[2][i] * b->value[2][i] * scale;
+    }
+}
+
+int BATCH_NAME(reflect)(const struct koksma__surfaces *s, const struct koksma__light_lanes *l,
+                        const struct koksma__beams *restrict b, unsigned followed, bool goes_on, int n,
+                        koksma__shadows *restrict shadows, float (*restrict reflected)[KOKSMA__BLOCK])
+{
+    const unsigned shown = KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY; /* specular lobes have no value */
+    koksma__bsdf_values found;
+    int lit = 0;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        reflected[0][i] = reflected[1][i] = reflected[2][i] = 0;
+    }
+    if (shown & ~followed & koksma__lobes_of(s)) {
+        values(s, b->w, shown & ~followed, n, &found);
+        weigh(l, b, &found, false, n, reflected);
+    }
+    if (shown & followed & koksma__lobes_of(s)) {
+        values(s, b->w, shown & followed, n, &found);
+        weigh(l, b, &found, goes_on, n, reflected);
+    }
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int any = (reflected[0][i] > 0) | (reflected[1][i] > 0) | (reflected[2][i] > 0);
+        const int all = any & (b->lit[i] != 0) & (s->form[i] >= 0);
+        shadows->dx[i] = all ? b->d[0][i] : 1;
+        shadows->dy[i] = all ? b->d[1][i] : 1;
+        shadows->dz[i] = all ? b->d[2][i] : 1;
+        shadows->light[i] = all ? 1.0f : 0.0f;
+        lit += all;
+    }
+    return lit;
+}
+
+/* ---- Directions ------------------------------------------------------------------------------------------------- */
+
+INLINE void keep(koksma__directions *restrict to, int i, int mine, koksma__v3 w, koksma__v3 weight, float pdf,
+                 int kept)
+{
+    to->w[0][i] = mine ? w.x : to->w[0][i];
+    to->w[1][i] = mine ? w.y : to->w[1][i];
+    to->w[2][i] = mine ? w.z : to->w[2][i];
+    to->weight[0][i] = mine ? weight.x : to->weight[0][i];
+    to->weight[1][i] = mine ? weight.y : to->weight[1][i];
+    to->weight[2][i] = mine ? weight.z : to->weight[2][i];
+    to->pdf[i] = mine ? pdf : to->pdf[i];
+    to->kept[i] = mine ? kept : to->kept[i];
+}
+
+static void lambert_directions(const koksma__surfaces *restrict s, const koksma__lanes *restrict u, int n,
+                               koksma__directions *restrict to)
+{
+    const koksma__hits *restrict h = s->hits;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const koksma__v3 normal = NORMAL(h, i), w = koksma__v3_cosine_direction(normal, u[0][i], u[1][i]);
+        const float pdf = koksma__lambert_pdf(koksma__v3_dot(normal, w));
+        keep(to, i, s->form[i] == KOKSMA__FORM_LAMBERT, w, AT(s->albedo, i), pdf, pdf > 0);
+    }
+}
+
+static void lobe_directions(const koksma__surfaces *restrict s, unsigned lobes, const koksma__lanes *restrict u,
+                            int n, koksma__directions *restrict to)
+{
+    const koksma__hits *restrict h = s->hits;
+    const lobe_shares shares = shares_of(lobes);
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const float part = shares.fixed + shares.shared * s->diffuse[i], exponent = s->parameters[3][i];
+        const koksma__v3 normal = NORMAL(h, i), out = AT(s->out, i);
+        const koksma__v3 lambert_w = koksma__v3_cosine_direction(normal, u[0][i], u[1][i]);
+        const koksma__v3 lobe_w = koksma__lobe_direction(normal, out, exponent, u[0][i], u[1][i]);
+        const int first = u[2][i] < part;
+        const koksma__v3 w = {first ? lambert_w.x : lobe_w.x, first ? lambert_w.y : lobe_w.y,
+                              first ? lambert_w.z : lobe_w.z};
+        const float above = koksma__v3_dot(normal, w), lambert = shares.diffuse * koksma__lambert_pdf(above);
+        const float lobe = shares.glossy * koksma__lobe_pdf(normal, out, exponent, w);
+        const float pdf = part * lambert + (1 - part) * lobe, scale = 1 / (pdf > 0 ? pdf : 1);
+        const koksma__v3 weight = {scale * (s->albedo[0][i] * lambert + s->parameters[0][i] * lobe),
+                                   scale * (s->albedo[1][i] * lambert + s->parameters[1][i] * lobe),
+                                   scale * (s->albedo[2][i] * lambert + s->parameters[2][i] * lobe)};
+        keep(to, i, s->form[i] == KOKSMA__FORM_LOBES, w, weight, pdf, (pdf > 0) & (above > 0));
+    }
+}
+
+static void facet_directions(const koksma__surfaces *restrict s, const koksma__lanes *restrict u, int n,
+                             koksma__directions *restrict to)
+{
+    const koksma__hits *restrict h = s->hits;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const koksma__facets facets = koksma__facets_of(NORMAL(h, i), AT(s->out, i), s->parameters[3][i]);
+        const koksma__v3 w = koksma__facet_direction(&facets, u[0][i], u[1][i]);
+        const koksma__facet_terms t = koksma__facet_terms_of(&facets, w);
+        const koksma__v3 weight = {t.ratio * koksma__schlick(s->parameters[0][i], t.at_facet),
+                                   t.ratio * koksma__schlick(s->parameters[1][i], t.at_facet),
+                                   t.ratio * koksma__schlick(s->parameters[2][i], t.at_facet)};
+        keep(to, i, s->form[i] == KOKSMA__FORM_FACETS, w, weight, t.pdf, t.pdf > 0);
+    }
+}
+
+static void ray_directions(const koksma__surfaces *s, unsigned lobes, const koksma__lanes *u, int n,
+                           koksma__directions *to)
+{
+    for (int i = 0; i < n; i++) {
+        if (s->form[i] == KOKSMA__FORM_RAYS) {
+            const koksma__surface surface = koksma__surface_at(s, i);
+            const koksma__bsdf *bsdf = surface.material->bsdf;
+            const float pair[2] = {u[0][i], u[1][i]};
+            koksma__scatter out;
+            to->kept[i] = lobes & bsdf->lobes && bsdf->sample(&surface, lobes & bsdf->lobes, pair, u[2][i], &out);
+            for (int k = 0; to->kept[i] && k < 3; k++) {
+                to->w[k][i] = out.w[k];
+                to->weight[k][i] = out.weight[k];
+            }
+            to->pdf[i] = to->kept[i] ? out.pdf : 0;
+        }
+    }
+}
+
+void BATCH_NAME(scatter)(const struct koksma__surfaces *s, unsigned lobes, const float (*u)[KOKSMA__BLOCK], int n,
+                         struct koksma__directions *to)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        to->w[0][i] = to->w[1][i] = to->w[2][i] = to->pdf[i] = 0;
+        to->weight[0][i] = to->weight[1][i] = to->weight[2][i] = 0;
+        to->kept[i] = 0;
+    }
+    if (s->traits & 1u << KOKSMA__FORM_LAMBERT && lobes & KOKSMA__LOBE_DIFFUSE) {
+        lambert_directions(s, u, n, to);
+    }
+    if (s->traits & 1u << KOKSMA__FORM_LOBES && lobes & (KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY)) {
+        lobe_directions(s, lobes, u, n, to);
+    }
+    if (s->traits & 1u << KOKSMA__FORM_FACETS && lobes & KOKSMA__LOBE_GLOSSY) {
+        facet_directions(s, u, n, to);
+    }
+    if (s->traits & 1u << KOKSMA__FORM_RAYS) {
+        ray_directions(s, lobes, u, n, to);
+    }
+}

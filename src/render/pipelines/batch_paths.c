@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Blocks of paths on their way: the pairs of their samples, the light that they carry, roulette, and the paths that go on
+   to the next bounce, closed up so that lanes stay full. */
+#include <string.h>
+
+#include "render/lanes3.h"
+#include "render/pipelines/batch_kernel.h"
+#include "render/pipelines/vertices.h"
+
+void BATCH_NAME(pairs)(const float *restrict pairs, const uint32_t *restrict sample, int n, float *restrict x,
+                       float *restrict y)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        x[i] = pairs[2 * (size_t)sample[i]];
+    }
+    if (y) {
+        LANES_APART
+        for (int i = 0; i < STEP(n); i++) {
+            y[i] = pairs[2 * (size_t)sample[i] + 1];
+        }
+    }
+}
+
+void BATCH_NAME(to_disk)(int n, float *restrict x, float *restrict y)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        float a, b;
+        koksma__concentric(x[i], y[i], &a, &b);
+        x[i] = a;
+        y[i] = b;
+    }
+}
+
+void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__lens *lens, const float *restrict xy,
+                       const float *x, const float *y, const float *u, int n, struct koksma__paths *restrict to)
+{
+    static const koksma__lanes none;
+    const koksma__batch_camera c = *camera;
+    const koksma__lens l = *lens;
+    const float *restrict lens_x = x ? x : none, *restrict lens_y = x ? y : none, *restrict times = u ? u : none;
+    const float inverse = x ? 1 / l.focus : 0;
+    float *const o[3] = {to->rays.ox, to->rays.oy, to->rays.oz}, *const d[3] = {to->rays.dx, to->rays.dy, to->rays.dz};
+    for (int k = 0; k < 3; k++) {
+        float *restrict ok = o[k], *restrict dk = d[k];
+        LANES_APART
+        for (int i = 0; i < STEP(n); i++) {
+            const float shift = l.radius * (lens_x[i] * l.right[k] + lens_y[i] * l.down[k]);
+            const float time = l.open + l.interval * times[i];
+            ok[i] = c.eye[k] + time * l.motion[k] + shift;
+            dk[i] = c.base[k] + xy[2 * i] * c.step_x[k] + xy[2 * i + 1] * c.step_y[k] - shift * inverse;
+            to->beta[k][i] = 1;
+            to->n[k][i] = 0;
+        }
+    }
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        to->rays.time[i] = l.open + l.interval * times[i];
+        to->pdf[i] = 0;
+        to->from[i] = -1;
+    }
+}
+
+void BATCH_NAME(background)(const float *background, struct koksma__vertices *restrict v)
+{
+    const koksma__paths *restrict p = v->paths;
+    const float r = background[0], g = background[1], b = background[2];
+    LANES_APART
+    for (int i = 0; i < STEP(v->whole); i++) {
+        const int missed = v->hits.primitive[i] < 0;
+        v->light[0][i] = missed ? p->beta[0][i] * r : 0;
+        v->light[1][i] = missed ? p->beta[1][i] * g : 0;
+        v->light[2][i] = missed ? p->beta[2][i] * b : 0;
+    }
+}
+
+void BATCH_NAME(collect)(const koksma__shadows *restrict shadows, const float (*restrict reflected)[KOKSMA__BLOCK],
+                         struct koksma__vertices *restrict v)
+{
+    const koksma__paths *restrict p = v->paths;
+    LANES_APART
+    for (int i = 0; i < STEP(v->whole); i++) {
+        const int lit = shadows->light[i] > 0;
+        v->light[0][i] += lit ? p->beta[0][i] * reflected[0][i] : 0;
+        v->light[1][i] += lit ? p->beta[1][i] * reflected[1][i] : 0;
+        v->light[2][i] += lit ? p->beta[2][i] * reflected[2][i] : 0;
+    }
+}
+
+INLINE float largest(float x, float y, float z)
+{
+    const float m = x > y ? x : y;
+    return m > z ? m : z;
+}
+
+int BATCH_NAME(weigh)(const koksma__paths *restrict p, int n, struct koksma__directions *restrict to)
+{
+    int dim = 0;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const float x = p->beta[0][i] * to->weight[0][i], y = p->beta[1][i] * to->weight[1][i];
+        const float z = p->beta[2][i] * to->weight[2][i], most = largest(x, y, z);
+        to->weight[0][i] = x;
+        to->weight[1][i] = y;
+        to->weight[2][i] = z;
+        to->kept[i] = (to->kept[i] != 0) & (most > 0);
+        dim += to->kept[i] & (most < 1);
+    }
+    return dim;
+}
+
+void BATCH_NAME(roulette)(const float *restrict u, int n, struct koksma__directions *restrict to)
+{
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const float most = largest(to->weight[0][i], to->weight[1][i], to->weight[2][i]);
+        const int plays = (to->kept[i] != 0) & (most < 1);
+        const float scale = 1 / (plays ? most : 1);
+        to->kept[i] = (to->kept[i] != 0) & (!plays | (u[i] < most));
+        to->weight[0][i] *= scale;
+        to->weight[1][i] *= scale;
+        to->weight[2][i] *= scale;
+    }
+}
+
+INLINE void move(const void *restrict from, const int32_t *restrict order, int n, void *restrict to)
+{
+    const uint32_t *restrict x = from;
+    uint32_t *restrict y = to;
+    LANES_APART
+    for (int i = 0; i < n; i++) {
+        y[i] = x[order[i]];
+    }
+}
+
+/* Lanes order[0], ... order[n - 1] to the lanes of `to` from `at` on. Times and normals go along where they are read. */
+static void move_all(const koksma__vertices *restrict v, const koksma__directions *restrict d,
+                     const int32_t *restrict order, int n, koksma__paths *restrict to, int at)
+{
+    const koksma__hits *restrict h = &v->hits;
+    move(h->px, order, n, to->rays.ox + at);
+    move(h->py, order, n, to->rays.oy + at);
+    move(h->pz, order, n, to->rays.oz + at);
+    move(d->w[0], order, n, to->rays.dx + at);
+    move(d->w[1], order, n, to->rays.dy + at);
+    move(d->w[2], order, n, to->rays.dz + at);
+    move(d->weight[0], order, n, to->beta[0] + at);
+    move(d->weight[1], order, n, to->beta[1] + at);
+    move(d->weight[2], order, n, to->beta[2] + at);
+    move(d->pdf, order, n, to->pdf + at);
+    move(h->primitive, order, n, to->from + at);
+    move(v->paths->sample, order, n, to->sample + at);
+    if (v->moves) {
+        move(v->paths->rays.time, order, n, to->rays.time + at);
+    }
+    if (v->chooses) {
+        move(h->nx, order, n, to->n[0] + at);
+        move(h->ny, order, n, to->n[1] + at);
+        move(h->nz, order, n, to->n[2] + at);
+    }
+}
+
+int BATCH_NAME(close_up)(const struct koksma__vertices *restrict v, const struct koksma__directions *restrict d,
+                         struct koksma__paths *restrict to, int at)
+{
+    KOKSMA__LANES(int32_t, order);
+    int count = 0;
+    for (int i = 0; i < v->n; i++) {
+        order[count] = i;
+        count += d->kept[i];
+    }
+    const int room = KOKSMA__BLOCK - at, first = count < room ? count : room;
+    move_all(v, d, order, first, to, at);
+    if (first < count) {
+        move_all(v, d, order + first, count - first, to + 1, 0);
+    }
+    return count;
+}
