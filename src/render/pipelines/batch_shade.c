@@ -129,17 +129,20 @@ void BATCH_NAME(shuffle)(const float *pairs, const uint32_t *words, size_t n, fl
 
 double BATCH_NAME(mean)(const float *x, size_t n)
 {
-    typedef float floats __attribute__((vector_size(32)));
-    typedef double doubles __attribute__((vector_size(64)));
-    doubles lanes = {0};
-    for (size_t i = 0; i < n; i += 8) {
-        floats some = {0};
-        memcpy(&some, x + i, n - i < 8 ? (n - i) * sizeof *x : sizeof some);
-        lanes += __builtin_convertvector(some, doubles);
-    }
+    typedef float floats __attribute__((vector_size(8)));
     typedef double two __attribute__((vector_size(16)));
-    two p[4];
-    memcpy(p, &lanes, sizeof p);
+    two p[4] = {{0}};
+    const size_t whole = n / 8 * 8;
+    for (size_t i = 0; i < whole; i += 8) {
+        for (int k = 0; k < 4; k++) {
+            floats some;
+            memcpy(&some, x + i + 2 * k, sizeof some);
+            p[k] += __builtin_convertvector(some, two);
+        }
+    }
+    for (size_t i = whole; i < n; i++) {
+        p[i % 8 / 2][i % 2] += (double)x[i];
+    }
     const two sum = (p[0] + p[2]) + (p[1] + p[3]);
     return (sum[0] + sum[1]) / (double)n;
 }
