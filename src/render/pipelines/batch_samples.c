@@ -16,6 +16,10 @@
 #include "core/random.h"
 #include "render/pipelines/batch_kernel.h"
 
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
 #if defined(__AVX512F__)
 enum { BYTES = 64 };
 #elif defined(__AVX2__)
@@ -25,11 +29,13 @@ enum { BYTES = 16 };
 #endif
 
 typedef uint16_t shorts __attribute__((vector_size(BYTES)));
-typedef uint32_t words_of_lanes __attribute__((vector_size(BYTES)));
-typedef int32_t ints __attribute__((vector_size(BYTES)));
-typedef float floats __attribute__((vector_size(BYTES)));
 
-enum { SHORTS = BYTES / 2, FLOATS = BYTES / 4, VECTORS = 64 / SHORTS, ROUNDS = 6 };
+/* Random words come 32 bytes at a time at least, from which a load of more would have to wait. */
+typedef uint32_t octet __attribute__((vector_size(32)));
+typedef int32_t ints __attribute__((vector_size(32)));
+typedef float floats __attribute__((vector_size(32)));
+
+enum { SHORTS = BYTES / 2, FLOATS = 8, VECTORS = 64 / SHORTS, ROUNDS = 6 };
 
 /* ---- Orders ------------------------------------------------------------------------------------------------- */
 
@@ -45,7 +51,7 @@ static void shuffle_few(const uint32_t *words, uint32_t n, uint16_t *out)
 /* A few vectors at once: the steps of one wait for each other. */
 INLINE void walk(const uint32_t *words, int bits, int vectors, shorts *x)
 {
-    const int turn = (bits + 1) / 2, back = bits - turn;
+    const uint16_t turn = (uint16_t)((bits + 1) / 2), back = (uint16_t)(bits - turn);
     const shorts mask = (uint16_t)((1u << bits) - 1) - (shorts){0};
     for (int r = 0; r < ROUNDS; r++) {
         const shorts factor = (uint16_t)(words[r] | 1) - (shorts){0}, add = (uint16_t)(words[r] >> 16) - (shorts){0};
@@ -131,22 +137,22 @@ void BATCH_NAME(move)(const float *xs, const float offset[2], size_t n, float *t
 
 /* ---- Places ------------------------------------------------------------------------------------------------- */
 
-INLINE floats in_turn(const float xy[2])
+INLINE void in_turn(const float xy[2], floats *v)
 {
-    floats v;
     for (int l = 0; l < FLOATS; l++) {
-        v[l] = xy[l % 2];
+        (*v)[l] = xy[l % 2];
     }
-    return v;
 }
 
 void BATCH_NAME(jitter)(const float *corners, const uint32_t *words, const float scale[2], const float offset[2],
                         size_t n, float *to)
 {
-    const floats scales = in_turn(scale), offsets = in_turn(offset);
+    floats scales, offsets;
     size_t i = 0;
+    in_turn(scale, &scales);
+    in_turn(offset, &offsets);
     for (; i + FLOATS <= 2 * n; i += FLOATS) {
-        words_of_lanes w;
+        octet w;
         floats x;
         memcpy(&w, words + i, sizeof w);
         memcpy(&x, corners + i, sizeof x);
@@ -158,26 +164,60 @@ void BATCH_NAME(jitter)(const float *corners, const uint32_t *words, const float
     }
 }
 
-typedef uint32_t octet __attribute__((vector_size(32)));
+/* Lane l is lane[l] of v before; lane numbers are below 8. */
+INLINE void permute_lanes(const octet *lane, octet *v)
+{
+#if defined(__AVX2__)
+    *v = (octet)_mm256_permutevar8x32_epi32((__m256i)*v, (__m256i)*lane);
+#else
+    uint32_t from[8], to[8];
+    memcpy(from, v, sizeof from);
+    for (int l = 0; l < 8; l++) {
+        to[l] = from[(*lane)[l]];
+    }
+    memcpy(v, to, sizeof to);
+#endif
+}
 
-/* A column of n numbers of 32 bits: grow.h. */
+/* Numbers 2^level + i from those at i ^ partner. */
+INLINE void grow_lanes(const octet *words, int level, octet *v)
+{
+    const uint32_t low = UINT32_MAX >> level >> 1;
+    *v = ((*v & ~low) ^ (low + 1)) | *words >> (uint32_t)(level + 1);
+}
+
+/* The first eight numbers: lane i >= 2^level is from lane i ^ (2^level + partner). */
+INLINE void grow_eight(const octet *words, const uint32_t *partners, octet *v)
+{
+    const octet lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    *v = *words;
+    for (int level = 0; level < 3; level++) {
+        const uint32_t start = 1u << level;
+        const octet from = lane ^ (start | (partners[level] & (start - 1))), later = (octet)(lane >= start);
+        octet grown = *v;
+        permute_lanes(&from, &grown);
+        grow_lanes(words, level, &grown);
+        *v = (grown & later) | (*v & ~later);
+    }
+}
+
+/* A column of n numbers of 32 bits: grow.h. Reads and writes whole eights. */
 INLINE void grow(const uint32_t *words, const uint32_t *partners, size_t n, uint32_t *v)
 {
-    v[0] = words[0];
-    for (int level = 0; (size_t)1 << level < n; level++) {
+    octet x, w;
+    memcpy(&w, words, sizeof w);
+    grow_eight(&w, partners, &x);
+    memcpy(v, &x, sizeof x);
+    for (int level = 3; (size_t)1 << level < n; level++) {
         const size_t start = (size_t)1 << level, count = n - start < start ? n - start : start;
-        const uint32_t low = UINT32_MAX >> level >> 1, flip = low + 1, partner = partners[level];
-        size_t i = 0;
-        for (; level >= 3 && i + 8 <= count; i += 8) {
-            octet x, w;
-            memcpy(&x, v + (i ^ (partner & ~7u)), sizeof x);
+        const uint32_t partner = partners[level];
+        const octet lanes = (octet){0, 1, 2, 3, 4, 5, 6, 7} ^ (partner & 7);
+        for (size_t i = 0; i < count; i += 8) {
+            memcpy(&x, v + (i ^ (partner & (start - 8))), sizeof x);
             memcpy(&w, words + start + i, sizeof w);
-            x = __builtin_shuffle(x, (octet){0, 1, 2, 3, 4, 5, 6, 7} ^ (partner & 7));
-            x = ((x & ~low) ^ flip) | w >> (level + 1);
+            permute_lanes(&lanes, &x);
+            grow_lanes(&w, level, &x);
             memcpy(v + start + i, &x, sizeof x);
-        }
-        for (; i < count; i++) {
-            v[start + i] = ((v[i ^ partner] & ~low) ^ flip) | words[start + i] >> level >> 1;
         }
     }
 }
@@ -185,16 +225,17 @@ INLINE void grow(const uint32_t *words, const uint32_t *partners, size_t n, uint
 void BATCH_NAME(net)(const uint32_t *words, const uint32_t partners[2][32], int dim, const float offset[2], size_t n,
                      uint32_t *v, float *to)
 {
-    const size_t stride = (n + 3) / 4 * 4;
+    const size_t stride = (n + 7) / 8 * 8;
     const float ox = offset[0], oy = offset[1];
+    uint32_t *const second = v + stride;
     grow(words, partners[0], n, v);
     if (dim == 1) {
-        memset(v + stride, 0, n * sizeof *v);
+        memset(second, 0, n * sizeof *v);
     } else {
-        grow(words + stride, partners[1], n, v + stride);
+        grow(words + (n + 3) / 4 * 4, partners[1], n, second);
     }
     for (size_t i = 0; i < n; i++) {
         to[2 * i] = (float)(int32_t)(v[i] >> 8) * 0x1p-24f + ox;
-        to[2 * i + 1] = (float)(int32_t)(v[stride + i] >> 8) * 0x1p-24f + oy;
+        to[2 * i + 1] = (float)(int32_t)(second[i] >> 8) * 0x1p-24f + oy;
     }
 }

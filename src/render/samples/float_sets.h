@@ -7,7 +7,7 @@
 
 #include "render/pipelines/batch.h"
 
-/* What a thread needs for a set of n points: 4 n + 8 words, n pairs, n + 64 positions. */
+/* What a thread needs for a set of n points: 2 n + 16 words, n pairs, n + 64 positions. */
 typedef struct koksma__float_scratch {
     uint32_t *fractions;
     float *pairs;

@@ -144,7 +144,7 @@ koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const ko
     const size_t orders = 2 * ((n < KOKSMA__ORDERED ? n : KOKSMA__ORDERED) + 64);
     const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
     *room = (koksma__sample_scratch){
-        .xs = malloc((2 * n + 4) * sizeof *room->xs),
+        .xs = malloc((2 * n + 8) * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
         .words = malloc(words * sizeof *room->words),
         .order = malloc(orders * sizeof *room->order),
