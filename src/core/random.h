@@ -28,6 +28,7 @@ typedef enum koksma__purpose {
     KOKSMA__PURPOSE_DIGITS,
     KOKSMA__PURPOSE_AXES,
     KOKSMA__PURPOSE_MIRROR,
+    KOKSMA__PURPOSE_PIXEL, /* the samples of a pixel: koksma__random_draw */
     KOKSMA__PURPOSE_BASE /* the modifier owen-base */
 } koksma__purpose;
 
@@ -41,6 +42,16 @@ static inline koksma__words koksma__random(uint64_t seed, uint32_t purpose, uint
     const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};
     const philox4x32_key_t key = {{(uint32_t)seed, (uint32_t)(seed >> 32)}};
     const philox4x32_ctr_t r = philox4x32(counter, key);
+    return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
+}
+
+/* 128 random bits by 7 rounds, the fewest that pass BigCrush (Salmon et al. 2011, table 2): for the renderer, which
+   draws more than all else. */
+static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane)
+{
+    const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};
+    const philox4x32_key_t key = {{(uint32_t)seed, (uint32_t)(seed >> 32)}};
+    const philox4x32_ctr_t r = philox4x32_R(7, counter, key);
     return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
 }
 

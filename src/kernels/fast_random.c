@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Philox4x32-10 on vectors of counters, each word in the lower half of a 64-bit lane. Same bits as Random123's
+/* Philox4x32-10, and -7 for draws, on vectors of counters, each word in the lower half of a 64-bit lane. Same bits as Random123's
    (Salmon et al. 2011), which the reference twin calls. */
 #include <string.h>
 
@@ -9,7 +9,14 @@
 
 /* Independent chains hide the multiplier's latency, about as many as the registers hold; the last few numbers take
    fewer. */
-enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64, ROUNDS = 8 };
+enum {
+    CHAINS = LANES64 == 8   ? 4
+             : LANES64 == 4 ? 3
+                            : 2,
+    LANES = CHAINS * LANES64,
+    ROUNDS = 8 /* behind the first two */,
+    DRAW_ROUNDS = 5
+};
 
 /* Lanes are in the order of lanes64_count_pairs, if nothing is said; their upper halves are garbage. */
 typedef struct block {
@@ -18,6 +25,7 @@ typedef struct block {
 
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out);
 void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
+void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
 void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs);
 
@@ -81,10 +89,10 @@ INLINE void go_on(const stream *s, int round, int chains, block *b)
     }
 }
 
-INLINE block philox_in(const stream *s, lanes64_u order, uint64_t first, int chains)
+INLINE block philox_in(const stream *s, lanes64_u order, uint64_t first, int chains, int rounds)
 {
     block b = begin(s, order, first, chains);
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < rounds; round++) {
         go_on(s, round, chains, &b);
     }
     return b;
@@ -92,7 +100,7 @@ INLINE block philox_in(const stream *s, lanes64_u order, uint64_t first, int cha
 
 INLINE block philox(const stream *s, uint64_t first, int chains)
 {
-    return philox_in(s, lanes64_count_pairs(), first, chains);
+    return philox_in(s, lanes64_count_pairs(), first, chains, ROUNDS);
 }
 
 typedef uint32_t words_of_lanes __attribute__((vector_size(8 * LANES64)));
@@ -177,43 +185,54 @@ void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint3
     }
 }
 
-INLINE void quads(const stream *s, uint64_t first, int chains, uint32_t *out)
+INLINE void quads(const stream *s, uint64_t first, int chains, int rounds, uint32_t *out)
 {
-    const block b = philox(s, first, chains);
+    const block b = philox_in(s, lanes64_count_pairs(), first, chains, rounds);
     store_words(&b, chains, out);
 }
 
-static void words(const stream *s, uint64_t first, size_t count, uint32_t *out)
+INLINE void some_words(const stream *s, uint64_t first, size_t count, int rounds, uint32_t *out)
 {
     size_t done = 0;
     for (; done + LANES <= count; done += LANES) {
-        quads(s, first + done, CHAINS, out + 4 * done);
+        quads(s, first + done, CHAINS, rounds, out + 4 * done);
     }
     if (CHAINS > 2 && done + 2 * LANES64 <= count) {
-        quads(s, first + done, 2, out + 4 * done);
+        quads(s, first + done, 2, rounds, out + 4 * done);
         done += 2 * LANES64;
     }
     for (; done + LANES64 <= count; done += LANES64) {
-        quads(s, first + done, 1, out + 4 * done);
+        quads(s, first + done, 1, rounds, out + 4 * done);
     }
     if (done < count) {
         uint32_t last[4 * LANES64];
-        quads(s, first + done, 1, last);
+        quads(s, first + done, 1, rounds, last);
         memcpy(out + 4 * done, last, 4 * (count - done) * sizeof *out);
     }
 }
 
-void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
+INLINE void all_words(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, int rounds,
+                      uint32_t *out)
 {
     while (count) {
         const size_t some = share(first, count);
         stream s;
         make_stream(seed, purpose, (uint32_t)(first >> 32), lane, &s);
-        words(&s, first, some, out);
+        some_words(&s, first, some, rounds, out);
         first += some;
         count -= some;
         out += 4 * some;
     }
+}
+
+void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
+{
+    all_words(seed, purpose, first, lane, count, ROUNDS, out);
+}
+
+void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
+{
+    all_words(seed, purpose, first, lane, count, DRAW_ROUNDS, out);
 }
 
 /* koksma__below(word, first + i + 1) for the words number i of a block, in order: the products' upper halves. */
@@ -287,7 +306,7 @@ INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, s
     lanes64_u column = (2 * lanes64_count() + lanes64_splat(first)) << 32 | exponent;
     size_t i = 0;
     while (i + 2 * LANES <= count) {
-        const block b = philox_in(s, lanes64_count(), (first + i) / 2, CHAINS);
+        const block b = philox_in(s, lanes64_count(), (first + i) / 2, CHAINS, ROUNDS);
         for (int c = 0; c < CHAINS; c++, i += 2 * LANES64, column += lanes64_splat((uint64_t)2 * LANES64 << 32)) {
             lanes64_u pair;
             memcpy(&pair, rows + i, sizeof pair);

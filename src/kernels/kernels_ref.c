@@ -30,6 +30,16 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
     }
 }
 
+void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        const koksma__words r = koksma__random_draw(seed, purpose, first + i, lane);
+        for (int k = 0; k < 4; k++) {
+            out[4 * i + (size_t)k] = r.w[k];
+        }
+    }
+}
+
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
 {
     koksma__random_permutation(seed, lane, n, out);

@@ -38,7 +38,7 @@ static uint64_t mirrored(const vector *v, uint64_t i)
     return at;
 }
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const vector *v = context;
     for (size_t i = 0; i < count; i++) { /* both factors are at most 2^32 */
@@ -99,10 +99,10 @@ static koksma_status read_vector(koksma__number_lines *lines, int dim, vector *v
     return KOKSMA_OK;
 }
 
-static koksma_status check_count(const koksma__number_lines *lines, const vector *v, size_t n)
+static koksma_status check_count(const koksma__number_lines *lines, const vector *v, uint64_t n)
 {
-    KOKSMA__FAIL_IF(n > v->points, KOKSMA_N, "%s: it has %llu points, not %zu", lines->name,
-                    (unsigned long long)v->points, n);
+    KOKSMA__FAIL_IF(n > v->points, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name,
+                    (unsigned long long)v->points, (unsigned long long)n);
     KOKSMA__FAIL_IF(
         v->base == v->points && n < v->points, KOKSMA_N,
         "%s: its %llu points are no sequence (their number is not b^m with a prime b and m > 1): n = %llu would do",
@@ -119,8 +119,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     KOKSMA__REQUIRE_MEMORY(z, (size_t)out->dim * sizeof *z);
     koksma_status status = koksma__number_lines_open("lattice-file", args->path, &lines);
     status = status ? status : read_vector(&lines, out->dim, &v, z);
-    status = status ? status : check_count(&lines, &v, out->n);
-    status = status ? status : koksma__fill_columns(args->run, out, column, &v);
+    status = status ? status : check_count(&lines, &v, args->first + out->n);
+    status = status ? status : koksma__range_columns(args, out, column, &v);
     koksma__number_lines_close(&lines);
     free(z);
     return status;
@@ -136,4 +136,5 @@ const koksma_pattern koksma__pattern_lattice_file = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE,
     .generate = generate,
     .takes_path = true,
+    .ranges = koksma__ranges_always,
 };

@@ -55,7 +55,7 @@ static double value_of(const matrices *m, const uint32_t *y)
 }
 
 /* The same in base 2, a column a word. */
-static void binary_column(const matrices *m, int k, size_t first, size_t count, double *xs)
+static void binary_column(const matrices *m, int k, uint64_t first, size_t count, double *xs)
 {
     uint64_t words[MOST_COLUMNS] = {0}, y = 0;
     for (int c = 0; c < m->columns; c++) {
@@ -76,11 +76,11 @@ static void binary_column(const matrices *m, int k, size_t first, size_t count, 
 }
 
 /* To go from i to i + 1 adds a column once for each digit that changes: b times a column is 0. */
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const matrices *m = context;
     uint32_t a[MOST_COLUMNS + 1] = {0}, y[MOST_DIGITS] = {0};
-    size_t rest = first;
+    uint64_t rest = first;
     if (m->base == 2) {
         binary_column(m, k, first, count, xs);
         return;
@@ -303,13 +303,13 @@ static koksma_status read_matrices(koksma__number_lines *lines, int dim, matrice
         lines->name);
 }
 
-static koksma_status check_count(const koksma__number_lines *lines, const matrices *m, size_t n)
+static koksma_status check_count(const koksma__number_lines *lines, const matrices *m, uint64_t n)
 {
     uint64_t points = 1;
     for (int c = 0; c < m->columns && points < n; c++) {
         points *= m->base; /* below 2^32 times the base */
     }
-    KOKSMA__FAIL_IF(points < n, KOKSMA_N, "%s: it has %llu points, not %zu", lines->name, (unsigned long long)points,
+    KOKSMA__FAIL_IF(points < n, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name, (unsigned long long)points,
                     n);
     return KOKSMA_OK;
 }
@@ -322,8 +322,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     KOKSMA__REQUIRE_MEMORY(m.digit, (size_t)out->dim * sizeof *m.digit);
     koksma_status status = koksma__number_lines_open("net-file", args->path, &lines);
     status = status ? status : read_matrices(&lines, out->dim, &m);
-    status = status ? status : check_count(&lines, &m, out->n);
-    status = status ? status : koksma__fill_columns(args->run, out, column, &m);
+    status = status ? status : check_count(&lines, &m, args->first + out->n);
+    status = status ? status : koksma__range_columns(args, out, column, &m);
     koksma__number_lines_close(&lines);
     free(m.digit);
     return status;
@@ -339,4 +339,5 @@ const koksma_pattern koksma__pattern_net_file = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE,
     .generate = generate,
     .takes_path = true,
+    .ranges = koksma__ranges_always,
 };

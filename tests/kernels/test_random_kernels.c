@@ -37,6 +37,9 @@ static void words_equal_reference(void **state)
             ref->words(~count, 9, 0xfffffffffull, 1, count, a);
             fast->words(~count, 9, 0xfffffffffull, 1, count, b);
             assert_memory_equal(a, b, sizeof a);
+            ref->draws(~count, 9, 0xfffffffffull, 1, count, a);
+            fast->draws(~count, 9, 0xfffffffffull, 1, count, b);
+            assert_memory_equal(a, b, sizeof a);
         }
     }
 }
@@ -82,13 +85,16 @@ static void cells_equal_reference(void **state)
     }
 }
 
-/* Random123's known-answer vector for philox4x32-10 with counter and key of all ones. */
+/* Random123's known-answer vectors for philox4x32-10 and -7 with counter and key of all ones. */
 static void philox_known_answer(void **state)
 {
     (void)state;
     const koksma__words r = koksma__random(UINT64_MAX, UINT32_MAX, UINT64_MAX, UINT32_MAX);
     const uint32_t expected[4] = {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd};
     assert_memory_equal(r.w, expected, sizeof expected);
+    const koksma__words draw = koksma__random_draw(UINT64_MAX, UINT32_MAX, UINT64_MAX, UINT32_MAX);
+    const uint32_t of_seven[4] = {0x5207ddc2, 0x45165e59, 0x4d8ee751, 0x8c52f662};
+    assert_memory_equal(draw.w, of_seven, sizeof of_seven);
 }
 
 int main(void)

@@ -5,6 +5,8 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 /* A place u in [0,1) of cell `cell` of m. The result is at least the double nearest to cell/m and below the one
    nearest to (cell+1)/m: where rounding takes it there, it is the double before. Cell centres stay exact. */
 static inline double koksma__in_cell(double cell, double u, double m)
@@ -27,11 +29,11 @@ static inline double koksma__in_cell(double cell, double u, double m)
     }
 
 /* columns * rows = n. Errors: N, with the n that would do. */
-koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows);
+KOKSMA__LAB koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows);
 
 /* Cells along x (2D with columns > 0), and along every other coordinate, such that their product is out->n.
    Errors: N, with the n that would do. */
-koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
+KOKSMA__LAB koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
                             size_t *along_rest);
 
 /* The range of points that args wants of those with one in every cell, in order of the cells (the last coordinate's

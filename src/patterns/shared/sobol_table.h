@@ -4,15 +4,17 @@
 
 #include <stdint.h>
 
+#include "core/visibility.h"
+
 enum { KOKSMA__SOBOL_DIM = 1111, KOKSMA__SOBOL_OLD_DIM = 40 };
 
 /* Returns the generator matrix of dimension k, counted from 0: word b is column b, whose first row is the highest bit.
    old: use the numbers of Bratley & Fox (k < 40) instead of those of Joe & Kuo (k < 1111). */
-const uint32_t *koksma__sobol_directions(int k, int old);
+KOKSMA__LAB const uint32_t *koksma__sobol_directions(int k, int old);
 
 /* partners[l], l < levels: the number such that points i and i ^ partners[l], i < 2^l, and 2^l + i of the digital
    sequence with these directions (an upper triangular matrix) have the same first l bits in points 2^l + i and
    i ^ partners[l]. */
-void koksma__partners(const uint32_t *directions, int levels, uint32_t *partners);
+KOKSMA__LAB void koksma__partners(const uint32_t *directions, int levels, uint32_t *partners);
 
 #endif

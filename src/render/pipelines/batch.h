@@ -15,6 +15,13 @@
 
 enum { KOKSMA__BLOCK = 64, KOKSMA__LANE_STEP = 16 };
 
+/* How many samples the loop `order` shuffles, and the most that it puts in order; the random words that it takes. */
+enum { KOKSMA__SHUFFLED = 32, KOKSMA__ORDERED = 1 << 16 };
+static inline size_t koksma__order_words(size_t n)
+{
+    return n <= KOKSMA__SHUFFLED ? (n + 3) / 4 * 4 : 8;
+}
+
 #define KOKSMA__LIGHT_LANES(name) _Alignas(64) float name[KOKSMA__MAX_BATCH_LIGHTS]
 #define KOKSMA__LANES(type, name) _Alignas(64) type name[KOKSMA__BLOCK]
 

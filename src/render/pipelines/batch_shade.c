@@ -127,19 +127,33 @@ void BATCH_NAME(shuffle)(const float *pairs, const uint32_t *words, size_t n, fl
     }
 }
 
+#if defined(__AVX512F__)
+enum { DOUBLES = 8 };
+#elif defined(__AVX2__)
+enum { DOUBLES = 4 };
+#else
+enum { DOUBLES = 2 };
+#endif
+
 double BATCH_NAME(mean)(const float *x, size_t n)
 {
-    typedef float floats __attribute__((vector_size(32)));
-    typedef double doubles __attribute__((vector_size(64)));
-    doubles lanes = {0};
-    for (size_t i = 0; i < n; i += 8) {
-        floats some = {0};
-        memcpy(&some, x + i, n - i < 8 ? (n - i) * sizeof *x : sizeof some);
-        lanes += __builtin_convertvector(some, doubles);
-    }
+    typedef float floats __attribute__((vector_size(4 * DOUBLES)));
+    typedef double doubles __attribute__((vector_size(8 * DOUBLES)));
     typedef double two __attribute__((vector_size(16)));
+    doubles lanes[8 / DOUBLES] = {{0}};
     two p[4];
-    memcpy(p, &lanes, sizeof p);
+    const size_t whole = n / 8 * 8;
+    for (size_t i = 0; i < whole; i += 8) {
+        for (size_t k = 0; k < 8 / DOUBLES; k++) {
+            floats some;
+            memcpy(&some, x + i + k * DOUBLES, sizeof some);
+            lanes[k] += __builtin_convertvector(some, doubles);
+        }
+    }
+    memcpy(p, lanes, sizeof p);
+    for (size_t i = whole; i < n; i++) {
+        p[i % 8 / 2][i % 2] += (double)x[i];
+    }
     const two sum = (p[0] + p[2]) + (p[1] + p[3]);
     return (sum[0] + sum[1]) / (double)n;
 }

@@ -5,6 +5,9 @@
  * permutations ("uncorrelated jitter"): each use alone is as well spread as its pattern, and no use knows of another.
  * A native pattern has all the dimensions itself, and the pattern of a group of uses has those of the group; a point
  * of either is moved as a whole.
+ *
+ * Random words are hashes of (seed, pixel, use). The pairs of a use are made in floats where its pattern has a form for
+ * that (float_sets.c), and by koksma_generate elsewhere.
  */
 #include <stdlib.h>
 
@@ -14,6 +17,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/shared/file_names.h"
+#include "render/samples/float_sets.h"
 #include "render/samples/sampler.h"
 
 enum { LANE_PAIRING = 1 << 20 }; /* keys the random numbers of permutations; above the keys of uses */
@@ -29,6 +33,7 @@ typedef struct pixel_samples {
     float *fixed[KOKSMA_N_USES];
     size_t fixed_sets[KOKSMA_N_USES];
     int dims[KOKSMA_N_USES]; /* of the sets that are generated */
+    koksma__float_set floats[KOKSMA_N_USES];
     bool shuffles[KOKSMA_N_USES];
     koksma__place_of_use places[KOKSMA_N_USES];
     size_t kept_first[KOKSMA_MAX_USE_GROUPS]; /* where a room keeps the sets of a group: dimensions before its own */
@@ -123,22 +128,36 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
     return status;
 }
 
-/* The words of a pixel's permutation of the set with this key. Pixels beside each other have theirs one after the
-   other. */
-static const uint32_t *pairing_words(const pixel_samples *samples, uint64_t pixel, uint32_t set_key,
-                                     koksma__sample_scratch *room)
+/* Pairs in the order of a pixel and the set with this key. */
+static void put_in_order(const pixel_samples *samples, uint64_t pixel, uint32_t set_key, const float *from,
+                         koksma__sample_scratch *room, float *pairs)
 {
-    const size_t counters = ((size_t)samples->options->spp + 3) / 4;
-    const size_t pixels = counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS / counters : 1;
-    const size_t room_for = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
-    const uint64_t part = pixel / pixels, key = (part << 20 | set_key) + 1; /* 0: nothing */
-    uint32_t *words = room->words + set_key % KOKSMA__WORD_SLOTS * room_for;
-    if (room->word_keys[set_key % KOKSMA__WORD_SLOTS] != key) {
-        room->word_keys[set_key % KOKSMA__WORD_SLOTS] = key;
-        koksma__kernels()->words(samples->options->seed, KOKSMA__PURPOSE_SHUFFLE, part * pixels * counters,
-                                 LANE_PAIRING + set_key, pixels * counters, words);
+    const size_t n = (size_t)samples->options->spp;
+    const bool many = n > KOKSMA__ORDERED;
+    const size_t counters = many ? (n + 3) / 4 : koksma__order_words(n) / 4;
+    koksma__kernels()->draws(samples->options->seed, KOKSMA__PURPOSE_PIXEL, pixel * counters, LANE_PAIRING + set_key,
+                             counters, room->words);
+    if (many) {
+        samples->batch->shuffle(from, room->words, n, pairs);
+    } else {
+        samples->batch->order(room->words, n, room->order);
+        samples->batch->gather(from, room->order, n, pairs);
     }
-    return words + 4 * counters * (pixel % pixels);
+}
+
+/* A set made in floats: its words are those of its order, if it takes one, and then its own. */
+static void draw_floats(const pixel_samples *samples, const koksma__float_set *set, uint64_t pixel, uint32_t use,
+                        bool shuffles, const float offset[2], koksma__sample_scratch *room, float *pairs)
+{
+    const bool ordered = shuffles || set->in_random_order;
+    const size_t first = ordered ? koksma__order_words(set->n) : 0, counters = (first + set->words + 3) / 4;
+    const koksma__float_scratch scratch = {(uint32_t *)(void *)room->xs, room->pairs, room->order + set->n + 64};
+    koksma__kernels()->draws(samples->options->seed, KOKSMA__PURPOSE_PIXEL, pixel * counters, use, counters,
+                             room->words);
+    if (ordered) {
+        samples->batch->order(room->words, set->n, room->order);
+    }
+    set->draw(set, samples->batch, room->words + first, ordered ? room->order : NULL, offset, &scratch, pairs);
 }
 
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
@@ -150,6 +169,10 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
     const uint32_t set_key = koksma__set_key(&samples->places[u], use);
     const bool shuffles = set_key != KOKSMA__USE_PIXEL && samples->shuffles[u];
     const float *from = samples->fixed[u];
+    if (samples->floats[u].draw) {
+        draw_floats(samples, &samples->floats[u], pixel, use, shuffles, offset, room, pairs);
+        return KOKSMA_OK;
+    }
     if (from && samples->fixed_sets[u] > 1) {
         from += 2 * n * (koksma__random_seed(samples->options->seed, pixel, use) % samples->fixed_sets[u]);
     }
@@ -161,13 +184,10 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
         from = room->pairs;
     }
     if (!shuffles) {
-        for (size_t i = 0; i < n; i++) {
-            pairs[2 * i] = from[2 * i] + offset[0];
-            pairs[2 * i + 1] = from[2 * i + 1] + offset[1];
-        }
+        samples->batch->move(from, offset, n, pairs);
         return KOKSMA_OK;
     }
-    samples->batch->shuffle(from, pairing_words(samples, pixel, set_key, room), n, pairs);
+    put_in_order(samples, pixel, set_key, from, room, pairs);
     return KOKSMA_OK;
 }
 
@@ -203,6 +223,7 @@ static void release(koksma__sampler *sampler)
         if (!shared) {
             free(samples->fixed[u]);
         }
+        koksma__float_set_fini(&samples->floats[u]);
     }
     free(samples);
     *sampler = (koksma__sampler){0};
@@ -313,6 +334,7 @@ static koksma_status try_uses(pixel_samples *samples)
         }
         samples->fixed[u] = own ? samples->fixed[u] : common[dims];
         samples->fixed_sets[u] = own ? samples->fixed_sets[u] : common_sets[dims];
+        status = status ? status : koksma__float_set_init(spec, (size_t)options->spp, dims, &samples->floats[u]);
     }
     return status;
 }

@@ -21,17 +21,13 @@ enum {
     KOKSMA__MAX_BOUNCES = 255
 };
 
-/* Random words for the permutations of a use come for several pixels at once, WORD_COUNTERS draws of four or a
- * pixel's. */
-enum { KOKSMA__WORD_SLOTS = 8, KOKSMA__WORD_COUNTERS = 48 };
-
 /* What a thread needs for drawing: room for the points of one pixel; and the sets that several uses take their
    coordinates from, a native pattern's or those of groups of uses, for as many pixels as are drawn together. */
 typedef struct koksma__sample_scratch {
     double *xs;
     float *pairs;
-    uint32_t *words;                        /* KOKSMA__WORD_SLOTS parts, of the uses by turns */
-    uint64_t word_keys[KOKSMA__WORD_SLOTS]; /* which pixels' and use's words are there */
+    uint32_t *words; /* random words of a use */
+    uint16_t *order; /* two orders of the samples of a use */
     double *kept;
     uint64_t *kept_keys;   /* which set is in a slot; 0: none */
     const koksma_run *run; /* the sampler's, or one that always goes on */

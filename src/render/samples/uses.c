@@ -140,26 +140,27 @@ int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
 koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler)
 {
     static const koksma_run alone = {.threads = 1};
-    const size_t n = sampler->most, counters = (n + 3) / 4;
-    const size_t words = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
+    const size_t n = sampler->most, words = 2 * n + 4 * KOKSMA__SHUFFLED;
+    const size_t orders = 2 * ((n < KOKSMA__ORDERED ? n : KOKSMA__ORDERED) + 64);
     const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
     *room = (koksma__sample_scratch){
-        .xs = malloc(2 * n * sizeof *room->xs),
+        .xs = malloc((2 * n + 8) * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
-        .words = malloc(KOKSMA__WORD_SLOTS * words * sizeof *room->words),
+        .words = malloc(words * sizeof *room->words),
+        .order = malloc(orders * sizeof *room->order),
         .kept = malloc((kept + 1) * sizeof *room->kept),
         .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),
         .run = sampler->run ? sampler->run : &alone,
     };
-    if (!room->xs || !room->pairs || !room->words || !room->kept || !room->kept_keys) {
+    if (!room->xs || !room->pairs || !room->words || !room->order || !room->kept || !room->kept_keys) {
         koksma__sample_scratch_fini(room);
-        return koksma__fail_memory(24 * n + 4 * KOKSMA__WORD_SLOTS * words + 8 * kept);
+        return koksma__fail_memory(24 * n + 4 * words + 2 * orders + 8 * kept);
     }
     return KOKSMA_OK;
 }
 
 void koksma__sample_scratch_fini(koksma__sample_scratch *room)
 {
-    KOKSMA__FREE(room->xs, room->pairs, room->words, room->kept, room->kept_keys);
+    KOKSMA__FREE(room->xs, room->pairs, room->words, room->order, room->kept, room->kept_keys);
     *room = (koksma__sample_scratch){0};
 }

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The samples of a pixel in lanes: random orders, pairs in such an order, and random places in cells.
+ *
+ * Few samples are put in order by the shuffle of Fisher and Yates, each of the n! orders being as likely. More are by a
+ * bijection of the k-bit numbers below the next power of two, as Kensler (2013) has it; numbers that it takes beyond n
+ * go through it again. Of its rounds,
+ *
+ *     x = m x + a mod 2^k,   x = x ^ x >> 2,   x = x rotated by (k + 1) / 2 bits,
+ *
+ * each has 16 random bits for m, which is odd, and for a. Five rounds are enough for the pairs of positions to be like
+ * those of a random order (docs/decisions/0040-samples-in-floats.md); it has seven.
+ */
+#include <string.h>
+
+#include "core/random.h"
+#include "render/pipelines/batch_kernel.h"
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#if defined(__AVX512F__)
+enum { BYTES = 64 };
+#elif defined(__AVX2__)
+enum { BYTES = 32 };
+#else
+enum { BYTES = 16 };
+#endif
+
+typedef uint16_t shorts __attribute__((vector_size(BYTES)));
+
+/* Random words come 32 bytes at a time at least, from which a load of more would have to wait. */
+typedef uint32_t octet __attribute__((vector_size(32)));
+typedef int32_t ints __attribute__((vector_size(32)));
+typedef float floats __attribute__((vector_size(32)));
+
+enum { SHORTS = BYTES / 2, FLOATS = 8, VECTORS = 64 / SHORTS, ROUNDS = 6 };
+
+/* ---- Orders ------------------------------------------------------------------------------------------------- */
+
+static void shuffle_few(const uint32_t *words, uint32_t n, uint16_t *out)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t j = koksma__below(words[i], i + 1);
+        out[i] = out[j];
+        out[j] = (uint16_t)i;
+    }
+}
+
+/* A few vectors at once: the steps of one wait for each other. */
+INLINE void walk(const uint32_t *words, int bits, int vectors, shorts *x)
+{
+    const uint16_t turn = (uint16_t)((bits + 1) / 2), back = (uint16_t)(bits - turn);
+    const shorts mask = (uint16_t)((1u << bits) - 1) - (shorts){0};
+    for (int r = 0; r < ROUNDS; r++) {
+        const shorts factor = (uint16_t)(words[r] | 1) - (shorts){0}, add = (uint16_t)(words[r] >> 16) - (shorts){0};
+        for (int v = 0; v < vectors; v++) {
+            x[v] = (x[v] * factor + add) & mask;
+            x[v] ^= x[v] >> 2;
+            x[v] = (x[v] >> turn | x[v] << back) & mask;
+        }
+    }
+}
+
+INLINE bool any(shorts mask)
+{
+    uint64_t parts[BYTES / 8], all = 0;
+    memcpy(parts, &mask, sizeof parts);
+    for (int p = 0; p < BYTES / 8; p++) {
+        all |= parts[p];
+    }
+    return all != 0;
+}
+
+void BATCH_NAME(order)(const uint32_t *words, size_t n, uint16_t *out)
+{
+    if (n <= KOKSMA__SHUFFLED) {
+        shuffle_few(words, (uint32_t)n, out);
+        return;
+    }
+    const int bits = 32 - __builtin_clz((uint32_t)n - 1);
+    shorts first;
+    for (int l = 0; l < SHORTS; l++) {
+        first[l] = (uint16_t)l;
+    }
+    if ((n & (n - 1)) == 0) {
+        for (size_t i = 0; i < n; i += VECTORS * SHORTS) { /* of 64 numbers: n is 64 at least */
+            shorts x[VECTORS];
+            for (int v = 0; v < VECTORS; v++, first += SHORTS) {
+                x[v] = first;
+            }
+            walk(words, bits, VECTORS, x);
+            memcpy(out + i, x, sizeof x);
+        }
+        return;
+    }
+    const shorts last = (uint16_t)(n - 1) - (shorts){0};
+    for (size_t i = 0; i < n; i += SHORTS, first += SHORTS) {
+        const shorts start = (shorts)(first > last);
+        shorts x = (last & start) | (first & ~start), beyond;
+        walk(words, bits, 1, &x);
+        while (beyond = (shorts)(x > last), any(beyond)) {
+            shorts next = x;
+            walk(words, bits, 1, &next);
+            x = (next & beyond) | (x & ~beyond);
+        }
+        memcpy(out + i, &x, sizeof x);
+    }
+}
+
+/* Two pairs a store: loops over lanes read them next. */
+void BATCH_NAME(gather)(const float *from, const uint16_t *order, size_t n, float *to)
+{
+    typedef double two __attribute__((vector_size(16)));
+    size_t i = 0;
+    for (; i + 2 <= n; i += 2) {
+        double a, b;
+        memcpy(&a, from + 2 * (size_t)order[i], sizeof a);
+        memcpy(&b, from + 2 * (size_t)order[i + 1], sizeof b);
+        const two pairs = {a, b};
+        memcpy(to + 2 * i, &pairs, sizeof pairs);
+    }
+    if (i < n) {
+        memcpy(to + 2 * i, from + 2 * (size_t)order[i], 2 * sizeof *to);
+    }
+}
+
+void BATCH_NAME(move)(const float *xs, const float offset[2], size_t n, float *to)
+{
+    const float ox = offset[0], oy = offset[1];
+    for (size_t i = 0; i < n; i++) {
+        to[2 * i] = xs[2 * i] + ox;
+        to[2 * i + 1] = xs[2 * i + 1] + oy;
+    }
+}
+
+/* ---- Places ------------------------------------------------------------------------------------------------- */
+
+INLINE void in_turn(const float xy[2], floats *v)
+{
+    for (int l = 0; l < FLOATS; l++) {
+        (*v)[l] = xy[l % 2];
+    }
+}
+
+void BATCH_NAME(jitter)(const float *corners, const uint32_t *words, const float scale[2], const float offset[2],
+                        size_t n, float *to)
+{
+    floats scales, offsets;
+    size_t i = 0;
+    in_turn(scale, &scales);
+    in_turn(offset, &offsets);
+    for (; i + FLOATS <= 2 * n; i += FLOATS) {
+        octet w;
+        floats x;
+        memcpy(&w, words + i, sizeof w);
+        memcpy(&x, corners + i, sizeof x);
+        x = x + __builtin_convertvector((ints)(w >> 8), floats) * scales + offsets;
+        memcpy(to + i, &x, sizeof x);
+    }
+    for (; i < 2 * n; i++) {
+        to[i] = corners[i] + (float)(int32_t)(words[i] >> 8) * scale[i % 2] + offset[i % 2];
+    }
+}
+
+/* Lane l is lane[l] of v before; lane numbers are below 8. */
+INLINE void permute_lanes(const octet *lane, octet *v)
+{
+#if defined(__AVX2__)
+    *v = (octet)_mm256_permutevar8x32_epi32((__m256i)*v, (__m256i)*lane);
+#else
+    uint32_t from[8], to[8];
+    memcpy(from, v, sizeof from);
+    for (int l = 0; l < 8; l++) {
+        to[l] = from[(*lane)[l]];
+    }
+    memcpy(v, to, sizeof to);
+#endif
+}
+
+/* Numbers 2^level + i from those at i ^ partner. */
+INLINE void grow_lanes(const octet *words, int level, octet *v)
+{
+    const uint32_t low = UINT32_MAX >> level >> 1;
+    *v = ((*v & ~low) ^ (low + 1)) | *words >> (uint32_t)(level + 1);
+}
+
+/* The first eight numbers: lane i >= 2^level is from lane i ^ (2^level + partner). */
+INLINE void grow_eight(const octet *words, const uint32_t *partners, octet *v)
+{
+    const octet lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    *v = *words;
+    for (int level = 0; level < 3; level++) {
+        const uint32_t start = 1u << level;
+        const octet from = lane ^ (start | (partners[level] & (start - 1))), later = (octet)(lane >= start);
+        octet grown = *v;
+        permute_lanes(&from, &grown);
+        grow_lanes(words, level, &grown);
+        *v = (grown & later) | (*v & ~later);
+    }
+}
+
+/* A column of n numbers of 32 bits: grow.h. Reads and writes whole eights. */
+INLINE void grow(const uint32_t *words, const uint32_t *partners, size_t n, uint32_t *v)
+{
+    octet x, w;
+    memcpy(&w, words, sizeof w);
+    grow_eight(&w, partners, &x);
+    memcpy(v, &x, sizeof x);
+    for (int level = 3; (size_t)1 << level < n; level++) {
+        const size_t start = (size_t)1 << level, count = n - start < start ? n - start : start;
+        const uint32_t partner = partners[level];
+        const octet lanes = (octet){0, 1, 2, 3, 4, 5, 6, 7} ^ (partner & 7);
+        for (size_t i = 0; i < count; i += 8) {
+            memcpy(&x, v + (i ^ (partner & (start - 8))), sizeof x);
+            memcpy(&w, words + start + i, sizeof w);
+            permute_lanes(&lanes, &x);
+            grow_lanes(&w, level, &x);
+            memcpy(v + start + i, &x, sizeof x);
+        }
+    }
+}
+
+void BATCH_NAME(net)(const uint32_t *words, const uint32_t partners[2][32], int dim, const float offset[2], size_t n,
+                     uint32_t *v, float *to)
+{
+    const size_t stride = (n + 7) / 8 * 8;
+    const float ox = offset[0], oy = offset[1];
+    uint32_t *const second = v + stride;
+    grow(words, partners[0], n, v);
+    if (dim == 1) {
+        memset(second, 0, n * sizeof *v);
+    } else {
+        grow(words + (n + 3) / 4 * 4, partners[1], n, second);
+    }
+    for (size_t i = 0; i < n; i++) {
+        to[2 * i] = (float)(int32_t)(v[i] >> 8) * 0x1p-24f + ox;
+        to[2 * i + 1] = (float)(int32_t)(second[i] >> 8) * 0x1p-24f + oy;
+    }
+}
