@@ -310,7 +310,7 @@ static koksma_status check_count(const koksma__number_lines *lines, const matric
         points *= m->base; /* below 2^32 times the base */
     }
     KOKSMA__FAIL_IF(points < n, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name, (unsigned long long)points,
-                    n);
+                    (unsigned long long)n);
     return KOKSMA_OK;
 }
 
