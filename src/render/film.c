@@ -196,8 +196,8 @@ static double splat_variance(const double *moments, double weight, double mean)
     const double w2 = moments[SUM_W2], ratio = w2 / weight;
     const double off = moments[SUM_W2_Y2] - mean * (2 * moments[SUM_W2_Y] - mean * w2);
     const double left = w2 - 2 * moments[SUM_W3] / weight + ratio * ratio;
-    /* One sample leaves rounding, and so do others that weigh next to nothing beside it. */
-    return off > 0 && left > 1e-12 * w2 ? off / (weight * weight) * (w2 / left) : 0;
+    /* One sample leaves rounding, as do others that weigh next to nothing beside it, and equal values. */
+    return off > 1e-14 * moments[SUM_W2_Y2] && left > 1e-12 * w2 ? off / (weight * weight) * (w2 / left) : 0;
 }
 
 /* The variance of the mean luminance of samples first .. end - 1, drawn from a filter with negative lobes. */

@@ -35,7 +35,8 @@ static void lens_blurs_to_a_disk(void **state)
                     assert_true(value == 0);
                 } else if (r < 4 - 0.4 - 0.75) {
                     inside += value;
-                    assert_near(value, 100 * 0.01, 0.45); /* the lamp's disk over the blur's: (0.025 / 0.25)^2 */
+                    /* The lamp's disk over the blur's, (0.025 / 0.25)^2, by 41 of 4096 samples: 5 deviations. */
+                    assert_near(value, 100 * 0.01, 5 / sqrt(41));
                 }
             }
         }

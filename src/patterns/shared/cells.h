@@ -34,7 +34,7 @@ KOKSMA__LAB koksma_status koksma__divisors(const char *name, size_t n, double wa
 /* Cells along x (2D with columns > 0), and along every other coordinate, such that their product is out->n.
    Errors: N, with the n that would do. */
 KOKSMA__LAB koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
-                            size_t *along_rest);
+                                        size_t *along_rest);
 
 /* The range of points that args wants of those with one in every cell, in order of the cells (the last coordinate's
    changes fastest): the point is at centre + (u - 1/2) * width of its cell, with u uniform; width in [0,1]. */

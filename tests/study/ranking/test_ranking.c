@@ -414,7 +414,8 @@ static void coherence_is_that_of_the_pictures(void **state)
         assert_ok(koksma_coherence_init(&sums, 48, 36));
         assert_ok(koksma_coherence_add(&sums, &image, &reference));
         koksma_coherence_find(&sums, &values);
-        assert_near(row_of(rows, p)->coherence.coherence / values.coherence, 1, 0.02);
+        /* Its reference is another, of as much noise: 1/15 of the error of 4 samples. */
+        assert_near(row_of(rows, p)->coherence.coherence / values.coherence, 1, 0.04);
         koksma_coherence_fini(&sums);
         koksma_image_fini(&image);
     }
