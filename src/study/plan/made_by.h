@@ -9,7 +9,7 @@
 enum { KOKSMA__MADE_BY = 512 };
 
 /* Raised with every change of any bit of a rendered image, of its error or of its coherence. */
-enum { KOKSMA__RENDERER_REVISION = 0 };
+enum { KOKSMA__RENDERER_REVISION = 1 };
 
 /* "name revision, name revision" */
 typedef struct koksma__made_by {
