@@ -2,7 +2,7 @@
 /*
  * Elementary functions in floats for loops over lanes: sine and cosine, arc tangent and powers by polynomials, with
  * + - * /, comparisons and conversions only, so that compilers put them into lanes and every instruction set gives the
- * same bits. tests/render/test_elementary.c holds the stated errors against long double.
+ * same bits. tests/render/test_polynomials.c holds the stated errors against long double.
  *
  * Sine and cosine take turns (an angle over 2 pi): the nearest quarter is taken off without rounding, and minimax
  * polynomials on [-pi/4, pi/4] (Moshier's Cephes library) do the rest. The arc tangent is reduced to |x| <= tan(pi/8)
@@ -37,7 +37,7 @@ KOKSMA__INLINE void koksma__sine_cosine(float angle, float *sine, float *cosine)
         1 - 0.5f * z + z * z * (4.166664568298827e-2f - z * (1.388731625493765e-3f - z * 2.443315711809948e-5f));
 }
 
-/* Of 2 pi turns, |turns| <= 2^20. */
+/* Of 2 pi turns, |turns| < 2^19. */
 KOKSMA__INLINE void koksma__sine_cosine_turns(float turns, float *sine, float *cosine)
 {
     const float shifted = 4 * turns + KOKSMA__SHIFT;

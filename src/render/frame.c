@@ -64,10 +64,11 @@ static koksma_status make_lane_materials(koksma__frame *f)
 {
     const size_t n = f->scene->n_materials + 1;
     koksma__lane_materials *t = &f->lane_materials;
-    float **const columns[] = {&t->albedo[0][0], &t->albedo[0][1], &t->albedo[0][2], &t->albedo[1][0],
-                               &t->albedo[1][1], &t->albedo[1][2], &t->parameters[0], &t->parameters[1],
-                               &t->parameters[2], &t->parameters[3], &t->diffuse, &t->u[0], &t->u[1], &t->u[2],
-                               &t->v[0], &t->v[1], &t->v[2]};
+    float **const columns[] = {&t->albedo[0][0],  &t->albedo[0][1],  &t->albedo[0][2],  &t->albedo[1][0],
+                               &t->albedo[1][1],  &t->albedo[1][2],  &t->parameters[0], &t->parameters[1],
+                               &t->parameters[2], &t->parameters[3], &t->diffuse,       &t->u[0],
+                               &t->u[1],          &t->u[2],          &t->v[0],          &t->v[1],
+                               &t->v[2]};
     const size_t n_columns = sizeof columns / sizeof *columns;
     float *room = calloc(n * n_columns, sizeof *room);
     t->form = calloc(2 * n, sizeof *t->form);
@@ -83,9 +84,23 @@ static koksma_status make_lane_materials(koksma__frame *f)
     for (size_t i = 1; i < n; i++) {
         const koksma__shading_material *m = &f->shading_materials[i - 1];
         const koksma__batch_material *b = &f->materials[i - 1];
-        const float numbers[] = {m->albedo[0][0], m->albedo[0][1], m->albedo[0][2], m->albedo[1][0], m->albedo[1][1],
-                                 m->albedo[1][2], m->values[0], m->values[1], m->values[2], m->values[3], m->derived,
-                                 b->su, b->sv, b->s0, b->tu, b->tv, b->t0};
+        const float numbers[] = {m->albedo[0][0],
+                                 m->albedo[0][1],
+                                 m->albedo[0][2],
+                                 m->albedo[1][0],
+                                 m->albedo[1][1],
+                                 m->albedo[1][2],
+                                 m->values[0],
+                                 m->values[1],
+                                 m->values[2],
+                                 m->values[3],
+                                 m->derived,
+                                 b->su,
+                                 b->sv,
+                                 b->s0,
+                                 b->tu,
+                                 b->tv,
+                                 b->t0};
         t->form[i] = (int32_t)m->bsdf->form;
         t->traits[i] = 1 << m->bsdf->form | (int32_t)m->bsdf->lobes << KOKSMA__LOBES_AT |
                        (m->bsdf->takes_choice ? KOKSMA__TAKES_CHOICE : 0) | (m->image ? KOKSMA__HAS_IMAGE : 0) |

@@ -50,8 +50,7 @@ KOKSMA__INLINE koksma__texel koksma__environment_texel(const koksma__environment
 /* The density of the directions in a texel. */
 KOKSMA__INLINE float koksma__environment_texel_pdf(const koksma__environment *e, koksma__texel t)
 {
-    const float *columns = e->column_cdf + (size_t)t.row * e->stride + (size_t)t.column,
-                *rows = e->row_cdf + t.row;
+    const float *columns = e->column_cdf + (size_t)t.row * e->stride + (size_t)t.column, *rows = e->row_cdf + t.row;
     const float cell = (rows[1] - rows[0]) * (columns[1] - columns[0]) * ((float)e->width * (float)e->height);
     const float image = cell / (2 * 3.14159265358979f * 3.14159265358979f * (t.sine > 1e-6f ? t.sine : 1e-6f));
     return KOKSMA__ENVIRONMENT_FLOOR * (0.25f / 3.14159265358979f) + (1 - KOKSMA__ENVIRONMENT_FLOOR) * image;

@@ -41,7 +41,8 @@ void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__
     const koksma__lens l = *lens;
     const float *restrict lens_x = x ? x : none, *restrict lens_y = x ? y : none, *restrict times = u ? u : none;
     const float inverse = x ? 1 / l.focus : 0;
-    float *const o[3] = {to->rays.ox, to->rays.oy, to->rays.oz}, *const d[3] = {to->rays.dx, to->rays.dy, to->rays.dz};
+    float *const o[3] = {to->rays.ox, to->rays.oy, to->rays.oz}, *const d[3] = {to->rays.dx, to->rays.dy,
+                                                                                to->rays.dz};
     for (int k = 0; k < 3; k++) {
         float *restrict ok = o[k], *restrict dk = d[k];
         LANES_APART

@@ -12,7 +12,12 @@ typedef float koksma__lanes[KOKSMA__BLOCK];
 enum { KOKSMA__UNLIT = -1 }; /* the form of a lane that met nothing, or a light */
 
 /* Traits of a material: 1 << form, its lobes << KOKSMA__LOBES_AT, and others. */
-enum { KOKSMA__LOBES_AT = 8, KOKSMA__TAKES_CHOICE = 1 << 16, KOKSMA__HAS_IMAGE = 1 << 17, KOKSMA__IS_CHECKER = 1 << 18 };
+enum {
+    KOKSMA__LOBES_AT = 8,
+    KOKSMA__TAKES_CHOICE = 1 << 16,
+    KOKSMA__HAS_IMAGE = 1 << 17,
+    KOKSMA__IS_CHECKER = 1 << 18
+};
 
 /* What blocks look up of materials, an array a number, by the material's index + 1; entry 0 is no material. */
 typedef struct koksma__lane_materials {

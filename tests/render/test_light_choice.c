@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * One light for many. At a point the probabilities of all lights add to 1 in every selection; the choice of a block of
+ * points has these probabilities, which a regular grid of u shows light by light; a light that gives anything can be
+ * chosen, so that the mean of contribution / probability is the sum over all lights. `auto` is `one` for paths among
+ * more than 8 lights, and `all` elsewhere; its mean is that of all lights.
+ */
+#include <string.h>
+
+#include "core/random.h"
+#include "render/pipelines/wavefront.h"
+#include "test.h"
+
+enum { POINTS = 40, GRID = 4096 };
+
+static uint64_t counter;
+
+static float uniform(double low, double high)
+{
+    double pair[2];
+    koksma__random_pair(11, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
+    return (float)(low + (high - low) * pair[0]);
+}
+
+static koksma_render_options options_by(const koksma_scene *scene, koksma_light_selection lights)
+{
+    koksma_render_options options;
+    koksma_render_options_init(&options, scene);
+    options.integrator = koksma_integrator_find("path");
+    options.lights = lights;
+    return options;
+}
+
+static void random_point(float p[3], float n[3])
+{
+    float length = 0;
+    for (int k = 0; k < 3; k++) {
+        p[k] = uniform(-5, 5);
+        n[k] = uniform(-1, 1);
+        length += n[k] * n[k];
+    }
+    p[1] = uniform(0, 3.8);
+    for (int k = 0; k < 3; k++) {
+        n[k] /= sqrtf(length);
+    }
+}
+
+/* What light l gives a white surface at p through u, without shadows; 0: nothing. */
+static double contribution(const koksma__shading_light *l, const float p[3], const float n[3], const float u[2])
+{
+    koksma__beam beam;
+    const bool lit = l->kind->sample(l, p, u, &beam);
+    const float cosine = lit ? beam.w[0] * n[0] + beam.w[1] * n[1] + beam.w[2] * n[2] : 0;
+    return cosine > 0 ? (double)(cosine * beam.value[0]) : 0;
+}
+
+static void probabilities_add_to_one(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("many-lights", &scene));
+    for (int selection = KOKSMA_LIGHTS_ONE; selection <= KOKSMA_LIGHTS_AUTO; selection++) {
+        const koksma_render_options options = options_by(scene, (koksma_light_selection)selection);
+        koksma__frame frame;
+        int dark = 0;
+        assert_ok(koksma__frame_open(scene, &options, NULL, &frame));
+        for (int i = 0; i < POINTS; i++) {
+            float p[3], n[3];
+            double sum = 0;
+            random_point(p, n);
+            for (size_t l = 0; l < frame.lights.n; l++) {
+                const float probability = koksma__light_probability(&frame, p, n, (int)l);
+                sum += (double)probability;
+                for (int s = 0; s < 16; s++) {
+                    const float u[2] = {uniform(0, 1), uniform(0, 1)};
+                    if (contribution(&frame.lights.lights[l], p, n, u) > 0 && !(probability > 0)) {
+                        fail_msg("light %zu gives light and has no probability", l);
+                    }
+                }
+            }
+            dark += sum == 0; /* none can give any light, as was checked */
+            assert_near(sum, sum > 0 ? 1 : 0, 1e-5);
+        }
+        assert_true(dark < POINTS / 4);
+        koksma__frame_close(&frame);
+    }
+    koksma_scene_close(scene);
+}
+
+static void choices_have_their_probabilities(void **state)
+{
+    static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
+    static _Alignas(64) float estimates[KOKSMA__MAX_BATCH_LIGHTS][KOKSMA__BLOCK];
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("many-lights", &scene));
+    const koksma_render_options options = options_by(scene, KOKSMA_LIGHTS_ONE);
+    koksma__frame frame;
+    assert_ok(koksma__frame_open(scene, &options, NULL, &frame));
+    for (int point = 0; point < POINTS; point++) {
+        static koksma__hits hits;
+        float p[3], n[3];
+        double counts[KOKSMA__MAX_BATCH_LIGHTS] = {0}, first = 0, sum = 0;
+        int none = 0; /* of the choices: all, or no light can give any */
+        random_point(p, n);
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            hits.px[i] = p[0];
+            hits.py[i] = p[1];
+            hits.pz[i] = p[2];
+            hits.nx[i] = n[0];
+            hits.ny[i] = n[1];
+            hits.nz[i] = n[2];
+        }
+        for (int start = 0; start < GRID; start += KOKSMA__BLOCK) {
+            KOKSMA__LANES(float, u);
+            KOKSMA__LANES(int32_t, light);
+            KOKSMA__LANES(int32_t, first_light);
+            KOKSMA__LANES(float, probability);
+            KOKSMA__LANES(float, first_probability);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                u[i] = ((float)(start + i) + 0.5f) / GRID;
+            }
+            for (int isa = 0; isa < 4; isa++) {
+                const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
+                if (batch) {
+                    batch->choose(frame.lights.estimates, &hits, u, KOKSMA__BLOCK, estimates, light, probability);
+                    if (isa == 0) {
+                        memcpy(first_light, light, sizeof light);
+                        memcpy(first_probability, probability, sizeof probability);
+                    }
+                    assert_memory_equal(light, first_light, sizeof light);
+                    assert_memory_equal(probability, first_probability, sizeof probability);
+                }
+            }
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                assert_true(light[i] >= -1 && light[i] < (int32_t)frame.lights.n);
+                if (light[i] < 0) {
+                    none++;
+                    continue;
+                }
+                counts[light[i]] += 1.0 / GRID;
+                const double expected = (double)koksma__light_probability(&frame, p, n, light[i]);
+                assert_near((double)probability[i], expected, 1e-5 * expected);
+            }
+        }
+        for (size_t l = 0; l < frame.lights.n; l++) {
+            const double expected = (double)koksma__light_probability(&frame, p, n, (int)l);
+            const float u[2] = {0.5f, 0.5f};
+            const double gives = contribution(&frame.lights.lights[l], p, n, u);
+            assert_near(counts[l], expected, 1.5 / GRID); /* an interval of u: at most one number more or less */
+            sum += gives;
+            first += expected > 0 ? expected * (gives / expected) : 0;
+        }
+        assert_near(first, sum, 1e-9 * sum);
+        assert_true(none == 0 || (none == GRID && sum == 0));
+    }
+    koksma__frame_close(&frame);
+    koksma_scene_close(scene);
+}
+
+/* Mean of the picture over seeds, and its standard error. */
+static double mean_over_seeds(const koksma_scene *scene, koksma_render_options options, double *error)
+{
+    enum { SEEDS = 16 };
+    double sum = 0, squares = 0;
+    for (int seed = 0; seed < SEEDS; seed++) {
+        koksma_image image;
+        double mean = 0;
+        options.seed = (uint64_t)(100 * (int)options.lights + seed);
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        const size_t n = (size_t)image.width * (size_t)image.height * (size_t)image.channels;
+        for (size_t i = 0; i < n; i++) {
+            mean += (double)image.pixels[i] / (double)n;
+        }
+        sum += mean;
+        squares += mean * mean;
+        koksma_image_fini(&image);
+    }
+    *error = sqrt(fmax(squares / SEEDS - sum / SEEDS * (sum / SEEDS), 0) / (SEEDS - 1));
+    return sum / SEEDS;
+}
+
+static void one_of_many_has_the_mean_of_all(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    double errors[2], means[2];
+    assert_ok(koksma_scene_open("many-lights", &scene));
+    for (int i = 0; i < 2; i++) {
+        koksma_render_options options = options_by(scene, i ? KOKSMA_LIGHTS_AUTO : KOKSMA_LIGHTS_ALL);
+        options.width = 32;
+        options.height = 24;
+        options.spp = i ? 64 : 8;
+        means[i] = mean_over_seeds(scene, options, &errors[i]);
+    }
+    assert_near(means[1], means[0], 4 * hypot(errors[0], errors[1]));
+    assert_true(hypot(errors[0], errors[1]) < 2e-3 * means[0]);
+    koksma_scene_close(scene);
+}
+
+static void automatic_selection(void **state)
+{
+    static const struct {
+        const char *scene, *integrator;
+        koksma_light_selection expected;
+    } rows[] = {{"many-lights", "path", KOKSMA_LIGHTS_ONE},
+                {"many-lights", "distribution", KOKSMA_LIGHTS_ALL},
+                {"many-lights", "whitted", KOKSMA_LIGHTS_ALL},
+                {"cornell", "path", KOKSMA_LIGHTS_ALL},
+                {"balls", "path", KOKSMA_LIGHTS_ALL}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        koksma_scene *scene;
+        koksma_image images[2];
+        assert_ok(koksma_scene_open(rows[i].scene, &scene));
+        for (int k = 0; k < 2; k++) {
+            koksma_render_options options = options_by(scene, k ? rows[i].expected : KOKSMA_LIGHTS_AUTO);
+            options.integrator = koksma_integrator_find(rows[i].integrator);
+            options.width = options.height = 12;
+            options.spp = 4;
+            assert_ok(koksma_render(scene, &options, NULL, &images[k]));
+        }
+        assert_memory_equal(images[0].pixels, images[1].pixels, 144 * (size_t)images[0].channels * sizeof(float));
+        koksma_image_fini(&images[0]);
+        koksma_image_fini(&images[1]);
+        koksma_scene_close(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(probabilities_add_to_one),
+        cmocka_unit_test(choices_have_their_probabilities),
+        cmocka_unit_test(one_of_many_has_the_mean_of_all),
+        cmocka_unit_test(automatic_selection),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

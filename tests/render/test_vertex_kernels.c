@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Blocks of vertices against the same ray by ray: what surfaces of all kinds of materials reflect, where they scatter,
+ * and samples of all kinds of lights. koksma__bsdf and koksma__light_kind, whose densities and energies test_bsdfs and
+ * test_light_kinds check, say what is right; all instruction sets give the same bits.
+ */
+#include <string.h>
+
+#include "core/random.h"
+#include "render/frame.h"
+#include "scene/scene.h"
+#include "test.h"
+
+enum { ROUNDS = 200 };
+
+static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
+static uint64_t counter;
+
+static float uniform(double low, double high)
+{
+    double pair[2];
+    koksma__random_pair(12, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
+    return (float)(low + (high - low) * pair[0]);
+}
+
+static void unit_vector(float v[3])
+{
+    float square = 0;
+    while (!(square > 0.1f && square < 1)) {
+        square = 0;
+        for (int k = 0; k < 3; k++) {
+            v[k] = uniform(-1, 1);
+            square += v[k] * v[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        v[k] /= sqrtf(square);
+    }
+}
+
+static koksma_scene *every_kind(void)
+{
+    static const char text[] =
+        "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 20}, \"shapes\": [],"
+        "\"materials\": [{\"name\": \"a\", \"kind\": \"lambert\", \"albedo\": [0.2, 0.5, 0.9]},"
+        "{\"name\": \"b\", \"kind\": \"checker\", \"albedos\": [0.1, [0.9, 0.8, 0.7]], \"period\": 0.3, "
+        "\"angle_deg\": 20},"
+        "{\"name\": \"c\", \"kind\": \"utah\", \"albedo\": [0.5, 0.4, 0.3], \"reflectance\": 0.4, \"exponent\": 50},"
+        "{\"name\": \"d\", \"kind\": \"phong\", \"reflectance\": [0.9, 0.8, 0.2], \"exponent\": 7},"
+        "{\"name\": \"e\", \"kind\": \"ggx\", \"reflectance\": [0.9, 0.6, 0.2], \"roughness\": 0.4},"
+        "{\"name\": \"f\", \"kind\": \"mirror\", \"reflectance\": 0.8},"
+        "{\"name\": \"g\", \"kind\": \"dielectric\", \"ior\": 1.5}],"
+        "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 3, 0], \"facing\": [0, 0, 0], \"half\": [0.5, 1], "
+        "\"radiance\": [1, 2, 3]},"
+        "{\"kind\": \"disk\", \"centre\": [2, 2, 0], \"facing\": [0, 0, 0], \"radius\": 0.5, \"radiance\": 3},"
+        "{\"kind\": \"sphere\", \"centre\": [-2, 2, 1], \"radius\": 0.7, \"radiance\": [3, 1, 1]},"
+        "{\"kind\": \"point\", \"centre\": [0, 2, 2], \"intensity\": 3},"
+        "{\"kind\": \"directional\", \"direction\": [1, -1, 0.2], \"irradiance\": [1, 2, 2]},"
+        "{\"kind\": \"environment\", \"radiance\": [1, 0.5, 0.2]}]}";
+    koksma_scene *scene;
+    assert_ok(koksma__scene_open_text("test.json", text, sizeof text - 1, &scene));
+    return scene;
+}
+
+/* A block of hits, one in eight a miss; rays that led there. */
+static void random_hits(const koksma_scene *scene, koksma__rays *rays, koksma__hits *h)
+{
+    memset(h, 0, sizeof *h);
+    memset(rays, 0, sizeof *rays);
+    for (int i = 0; i < KOKSMA__BLOCK; i++) {
+        float n[3], d[3];
+        unit_vector(n);
+        unit_vector(d);
+        const float up = n[0] * d[0] + n[1] * d[1] + n[2] * d[2], length = uniform(0.5, 2), side = up > 0 ? -1 : 1;
+        rays->dx[i] = length * d[0];
+        rays->dy[i] = length * d[1];
+        rays->dz[i] = length * d[2];
+        h->nx[i] = side * n[0];
+        h->ny[i] = side * n[1];
+        h->nz[i] = side * n[2];
+        h->px[i] = uniform(-1, 1);
+        h->py[i] = uniform(-1, 1);
+        h->pz[i] = uniform(-1, 1);
+        h->u[i] = uniform(-1, 1);
+        h->v[i] = uniform(-1, 1);
+        h->back[i] = uniform(0, 1) < 0.5f;
+        h->primitive[i] = uniform(0, 8) < 1 ? -1 : i;
+        h->material[i] = h->primitive[i] < 0 ? -1 : (int32_t)uniform(0, (double)scene->n_materials * 0.999);
+    }
+}
+
+/* Every instruction set on the same block: returns the results of the first in outs[0]. */
+typedef struct results {
+    koksma__surfaces surfaces;
+    koksma__beams beams;
+    koksma__shadows shadows;
+    koksma__directions directions;
+    _Alignas(64) koksma__lanes reflected[3];
+    int lit;
+} results;
+
+static void run(const koksma__batch_table *batch, const koksma__frame *f, const koksma__rays *rays,
+                const koksma__hits *hits, const koksma__light_lanes *lights, const koksma__lanes u[5], bool goes_on,
+                results *out)
+{
+    memset(out, 0, sizeof *out);
+    out->surfaces.hits = hits;
+    out->surfaces.materials = f->shading_materials;
+    out->surfaces.table = &f->lane_materials;
+    batch->surfaces(rays, KOKSMA__BLOCK, KOKSMA__BLOCK, &out->surfaces);
+    batch->beams(lights, hits, u, KOKSMA__BLOCK, &out->beams);
+    out->lit = batch->reflect(&out->surfaces, lights, &out->beams, f->flags->followed, goes_on, KOKSMA__BLOCK,
+                              &out->shadows, out->reflected);
+    batch->scatter(&out->surfaces, f->flags->followed, u + 2, KOKSMA__BLOCK, &out->directions);
+}
+
+static void assert_close(float a, float b, const char *what, const char *kind)
+{
+    if (!(fabs((double)(a - b)) <= 2e-6 * fabs((double)b) + 1e-12)) {
+        fail_msg("%s of %s: %.9g in lanes, %.9g ray by ray", what, kind, (double)a, (double)b);
+    }
+}
+
+static void check_beam(const koksma__shading_light *light, const results *r, int i, const float u[2],
+                       koksma__beam *beam, bool *lit)
+{
+    const koksma__hits *h = r->surfaces.hits;
+    const float p[3] = {h->px[i], h->py[i], h->pz[i]};
+    const char *kind = light->kind->kind.name;
+    *lit = light->kind->sample(light, p, u, beam);
+    assert_int_equal(r->beams.lit[i], *lit);
+    for (int k = 0; *lit && k < 3; k++) {
+        assert_close(r->beams.d[k][i], beam->d[k], "vector", kind);
+        assert_close(r->beams.w[k][i], beam->w[k], "direction", kind);
+        assert_close(r->beams.value[k][i], beam->value[k], "value", kind);
+    }
+    if (*lit) {
+        assert_close(r->beams.pdf[i], beam->pdf, "density", kind);
+    }
+}
+
+static void check_lane(const koksma__frame *f, const koksma__light_lanes *lights, const koksma__lanes u[5],
+                       bool goes_on, const results *r, int i)
+{
+    const koksma__shading_light *light = &f->lights.lights[lights->light[i]];
+    const koksma__surface s = koksma__surface_at(&r->surfaces, i);
+    const koksma__bsdf *bsdf = s.material->bsdf;
+    const float pair[2] = {u[0][i], u[1][i]}, direction[2] = {u[2][i], u[3][i]};
+    const float probability = lights->probability[i];
+    koksma__beam beam;
+    koksma__scatter to;
+    bool lit;
+    check_beam(light, r, i, pair, &beam, &lit);
+    float value[3] = {0, 0, 0};
+    const float met = lit ? bsdf->value(&s, beam.w, bsdf->lobes, value) : 0, sampled = beam.pdf * probability;
+    const float weight =
+        lit && goes_on && light->visible && beam.pdf > 0 ? sampled * sampled / (sampled * sampled + met * met) : 1;
+    for (int k = 0; lit && k < 3; k++) {
+        assert_close(r->reflected[k][i], value[k] * beam.value[k] * weight / probability, "reflected light",
+                     bsdf->kind.name);
+    }
+    assert_int_equal(r->shadows.light[i] > 0, lit && (value[0] > 0 || value[1] > 0 || value[2] > 0));
+    const bool kept = bsdf->sample(&s, bsdf->lobes, direction, u[4][i], &to);
+    assert_int_equal(r->directions.kept[i] != 0, kept);
+    for (int k = 0; kept && k < 3; k++) {
+        assert_close(r->directions.w[k][i], to.w[k], "direction", bsdf->kind.name);
+        assert_close(r->directions.weight[k][i], to.weight[k], "weight", bsdf->kind.name);
+    }
+    if (kept) {
+        assert_close(r->directions.pdf[i], to.pdf, "density", bsdf->kind.name);
+    }
+}
+
+/* Light `same` for all lanes, or each lane its own. */
+static void check_block(const koksma__frame *f, int same, bool goes_on)
+{
+    static koksma__rays rays;
+    static koksma__hits hits;
+    static results found, other;
+    static _Alignas(64) koksma__lanes u[5];
+    koksma__light_lanes lights = {.lights = f->lights.lights, .same = same};
+    random_hits(f->scene, &rays, &hits);
+    for (int i = 0; i < KOKSMA__BLOCK; i++) {
+        for (int k = 0; k < 5; k++) {
+            u[k][i] = uniform(0, 0.9999999);
+        }
+        const int own = (int)uniform(0, (double)f->lights.n * 0.999);
+        lights.light[i] = hits.primitive[i] < 0 ? -1 : same >= 0 ? same : own;
+        lights.probability[i] = same >= 0 ? 1 : uniform(0.1, 1);
+    }
+    run(koksma__batch_find("ref"), f, &rays, &hits, &lights, u, goes_on, &found);
+    for (int isa = 1; isa < 4; isa++) {
+        const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
+        if (batch) {
+            run(batch, f, &rays, &hits, &lights, u, goes_on, &other);
+            assert_memory_equal(&found, &other, sizeof found);
+        }
+    }
+    int lit = 0;
+    for (int i = 0; i < KOKSMA__BLOCK; i++) {
+        lit += found.shadows.light[i] > 0;
+        if (hits.primitive[i] < 0) {
+            assert_int_equal(found.surfaces.form[i], KOKSMA__UNLIT);
+            assert_false(found.shadows.light[i] > 0 || found.directions.kept[i]);
+        } else {
+            check_lane(f, &lights, u, goes_on, &found, i);
+        }
+    }
+    assert_int_equal(found.lit, lit);
+}
+
+static void lanes_equal_rays(void **state)
+{
+    (void)state;
+    koksma_scene *scene = every_kind();
+    koksma_render_options options;
+    koksma__frame frame;
+    koksma_render_options_init(&options, scene);
+    options.integrator = koksma_integrator_find("path");
+    assert_ok(koksma__frame_open(scene, &options, NULL, &frame));
+    for (int round = 0; round < ROUNDS; round++) {
+        for (int light = -1; light < (int)frame.lights.n; light++) {
+            check_block(&frame, light, round % 2 == 0);
+        }
+    }
+    koksma__frame_close(&frame);
+    koksma_scene_close(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lanes_equal_rays)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
