@@ -281,8 +281,8 @@ KOKSMA_INLINE koksma__four koksma__four_seeds(uint64_t key)
 #endif
 }
 
-/* Reverses the order of the bits in each word: by bytes and tables of half bytes, or by a product of matrices. */
 #if defined(KOKSMA_VECTOR)
+/* Reverses the order of the bits in each word: by bytes and tables of half bytes, or by a product of matrices. */
 KOKSMA_INLINE koksma__four koksma__mirror_four(koksma__four x)
 {
 #if defined(__SSSE3__)
