@@ -19,10 +19,11 @@
  * but cmj.
  *
  *     koksma_sobol_2d    every aligned block is a (0,m,2)-net in base 2
- *     koksma_sobol_4d    the same in its first two dimensions, which are those of koksma_sobol_2d
+ *     koksma_sobol_4d    the same in its first two dimensions, which are those of koksma_sobol_2d; _1d and _3d likewise
  *     koksma_pmj02_2d    every aligned block is a (0,m,2)-net in base 2
  *     koksma_cmj_2d      all columns * rows samples: one in each cell and in each stratum; no promise for fewer
  *     koksma_r_2d        every aligned block is 2^m consecutive points of the R-sequence, shifted on the torus
+ *     koksma_white_4d    random numbers: no promise
  *
  * Between domains samples are independent: between two uses (nested ones too), pixels or seeds, and between two
  * functions. Sample i of one domain meets a random sample of the other, so that the mean over N samples of a function
@@ -35,6 +36,7 @@
  *     koksma_pmj02_2d    1.26
  *     koksma_cmj_2d      1.00; 1.03 at N = 16
  *     koksma_r_2d        1.07
+ *     koksma_white_4d    1.00
  *
  * The order of a domain's samples depends on 32 random bits: with probability 2^-32 two domains have the same order
  * and are then dependent. koksma_sobol_2d and koksma_pmj02_2d have the same law, with different bits.
@@ -51,7 +53,8 @@
  * These functions check nothing: pointers are not NULL, and what a comment says of an argument's range must hold. Define
  * KOKSMA_ASSERT(condition) as assert(condition) before the header to have the ranges checked.
  *
- * Coordinates are in [0,1). Cast them with koksma_to_float: (float)0.99999999 is 1.
+ * Coordinates are in [0,1). Draw floats with koksma_sobol_2f and its kin, or cast doubles with koksma_to_float:
+ * (float)0.99999999 is 1. `docs/put-it-into-your-renderer.md` shows each function at work.
  *
  * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021. Seeds:
  * constants of Wellons 2018 and of Degski's hash. PMJ02 by matrices: Helmer, Christensen & Kensler 2021. Correlated multi-jitter: Kensler 2013.
@@ -120,12 +123,20 @@ KOKSMA_INLINE uint64_t koksma_mix(uint64_t key)
     return key ^ key >> 32;
 }
 
+/* Returns the key of what a number makes of another key, for one purpose. The product keeps small numbers and small keys
+   apart: number 1 of key 2 is not number 2 of key 1. */
+KOKSMA_INLINE uint64_t koksma__derived(uint64_t key, uint32_t purpose, uint32_t number)
+{
+    return koksma_mix(key ^ ((uint64_t)purpose << 32 | 0x85a308d3u) ^
+                      number * ((uint64_t)0x9e3779b9u << 32 | 0x7f4a7c15u));
+}
+
 /* Returns the domain for one purpose of another domain's samples, such as the lens. Purposes are numbers of your
    choice; domains may be nested to any depth. Two purposes of one domain never have the same key. */
 KOKSMA_INLINE koksma_domain koksma_domain_of_use(koksma_domain domain, uint32_t use)
 {
     koksma_domain sub;
-    sub.key = koksma_mix(domain.key ^ ((uint64_t)0x243f6a88u << 32 | (0x85a308d3u ^ use)));
+    sub.key = koksma__derived(domain.key, 0x243f6a88u, use);
     return sub;
 }
 
@@ -136,6 +147,31 @@ KOKSMA_INLINE koksma_domain koksma_domain_of_pixel(uint64_t seed, uint32_t x, ui
     koksma_domain pixel;
     pixel.key = koksma_mix(koksma_mix(image ^ ((uint64_t)y << 32 | x)));
     return pixel;
+}
+
+/* Returns the domain for one sample of another domain: where sample i is split into as many as it takes, say a number of
+   shadow rays that depends on what it met. They are well spread among themselves, and independent of those of other
+   samples. Where each sample is split into `count` of them, koksma_part_of_sample spreads all together. */
+KOKSMA_INLINE koksma_domain koksma_domain_of_sample(koksma_domain domain, uint32_t i)
+{
+    koksma_domain sub;
+    sub.key = koksma__derived(domain.key, 0xa4093822u, i);
+    return sub;
+}
+
+/* Returns the index of part s of 0 .. count - 1 of sample i: the parts of one sample, and of aligned blocks of samples, are
+   aligned blocks if count is a power of two. (i + 1) * count is at most 2^32. */
+KOKSMA_INLINE uint32_t koksma_part_of_sample(uint32_t i, uint32_t count, uint32_t s)
+{
+    KOKSMA_ASSERT(s < count && i <= 0xffffffffu / count && i * count <= 0xffffffffu - s);
+    return i * count + s;
+}
+
+/* Returns the seed of one frame of an animation, for koksma_domain_of_pixel: frames are independent. To accumulate frames
+   into one picture keep the seed instead, and give frame f the samples f * spp .. f * spp + spp - 1. */
+KOKSMA_INLINE uint64_t koksma_seed_of_frame(uint64_t seed, uint32_t frame)
+{
+    return koksma_mix(koksma__derived(seed, 0x082efa98u, frame));
 }
 
 /* ---- Numbers ------------------------------------------------------------------------------------------- */
@@ -245,8 +281,8 @@ KOKSMA_INLINE koksma__four koksma__four_seeds(uint64_t key)
 #endif
 }
 
-/* Reverses the order of the bits in each word: by bytes and tables of half bytes, or by a product of matrices. */
 #if defined(KOKSMA_VECTOR)
+/* Reverses the order of the bits in each word: by bytes and tables of half bytes, or by a product of matrices. */
 KOKSMA_INLINE koksma__four koksma__mirror_four(koksma__four x)
 {
 #if defined(__SSSE3__)
@@ -531,33 +567,146 @@ KOKSMA_INLINE koksma_sobol koksma_sobol_of(koksma_domain domain)
     return sequence;
 }
 
-/* Computes sample i of a (0,2)-sequence in base 2: every aligned block of 2^m samples is a (0,m,2)-net. */
-KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, double xy[2])
-{
-    koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 2, xy);
-}
-
-/* Computes sample i in four dimensions; the first two are those of koksma_sobol_at_2d. */
-KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, double xs[4])
-{
-    koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 4, xs);
-}
-
-/* Computes sample i of a domain as four 32-bit fractions. */
+/* Returns sample i of a domain as four 32-bit fractions. */
 KOKSMA_INLINE koksma__four koksma__sobol_words(koksma_domain domain, uint32_t i)
 {
     return koksma__sobol_four(i, koksma_seed_of_order(domain.key), koksma__four_seeds(domain.key));
 }
 
-/* Computes sample i of a domain in two dimensions, or in four. */
+/* Computes sample i of a domain in one to four dimensions, as doubles, or as floats: the doubles rounded down. Fewer
+   dimensions are the first of the four. Every aligned block of 2^m samples has one in each 2^m-th of each axis, and its
+   first two dimensions are a (0,m,2)-net in base 2. */
+KOKSMA_INLINE double koksma_sobol_1d(koksma_domain domain, uint32_t i)
+{
+    double x;
+    koksma__to_doubles(koksma__sobol_words(domain, i), 1, &x);
+    return x;
+}
+
 KOKSMA_INLINE void koksma_sobol_2d(koksma_domain domain, uint32_t i, double xy[2])
 {
     koksma__to_doubles(koksma__sobol_words(domain, i), 2, xy);
 }
 
+KOKSMA_INLINE void koksma_sobol_3d(koksma_domain domain, uint32_t i, double xs[3])
+{
+    koksma__to_doubles(koksma__sobol_words(domain, i), 3, xs);
+}
+
 KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[4])
 {
     koksma__to_doubles(koksma__sobol_words(domain, i), 4, xs);
+}
+
+KOKSMA_INLINE float koksma_sobol_1f(koksma_domain domain, uint32_t i)
+{
+    float x;
+    koksma__to_floats(koksma__sobol_words(domain, i), 1, &x);
+    return x;
+}
+
+KOKSMA_INLINE void koksma_sobol_2f(koksma_domain domain, uint32_t i, float xy[2])
+{
+    koksma__to_floats(koksma__sobol_words(domain, i), 2, xy);
+}
+
+KOKSMA_INLINE void koksma_sobol_3f(koksma_domain domain, uint32_t i, float xs[3])
+{
+    koksma__to_floats(koksma__sobol_words(domain, i), 3, xs);
+}
+
+KOKSMA_INLINE void koksma_sobol_4f(koksma_domain domain, uint32_t i, float xs[4])
+{
+    koksma__to_floats(koksma__sobol_words(domain, i), 4, xs);
+}
+
+/* Computes the same from seeds that are kept. */
+KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, double xy[2])
+{
+    koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 2, xy);
+}
+
+KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, double xs[4])
+{
+    koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 4, xs);
+}
+
+/* Computes samples first .. first + count - 1 of a domain: xs[dim * k ...] receives those of sample first + k, dim 1 to 4. */
+KOKSMA_INLINE void koksma_sobol_range(koksma_domain domain, uint32_t first, uint32_t count, int dim, double *xs)
+{
+    const uint32_t order = koksma_seed_of_order(domain.key);
+    const koksma__four seeds = koksma__four_seeds(domain.key);
+    uint32_t k;
+    KOKSMA_ASSERT(dim >= 1 && dim <= 4);
+    for (k = 0; k < count; k++, xs += dim) {
+        koksma__to_doubles(koksma__sobol_four(first + k, order, seeds), dim, xs);
+    }
+}
+
+KOKSMA_INLINE void koksma_sobol_range_float(koksma_domain domain, uint32_t first, uint32_t count, int dim, float *xs)
+{
+    const uint32_t order = koksma_seed_of_order(domain.key);
+    const koksma__four seeds = koksma__four_seeds(domain.key);
+    uint32_t k;
+    KOKSMA_ASSERT(dim >= 1 && dim <= 4);
+    for (k = 0; k < count; k++, xs += dim) {
+        koksma__to_floats(koksma__sobol_four(first + k, order, seeds), dim, xs);
+    }
+}
+
+/* Computes sample indices[k] of domains[k] for each lane k < count of a wavefront, into xs[dim * k ...], dim 1 to 4. */
+KOKSMA_INLINE void koksma_sobol_lanes(uint32_t count, const koksma_domain *domains, const uint32_t *indices, int dim,
+                                      double *xs)
+{
+    uint32_t k;
+    KOKSMA_ASSERT(dim >= 1 && dim <= 4);
+    for (k = 0; k < count; k++, xs += dim) {
+        koksma__to_doubles(koksma__sobol_words(domains[k], indices[k]), dim, xs);
+    }
+}
+
+KOKSMA_INLINE void koksma_sobol_lanes_float(uint32_t count, const koksma_domain *domains, const uint32_t *indices,
+                                            int dim, float *xs)
+{
+    uint32_t k;
+    KOKSMA_ASSERT(dim >= 1 && dim <= 4);
+    for (k = 0; k < count; k++, xs += dim) {
+        koksma__to_floats(koksma__sobol_words(domains[k], indices[k]), dim, xs);
+    }
+}
+
+/* ---- White noise --------------------------------------------------------------------------------------- */
+
+/* Returns four random words: those of sample i of a domain, independent of all others. */
+KOKSMA_INLINE koksma__four koksma__white_words(koksma_domain domain, uint32_t i)
+{
+    return koksma__four_seeds(koksma__derived(domain.key, 0x452821e6u, i));
+}
+
+/* Computes independent random numbers, of 32 bits each or as floats of 24: for choices that need no stratification, such as
+   Russian roulette, and as the baseline of comparisons. */
+KOKSMA_INLINE double koksma_white_1d(koksma_domain domain, uint32_t i)
+{
+    double x;
+    koksma__to_doubles(koksma__white_words(domain, i), 1, &x);
+    return x;
+}
+
+KOKSMA_INLINE void koksma_white_4d(koksma_domain domain, uint32_t i, double xs[4])
+{
+    koksma__to_doubles(koksma__white_words(domain, i), 4, xs);
+}
+
+KOKSMA_INLINE float koksma_white_1f(koksma_domain domain, uint32_t i)
+{
+    float x;
+    koksma__to_floats(koksma__white_words(domain, i), 1, &x);
+    return x;
+}
+
+KOKSMA_INLINE void koksma_white_4f(koksma_domain domain, uint32_t i, float xs[4])
+{
+    koksma__to_floats(koksma__white_words(domain, i), 4, xs);
 }
 
 /* ---- Progressive multi-jittered (0,2) ------------------------------------------------------------------ */

@@ -92,7 +92,8 @@ def _domain_of_pixel(seed: int, pixel: Any) -> Tuple[Any, Any]:
 
 
 def _domain_of_use(domain: Tuple[Any, Any], use: Any) -> Tuple[Any, Any]:
-    return _mix((domain[0] ^ use ^ 0x85A308D3, domain[1] ^ 0x243F6A88))
+    high, low = _wide(use, 0x7F4A7C15)
+    return _mix((domain[0] ^ low ^ 0x85A308D3, domain[1] ^ _masked(high + use * 0x9E3779B9) ^ 0x243F6A88))
 
 
 def _seed_of(mixed: Tuple[Any, Any], dimension: int) -> Any:

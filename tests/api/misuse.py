@@ -105,7 +105,7 @@ VALID = {
     # Inline functions.
     "koksma_domain": "{7}", "koksma_sobol *": "a_sequence()", "uint32_t": "1", "const uint32_t *": "a_buffer(3 * sizeof(uint32_t))",
     "int": "1", "koksma_permute.n": "8", "koksma_cmj_2d.columns": "4", "koksma_cmj_2d.rows": "4", "koksma_mask_value.pixels": "16",
-    "koksma_mask_2d.spp": "4",
+    "koksma_mask_2d.spp": "4", "koksma_part_of_sample.s": "0", "float *": "a_buffer(4 * sizeof(float))", "koksma_domain *": "a_buffer(sizeof(koksma_domain))",
     "koksma_findings_fini.findings": "a_zero(sizeof(koksma_findings))",
 }
 
@@ -246,8 +246,8 @@ def write_function(node, lines):
             if variant:
                 cases.append((parameter, expression, f"{parameter} = {expression}", "VALID", (parameter, variant)))
             for place, value, statement in wrong_values(parameter, kind, 0, parameter):
-                if inline and value == "NULL":
-                    continue
+                if inline and (value == "NULL" or parameter == "count" and kind == "uint32_t" and "sobol" in name):
+                    continue  # what nobody can see: a pointer's target, and how long an array is
                 if expression.startswith(("a_buffer", "a_zero")) and place != parameter:
                     continue  # a result, or nothing to look at
                 if not (variant and place == parameter) and not (expression == "NULL" and place != parameter):

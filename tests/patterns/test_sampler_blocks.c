@@ -156,20 +156,100 @@ static void cmj_fills_cells_and_strata(void **state)
     }
 }
 
-/* The forms for loops over one domain have the numbers of the others. */
-static void keyed_forms_are_equal(void **state)
+/* The forms for fewer dimensions, floats, loops over one domain and lanes have the numbers of koksma_sobol_4d. */
+static void all_forms_are_equal(void **state)
 {
     (void)state;
-    for (uint32_t i = 0; i < 1000; i++) {
-        const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(6, i, 1), i);
-        const koksma_sobol sequence = koksma_sobol_of(domain);
-        double a[4], b[4];
-        koksma_sobol_2d(domain, 2654435761u * i, a);
-        koksma_sobol_at_2d(&sequence, 2654435761u * i, b);
-        assert_memory_equal(a, b, 2 * sizeof *a);
-        koksma_sobol_4d(domain, 2654435761u * i, a);
-        koksma_sobol_at_4d(&sequence, 2654435761u * i, b);
-        assert_memory_equal(a, b, 4 * sizeof *a);
+    enum { LANES = 1000 };
+    static koksma_domain domains[LANES];
+    static uint32_t indices[LANES];
+    static double xs[LANES][4], lanes[4 * LANES];
+    static float floats[4 * LANES];
+    for (uint32_t i = 0; i < LANES; i++) {
+        domains[i] = koksma_domain_of_use(koksma_domain_of_pixel(6, i, 1), i);
+        indices[i] = i % 2 ? i : 2654435761u * i;
+        koksma_sobol_4d(domains[i], indices[i], xs[i]);
+    }
+    for (uint32_t i = 0; i < LANES; i++) {
+        const koksma_sobol sequence = koksma_sobol_of(domains[i]);
+        double two[2], three[3], four[4];
+        float two_floats[2], three_floats[3], four_floats[4];
+        assert_true(koksma_sobol_1d(domains[i], indices[i]) == xs[i][0]);
+        koksma_sobol_2d(domains[i], indices[i], two);
+        assert_memory_equal(two, xs[i], sizeof two);
+        koksma_sobol_3d(domains[i], indices[i], three);
+        assert_memory_equal(three, xs[i], sizeof three);
+        koksma_sobol_at_2d(&sequence, indices[i], two);
+        assert_memory_equal(two, xs[i], sizeof two);
+        koksma_sobol_at_4d(&sequence, indices[i], four);
+        assert_memory_equal(four, xs[i], sizeof four);
+        koksma_sobol_2f(domains[i], indices[i], two_floats);
+        koksma_sobol_3f(domains[i], indices[i], three_floats);
+        koksma_sobol_4f(domains[i], indices[i], four_floats);
+        assert_true(koksma_sobol_1f(domains[i], indices[i]) == four_floats[0]);
+        assert_memory_equal(two_floats, four_floats, sizeof two_floats);
+        assert_memory_equal(three_floats, four_floats, sizeof three_floats);
+        for (int k = 0; k < 4; k++) {
+            assert_true(four_floats[k] == koksma_to_float(xs[i][k]));
+        }
+    }
+    for (int dim = 1; dim <= 4; dim++) {
+        koksma_sobol_lanes(LANES, domains, indices, dim, lanes);
+        koksma_sobol_lanes_float(LANES, domains, indices, dim, floats);
+        for (int k = 0; k < LANES * dim; k++) {
+            assert_true(lanes[k] == xs[k / dim][k % dim] && floats[k] == koksma_to_float(lanes[k]));
+        }
+        const uint32_t first = dim % 2 ? 70000 : 65000; /* the latter on both sides of 2^16 */
+        koksma_sobol_range(domains[0], first, LANES, dim, lanes);
+        koksma_sobol_range_float(domains[0], first, LANES, dim, floats);
+        for (uint32_t i = 0; i < LANES; i++) {
+            double four[4];
+            koksma_sobol_4d(domains[0], first + i, four);
+            assert_memory_equal(lanes + (uint32_t)dim * i, four, (size_t)dim * sizeof *four);
+            for (int k = 0; k < dim; k++) {
+                assert_true(floats[dim * (int)i + k] == koksma_to_float(four[k]));
+            }
+        }
+    }
+}
+
+/* Parts of samples: those of one sample, and of all samples of an aligned block, are nets. */
+static void parts_of_samples_are_nets(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 32, PARTS = 8 };
+    const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(7, 5, 6), 2);
+    static double xs[2 * SAMPLES * PARTS];
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        double alone[2 * PARTS];
+        for (uint32_t s = 0; s < PARTS; s++) {
+            koksma_sobol_2d(domain, koksma_part_of_sample(i, PARTS, s), xs + 2 * (PARTS * i + s));
+            koksma_sobol_2d(koksma_domain_of_sample(domain, i), s, alone + 2 * s);
+        }
+        assert_is_net("the parts of a sample", xs + 2 * PARTS * (size_t)i, 2, 0, PARTS);
+        assert_is_net("the domain of a sample", alone, 2, 0, PARTS);
+    }
+    assert_is_net("all parts", xs, 2, 0, SAMPLES * PARTS);
+}
+
+/* One sample in each of 2^m intervals, in each dimension, whatever the function is. */
+static void every_axis_is_stratified(void **state)
+{
+    (void)state;
+    for (uint32_t n = 1; n <= 1024; n *= 4) {
+        for (uint32_t block = 0; block < 3; block++) {
+            const koksma_domain domain = koksma_domain_of_pixel(8, n, block);
+            unsigned char seen[4][1024] = {{0}};
+            for (uint32_t i = 0; i < n; i++) {
+                double xs[4];
+                koksma_sobol_4d(domain, (block * 77777) * n + i, xs);
+                for (int k = 0; k < 4; k++) {
+                    const size_t stratum = (size_t)(xs[k] * n);
+                    assert_true(!seen[k][stratum]);
+                    seen[k][stratum] = 1;
+                }
+            }
+        }
     }
 }
 
@@ -178,7 +258,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(aligned_blocks_are_nets),      cmocka_unit_test(quads_of_an_image_are_nets),
         cmocka_unit_test(aligned_blocks_of_r_are_runs), cmocka_unit_test(cmj_fills_cells_and_strata),
-        cmocka_unit_test(keyed_forms_are_equal),
+        cmocka_unit_test(all_forms_are_equal),          cmocka_unit_test(parts_of_samples_are_nets),
+        cmocka_unit_test(every_axis_is_stratified),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,6 +50,28 @@ static void of_nested_use(const arguments *a, uint32_t seeds[SEEDS])
     seeds_of(koksma_domain_of_use(koksma_domain_of_use(pixel, a->word[2]), 3), seeds);
 }
 
+static void of_frame(const arguments *a, uint32_t seeds[SEEDS])
+{
+    seeds_of(koksma_domain_of_pixel(koksma_seed_of_frame(a->seed, a->word[0]), a->word[1], a->word[2]), seeds);
+}
+
+static void of_sample(const arguments *a, uint32_t seeds[SEEDS])
+{
+    seeds_of(koksma_domain_of_sample((koksma_domain){a->seed}, a->word[2]), seeds);
+}
+
+/* Four numbers of white noise, and one of another domain. */
+static void of_white(const arguments *a, uint32_t seeds[SEEDS])
+{
+    double xs[4];
+    koksma_white_4d((koksma_domain){a->seed}, a->word[2], xs);
+    for (int k = 0; k < 4; k++) {
+        seeds[k] = (uint32_t)(xs[k] * 0x1p32);
+    }
+    koksma_white_4d((koksma_domain){a->seed ^ a->word[2]}, 1, xs); /* another domain, so that there are five */
+    seeds[4] = (uint32_t)(xs[0] * 0x1p32);
+}
+
 /* As programs have them: an image of 64 pixels a side, 5 uses; or any. */
 static arguments arguments_of(uint32_t t, bool small)
 {
@@ -106,10 +128,13 @@ static void every_bit_reaches_every_seed(void **state)
         {"a use of a domain, by its key", of_key, 0, 64}, {"a use of a domain, by the use", of_key, 128, 32},
         {"a pixel, by the seed", of_pixel, 0, 64},        {"a pixel, by x and y", of_pixel, 64, 64},
         {"a use of a pixel, by all", of_use, 0, 160},     {"a nested use, by all", of_nested_use, 0, 160},
+        {"a pixel of a frame, by all", of_frame, 0, 160}, {"a sample, by the domain's key", of_sample, 0, 64},
+        {"a sample, by its number", of_sample, 128, 32},  {"white noise, by its number", of_white, 128, 32},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         assert_avalanche(cases[c].name, cases[c].f, cases[c].first_bit, cases[c].bits, false);
-        if (cases[c].f != of_key) { /* which has 20 small arguments only */
+        if (cases[c].f != of_key && cases[c].f != of_sample &&
+            cases[c].f != of_white) { /* those have 20 small arguments */
             assert_avalanche(cases[c].name, cases[c].f, cases[c].first_bit, cases[c].bits, true);
         }
     }
