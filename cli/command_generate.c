@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma generate`: makes one point set of a pattern, maps it by --warp, and writes it to a file or to standard
- * output. The comment in the file has the pattern, the seed and the warp, and of sets whose neighbours are far
+ * `koksma generate`: makes one point set of a pattern, or a range of one, maps it by --warp, and writes it to a file or to
+ * standard output; without --warp in pieces, where the pattern has ranges. The comment in the file has the pattern, the seed and the warp, and of sets whose neighbours are far
  * apart the smallest distance.
  */
 #include <koksma/verify.h>
@@ -38,12 +38,27 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, con
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+/* Without the points in memory. */
+static int stream(const cli_arguments *arguments, const cli_source *source, uint64_t first, uint64_t seed,
+                  const koksma_run *run)
+{
+    char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 128];
+    koksma_spec_text(&source->spec, text);
+    const int used = snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
+    if (first) {
+        snprintf(comment + used, sizeof comment - (size_t)used, "\nfirst %llu", (unsigned long long)first);
+    }
+    const koksma_status status = koksma_generate_write(&source->spec, seed, first, source->n, source->dim,
+                                                       cli_text(arguments, "output", "-"), comment, run);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
 static int run(const cli_arguments *arguments)
 {
     cli_source source;
     koksma_points points;
     cli_work work;
-    uint64_t dim, seed;
+    uint64_t dim, seed, first;
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2");
     }
@@ -55,7 +70,8 @@ static int run(const cli_arguments *arguments)
     if (!source.n && !pattern->whole) {
         return cli_usage_error(arguments, "-n N, the number of points, is missing");
     }
-    if (!cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
+    if (!cli_whole(arguments, "first", 0, 0, KOKSMA_MAX_INDEX, &first) ||
+        !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
         !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "generating", &work)) {
         return CLI_USAGE;
     }
@@ -64,6 +80,14 @@ static int run(const cli_arguments *arguments)
     const koksma_warp *warp = name ? cli_find_warp(arguments, name) : NULL;
     if (name && (!warp || dim != 2)) {
         return warp ? cli_usage_error(arguments, "--warp maps points of 2 dimensions, not %d", (int)dim) : CLI_USAGE;
+    }
+    if (first && (name || !source.n)) {
+        return cli_usage_error(arguments, "--first takes -n N, and no --warp");
+    }
+    if (source.n && !warp && (first || koksma_has_ranges(&source.spec))) {
+        code = stream(arguments, &source, first, seed, &work.run);
+        cli_work_end();
+        return code;
     }
     const bool given = cli_text(arguments, "dim", NULL) || !pattern->takes_path;
     points = (koksma_points){.dim = given ? (int)dim : 0};
@@ -81,6 +105,7 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out for file:PATH and poisson-disk-maximal:d=D)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {'p', "patterns", "PATTERN", "the pattern, instead of the operand"},
+    {0, "first", "I", "number of the first point, of a sequence with ranges (default: 0)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
     {'o', "output", "FILE.txt|.csv|.npy", "the file (default: text on stdout)"},
@@ -96,11 +121,15 @@ const cli_command cli_command_generate = {
         "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'. Behind "
         "them\n"
         "it takes modifiers, as in file:set.txt,shift=1; 'koksma list modifiers' says what each keeps.\n"
+        "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N; all others "
+        "are\n"
+        "made whole in memory, where at most 2^28 coordinates fit.\n"
         "Equal arguments give equal bits, on any number of threads. These patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
         "uniform-jittered and most of orthogonal-array.\n",
     .examples = "koksma generate sobol:scramble=owen -n 64 --seed 1 -o points.csv\n"
                 "koksma generate n-rooks -n 16\n"
+                "koksma generate sobol -n 1000000 --first 4000000000 -o far.npy\n"
                 "koksma generate jittered -n 64 --warp concentric-disk -o disk.txt\n",
     .options = options,
     .run = run,

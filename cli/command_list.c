@@ -69,6 +69,31 @@ static void put_claims(cli_rows *rows, unsigned of)
     cli_row_text(rows, "claims", *text ? text : "-");
 }
 
+/* Whether it has ranges, and the choices of its parameters with which it has none. */
+static void put_ranges(cli_rows *rows, const koksma_pattern *p)
+{
+    char text[256] = "-";
+    double params[KOKSMA_MAX_PARAMS] = {0};
+    for (int k = 0; p->params && p->params[k].name; k++) {
+        params[k] = p->params[k].fallback;
+    }
+    if (p->ranges && p->ranges(params)) {
+        snprintf(text, sizeof text, "yes");
+    }
+    for (int k = 0; p->ranges && p->params && p->params[k].name; k++) {
+        const koksma_param *param = &p->params[k];
+        for (int c = 0; param->choices && param->choices[c]; c++) {
+            const size_t used = strlen(text);
+            params[k] = c;
+            if (!p->ranges(params)) {
+                snprintf(text + used, sizeof text - used, ", not %s=%s", param->name, param->choices[c]);
+            }
+        }
+        params[k] = param->fallback;
+    }
+    cli_row_text(rows, "ranges", text);
+}
+
 /* Or the error, about files of a package that is not installed. Kept until the next call. */
 static const char *scene_title(const char *name)
 {
@@ -95,7 +120,8 @@ static const char *scene_title(const char *name)
 #define SOURCE cli_row_text(rows, "source", x->cite)
 
 LIST(patterns, "pattern", const koksma_pattern *, (x = koksma_pattern_at(i)), x->name, x->title,
-     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), put_claims(rows, x->claims), SOURCE))
+     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), put_claims(rows, x->claims),
+      put_ranges(rows, x), SOURCE))
 LIST(modifiers, "modifier", const koksma_modifier *, (x = koksma_modifier_at(i)), x->name, x->title,
      (cli_row_text(rows, "keeps", x->keeps), put_claims(rows, x->claims),
       cli_row_text(rows, "measures", strcmp(x->measures, "*") ? x->measures : "all"), SOURCE))

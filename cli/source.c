@@ -215,7 +215,7 @@ static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
         uint64_t n;
         koksma_spec known;
         of->used = true;
-        if (!cli_is_whole(arguments, "n", item, 1, KOKSMA_MAX_COORDINATES, &n)) {
+        if (!cli_is_whole(arguments, "n", item, 1, KOKSMA_MAX_INDEX, &n)) {
             return CLI_USAGE;
         }
         snprintf(operand, sizeof operand, of->dim == 2 ? "%s@%s" : "%s@%s@%d", text, item, (int)of->dim);

@@ -280,6 +280,14 @@ KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
 KOKSMA_API koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint64_t n, uint64_t first,
                                                const koksma_run *run, koksma_points *out);
 
+/* Generates n points and writes them as koksma_points_write does: of a pattern that has ranges piece by piece, in a few
+   megabytes for any n; of others as one set, which n and dim have to fit.
+     first  the index of the first point; above 0 for sequences that have ranges
+     path, comment  as of koksma_points_write
+   Errors: those of koksma_generate_range and of koksma_points_write. */
+KOKSMA_API koksma_status koksma_generate_write(const koksma_spec *spec, uint64_t seed, uint64_t first, uint64_t n,
+                                               int dim, const char *path, const char *comment, const koksma_run *run);
+
 /* Generates all points of a pattern that decides their number: those of a file, or of a maximal Poisson disk set of a
    given radius. Allocates out.
      dim  dimensions; 0: as many as the file has

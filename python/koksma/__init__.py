@@ -21,7 +21,7 @@ from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, i
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)
 from ._optimise import Optimum, optimise
-from ._points import (Finding, Member, Modifier, Value, Witness, canonical, generate, measure, measures, modifiers, patterns,
+from ._points import (Finding, Member, Modifier, Value, Witness, canonical, generate, has_ranges, measure, measures, modifiers, patterns,
                       read, verify, write)
 from ._plot import Picture, plot, plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, rank
@@ -35,7 +35,7 @@ __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
     "Integrand", "Integration", "MalformedError", "Member", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
     "Ranked", "Ranking", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
-    "Witness", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "integrand", "integrands", "integrate", "measure", "measures",
+    "Witness", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "has_ranges", "integrand", "integrands", "integrate", "measure", "measures",
     "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence",
     "rank", "read", "read_image", "render", "scenes", "sensitivity", "spectrum", "trials", "verify", "version", "write",
 ]

@@ -11,9 +11,10 @@ import numpy.typing as npt
 from . import _structs as s
 from ._library import ArgumentError, OutOfMemoryError, spec, whole
 from ._optimise import optimise
-from ._points import PointArray, generate, is_sequence, measures
+from ._points import PointArray, generate, has_ranges, is_sequence, measures
 
 _FAR = (1 << 63) - 1
+_LARGE = 1 << 17  # coordinates: draws of so many are not kept for the next
 _SCIPYS = ("random-cd", "lloyd")  # optimizations that scipy has
 _STEPS = 2  # of the search for any other
 
@@ -83,7 +84,9 @@ class Engine(_Base):
         self._init_quad: Dict[str, Any] = {"pattern": pattern, "d": d, "optimization": optimization}  # for qmc_quad
         self.pattern = pattern
         self._sequence = is_sequence(pattern)
-        self._known: Optional[PointArray] = None
+        self._ranges = self._sequence and has_ranges(pattern)
+        self._known: Optional[PointArray] = None  # the points from number _known_first on
+        self._known_first = 0
         self._refused: Optional[int] = None  # the fewest points that the pattern was seen not to serve
         if isinstance(seed, (int, np.integer)) and 0 <= seed < 1 << 64:
             self._seed = int(seed)
@@ -106,6 +109,8 @@ class Engine(_Base):
         first = self.num_generated
         if not self._sequence:
             return generate(self.pattern, n, self.d, self._seed_at(first), threads=threads)
+        if self._ranges:
+            return self._from_range(first, n, threads)
         if first == 0 and self._known is None:
             return generate(self.pattern, n, self.d, self._seed, threads=threads)
         if self._known is None or len(self._known) < first + n:
@@ -117,6 +122,26 @@ class Engine(_Base):
             return sample
         return optimise(self._measure, start=sample, keep="latin", steps=_STEPS, seed=self._seed_at(self.num_generated),
                         threads=self._threads).points
+
+    def _from_range(self, first: int, n: int, threads: int) -> PointArray:
+        """Small draws that follow each other come from blocks of growing size."""
+        def drawn(count: int) -> PointArray:
+            return generate(self.pattern, count, self.d, self._seed, first=first, threads=threads)
+
+        if n * self.d >= _LARGE:
+            return drawn(n)
+        at = first - self._known_first
+        if self._known is None or at < 0 or at + n > len(self._known):
+            follows = self._known is not None and 0 <= at <= len(self._known)
+            more = max(n, min(2 * len(self._known), _LARGE // self.d)) if follows and self._known is not None else n
+            try:
+                self._known = drawn(more)
+            except ArgumentError:  # the sequence may end before
+                if more == n:
+                    raise
+                self._known = drawn(n)
+            self._known_first, at = first, 0
+        return self._known[at:at + n].copy()
 
     def _generated(self, needed: int, threads: int) -> PointArray:
         """Twice what is needed, so that many small draws cost no more than one large one; but where the sequence ends
@@ -147,6 +172,6 @@ class Engine(_Base):
         return self
 
     def fast_forward(self, n: SupportsIndex) -> "Engine":
-        """As if n points had been drawn."""
+        """As if n points had been drawn; of a pattern with ranges nothing is generated before the next draw."""
         self.num_generated += whole("fast_forward", n, 0, _FAR)
         return self

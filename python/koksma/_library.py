@@ -98,6 +98,8 @@ def core() -> ctypes.CDLL:
     _declare(library, POINTER(s.Measure), "koksma_measure_at", c_size_t)
     _declare(library, POINTER(s.Modifier), "koksma_modifier_at", c_size_t)
     _declare(library, c_int, "koksma_generate", spec, c_uint64, run, points)
+    _declare(library, c_bool, "koksma_has_ranges", spec)
+    _declare(library, c_int, "koksma_generate_range", spec, c_uint64, c_uint64, c_uint64, run, points)
     _declare(library, c_int, "koksma_generate_whole", spec, c_uint64, run, c_int, points)
     _declare(library, None, "koksma_points_fini", points)
     _declare(library, c_int, "koksma_points_read", c_char_p, points)

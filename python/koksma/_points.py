@@ -180,21 +180,28 @@ def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes
 
 
 def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[SupportsIndex] = None,
-             seed: SupportsIndex = 0, *, threads: SupportsIndex = 0, out: Optional[PointArray] = None) -> PointArray:
+             seed: SupportsIndex = 0, *, first: SupportsIndex = 0, threads: SupportsIndex = 0,
+             out: Optional[PointArray] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
     n: how many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
     dim: 2 where it is left out, but all that a file has where n is left out, too.
+    first: the number of the first point, of a sequence that has ranges (has_ranges): n points from there on.
     out: an aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one; n and dim may be left
     out, or are those of its shape.
 
     Equal arguments give equal bits, and the same as `koksma generate`.
     """
     parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
+    first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
+    if first and not (is_sequence(pattern) and has_ranges(pattern)):
+        raise ArgumentError(f"{pattern}: first is for sequences that have ranges")
     if n is None and out is None:
+        if first:
+            raise ArgumentError("first takes n, the number of points")
         points = s.Points()
         known = dim or (0 if parsed.pattern.contents.takes_path else 2)
         try:
@@ -213,7 +220,10 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     elif out.shape != (n or out.shape[0], dim or out.shape[1]):
         raise ArgumentError(f"out has the shape {out.shape}, not ({n or out.shape[0]}, {dim or out.shape[1]})")
     points = view(out)
-    call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2)
+    if first:
+        call(core().koksma_generate_range, byref(parsed), seed, 0, first, byref(points), threads=threads, run_at=4)
+    else:
+        call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2)
     return out
 
 
@@ -314,6 +324,11 @@ def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: 
 def is_sequence(pattern: str) -> bool:
     """Whether the first k of n points are the set of k points."""
     return bool(spec("pattern", pattern).pattern.contents.claims & SEQUENCE)
+
+
+def has_ranges(pattern: str) -> bool:
+    """Whether any range of its points is made in time and memory for that range."""
+    return bool(core().koksma_has_ranges(byref(spec("pattern", pattern))))
 
 
 def canonical(text_of_spec: str, kind: str = "pattern") -> str:

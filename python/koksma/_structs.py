@@ -10,7 +10,7 @@ MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else
 MAX_SPP, MAX_IMAGE_SIDE = 1 << 20, 65536
 MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
 MAX_SIZES = 64
-MAX_INT, MAX_SEED = (1 << 31) - 1, (1 << 64) - 1
+MAX_INT, MAX_SEED, MAX_INDEX = (1 << 31) - 1, (1 << 64) - 1, (1 << 51) - 1
 
 KeepGoing = CFUNCTYPE(c_bool, c_void_p, c_double)
 
@@ -31,7 +31,7 @@ class Run(Structure):
 class Pattern(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("min_dim", c_int), ("max_dim", c_int),
                 ("claims", c_uint), ("params", POINTER(Param)), ("generate", c_void_p), ("takes_path", c_bool),
-                ("alias_of", c_char_p), ("whole", c_void_p), ("revision", c_int)]
+                ("alias_of", c_char_p), ("whole", c_void_p), ("revision", c_int), ("ranges", c_void_p)]
 
 
 class Modifier(Structure):
@@ -289,7 +289,7 @@ CONSTANTS = [
     ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
     ("study.h", "KOKSMA_MAX_RANK_TRIALS", MAX_RANK_TRIALS), ("study.h", "KOKSMA_RANK_CHECKS", RANK_CHECKS),
     ("study.h", "KOKSMA_RANK_REASON", RANK_REASON),
-    ("koksma.h", "UINT64_MAX", MAX_SEED), ("series.h", "KOKSMA_MAX_SIZES", MAX_SIZES),
+    ("koksma.h", "UINT64_MAX", MAX_SEED), ("koksma.h", "KOKSMA_MAX_INDEX", MAX_INDEX), ("series.h", "KOKSMA_MAX_SIZES", MAX_SIZES),
 ]
 
 #: Header, C name and class of every struct above.

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/atomic_file.h"
+#include "core/npy.h"
 #include "core/status.h"
 
 koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points)
@@ -60,19 +60,49 @@ koksma_status koksma_points_write_mapped(const char *path, const koksma_points *
     return koksma__numbers_write(path, points, comment, run);
 }
 
+koksma_status koksma__writer_open(const char *path, uint64_t n, int dim, const char *comment,
+                                  koksma__points_writer *writer)
+{
+    *writer = (koksma__points_writer){.format = ends_with(path, ".npy")   ? KOKSMA__POINTS_NPY
+                                                : ends_with(path, ".csv") ? KOKSMA__POINTS_CSV
+                                                                          : KOKSMA__POINTS_TEXT,
+                                      .n = n};
+    KOKSMA__TRY(koksma__atomic_open(NULL, path, &writer->file));
+    if (writer->format == KOKSMA__POINTS_NPY) {
+        char shape[64];
+        snprintf(shape, sizeof shape, "(%llu, %d)", (unsigned long long)n, dim);
+        koksma__npy_put_header(writer->file.stream, "'<f8'", shape);
+    } else if (writer->format == KOKSMA__POINTS_CSV) {
+        for (int k = 0; k < dim; k++) {
+            fprintf(writer->file.stream, "x%d%c", k, k + 1 < dim ? ',' : '\n');
+        }
+    } else {
+        koksma__points_begin_text(writer->file.stream, n, dim, comment);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__writer_put(koksma__points_writer *writer, const koksma_points *points, const koksma_run *run)
+{
+    const double n = (double)writer->n;
+    const koksma__progress progress = {run, (double)writer->done / n, (double)points->n / n};
+    writer->done += points->n;
+    return writer->format == KOKSMA__POINTS_NPY
+               ? koksma__points_put_npy(writer->file.stream, points, progress)
+               : koksma__points_put_rows(writer->file.stream, points,
+                                         writer->format == KOKSMA__POINTS_CSV ? ',' : ' ', progress);
+}
+
+koksma_status koksma__writer_close(koksma__points_writer *writer, koksma_status status)
+{
+    const koksma_status closed = koksma__atomic_close(&writer->file, !status);
+    return status ? status : closed;
+}
+
 koksma_status koksma__numbers_write(const char *path, const koksma_points *points, const char *comment,
                                     const koksma_run *run)
 {
-    koksma__atomic_file file;
-    KOKSMA__TRY(koksma__atomic_open(NULL, path, &file));
-    koksma_status status = KOKSMA_OK;
-    if (ends_with(path, ".npy")) {
-        status = koksma__points_write_npy(file.stream, points, run);
-    } else if (ends_with(path, ".csv")) {
-        status = koksma__points_write_csv(file.stream, points, run);
-    } else {
-        status = koksma__points_write_text(file.stream, points, comment, run);
-    }
-    const koksma_status closed = koksma__atomic_close(&file, !status);
-    return status ? status : closed;
+    koksma__points_writer writer;
+    KOKSMA__TRY(koksma__writer_open(path, points->n, points->dim, comment, &writer));
+    return koksma__writer_close(&writer, koksma__writer_put(&writer, points, run));
 }

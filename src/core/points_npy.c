@@ -9,7 +9,7 @@
 #include "core/points_io.h"
 #include "core/status.h"
 
-enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048 };
+enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048, WRITTEN_AT_ONCE = 1 << 18 };
 
 typedef struct layout {
     size_t n, dim;
@@ -185,24 +185,15 @@ koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_poi
     return status;
 }
 
-koksma_status koksma__points_write_npy(FILE *stream, const koksma_points *points, const koksma_run *run)
+koksma_status koksma__points_put_npy(FILE *stream, const koksma_points *points, koksma__progress progress)
 {
-    char shape[64];
-    snprintf(shape, sizeof shape, "(%zu, %d)", points->n, points->dim);
-    koksma__npy_put_header(stream, "'<f8'", shape);
     const size_t count = points->n * (size_t)points->dim;
-    for (size_t i = 0; i < count && !ferror(stream); i += ITEMS_AT_ONCE) {
-        unsigned char bytes[8 * ITEMS_AT_ONCE];
-        const size_t n = count - i < ITEMS_AT_ONCE ? count - i : ITEMS_AT_ONCE;
-        if (!koksma__keep_going(run, (double)i / (double)count)) {
+    for (size_t i = 0; i < count && !ferror(stream); i += WRITTEN_AT_ONCE) {
+        const size_t n = count - i < WRITTEN_AT_ONCE ? count - i : WRITTEN_AT_ONCE;
+        if (!koksma__keep_going(progress.run, progress.done + progress.share * (double)i / (double)count)) {
             return koksma__fail_interrupted();
         }
-        for (size_t j = 0; j < n; j++) {
-            uint64_t bits;
-            memcpy(&bits, &points->xs[i + j], sizeof bits);
-            koksma__npy_set_word(bytes + 8 * j, bits);
-        }
-        fwrite(bytes, 8, n, stream);
+        koksma__npy_put_doubles(stream, points->xs + i, n);
     }
     return KOKSMA_OK;
 }

@@ -292,12 +292,14 @@ koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_po
     return status;
 }
 
-static koksma_status write_rows(FILE *stream, const koksma_points *points, char separator, const koksma_run *run)
+koksma_status koksma__points_put_rows(FILE *stream, const koksma_points *points, char separator,
+                                      koksma__progress progress)
 {
     char text[256 * (KOKSMA__DECIMAL_ROOM + 1)];
     size_t length = 0;
     for (size_t i = 0; i < points->n && !ferror(stream); i++) {
-        if (i % 256 == 0 && !koksma__keep_going(run, (double)i / (double)points->n)) {
+        if (i % 256 == 0 &&
+            !koksma__keep_going(progress.run, progress.done + progress.share * (double)i / (double)points->n)) {
             return koksma__fail_interrupted();
         }
         for (int k = 0; k < points->dim; k++) {
@@ -315,8 +317,7 @@ static koksma_status write_rows(FILE *stream, const koksma_points *points, char 
     return KOKSMA_OK;
 }
 
-koksma_status koksma__points_write_text(FILE *stream, const koksma_points *points, const char *comment,
-                                        const koksma_run *run)
+void koksma__points_begin_text(FILE *stream, uint64_t n, int dim, const char *comment)
 {
     fprintf(stream, "# koksma %s\n", koksma_version());
     while (comment && *comment) {
@@ -328,14 +329,5 @@ koksma_status koksma__points_write_text(FILE *stream, const koksma_points *point
         putc('\n', stream);
         comment += *comment == '\n';
     }
-    fprintf(stream, "# n %zu\n# dim %d\n", points->n, points->dim);
-    return write_rows(stream, points, ' ', run);
-}
-
-koksma_status koksma__points_write_csv(FILE *stream, const koksma_points *points, const koksma_run *run)
-{
-    for (int k = 0; k < points->dim; k++) {
-        fprintf(stream, "x%d%c", k, k + 1 < points->dim ? ',' : '\n');
-    }
-    return write_rows(stream, points, ',', run);
+    fprintf(stream, "# n %llu\n# dim %d\n", (unsigned long long)n, dim);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of patterns (patterns.def): member i, and the member of a name; what many of them say of ranges. */
+/* The table of patterns (patterns.def): member i, and the member of a name. */
 #include "core/lookup.h"
 #include "patterns/patterns.h"
 
@@ -10,9 +10,3 @@ static const koksma_pattern *const patterns[] = {
 };
 
 KOKSMA__LOOKUP(koksma_pattern, patterns)
-
-bool koksma__ranges_always(const double *params)
-{
-    (void)params;
-    return true;
-}
