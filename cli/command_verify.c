@@ -93,14 +93,23 @@ static bool disappoints(const char *list, const char *source, const koksma_point
 static int put_record(const cli_arguments *arguments, cli_rows *rows, const char *source, const koksma_points *points,
                       const koksma_run *run, bool *is_record)
 {
-    koksma_spec star;
+    koksma_spec measure;
     koksma_value value;
+    const char *text = cli_text(arguments, "measure", "star");
+    koksma_status status = koksma_measure_spec(text, &measure);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    const char *name = measure.measure->name;
+    if (measure.measure->answer != KOKSMA_ANSWER_EXACT) {
+        return cli_usage_error(arguments, "-m %s: it takes a measure with exact values, such as star or l2-star",
+                               text);
+    }
     const koksma_record *r, *here = NULL;
     for (size_t i = 0; (r = koksma_record_at(i)); i++) {
-        here = r->n == points->n && r->dim == points->dim && !strcmp(r->measure, "star") ? r : here;
+        here = r->n == points->n && r->dim == points->dim && !strcmp(r->measure, name) ? r : here;
     }
-    koksma_status status = koksma_measure_spec("star", &star);
-    status = status ? status : koksma_evaluate(&star, points, run, &value);
+    status = koksma_evaluate(&measure, points, run, &value);
     if (status) {
         return cli_fail(arguments, status);
     }
@@ -108,7 +117,7 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
     cli_row_text(rows, "source", source);
     cli_row_whole(rows, "n", points->n);
     cli_row_whole(rows, "dim", (uint64_t)points->dim);
-    cli_row_text(rows, "measure", "star");
+    cli_row_text(rows, "measure", name);
     cli_row_number(rows, "value", value.value);
     cli_row_number(rows, "best_here", here ? here->value : (double)NAN);
     cli_row_number(rows, "published", here && here->published > 0 ? here->published : (double)NAN);
@@ -143,6 +152,9 @@ static int run(const cli_arguments *arguments)
         char names[512];
         return cli_usage_error(arguments, "no property '%s'; it takes %s", name, all_properties(names, sizeof names));
     }
+    if (cli_text(arguments, "measure", NULL) && !cli_flag(arguments, "record")) {
+        return cli_usage_error(arguments, "-m MEASURE has an effect with --record only");
+    }
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
     }
@@ -174,6 +186,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'e', "expect", "PROPERTY,..", "exit with 1 unless these properties all hold"},
     {0, "record", NULL, "the star discrepancy beside the best known; exit with 1 unless it is lower"},
+    {'m', "measure", "MEASURE", "with --record: another measure than star, such as l2-star"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     CLI_ROW_OPTIONS,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * record: the best known sets of n points for a measure, as `koksma optimise` found them; `koksma list records` has them
- * with their values and the best published ones. Sets of other n do not exist here. The sets are in shared/records.inc (star)
- * and shared/records_l2.inc (measures with a pair kernel, with the commands that make them).
+ * with their values and the best published ones. Sets of other n do not exist here. The sets are in shared/records.inc (star
+ * in the plane) and shared/records_made.inc (star in 3 dimensions and L2 discrepancies, with the commands that make them).
  *
  *     x_ik = whole number / 10^12, from a table
  *
@@ -26,7 +26,7 @@ static const char *const names[] = {STAR, L2_STAR, L2_PERIODIC, L2_CENTERED, NUL
 static const koksma_record records[] = {
 #define RECORD(measure, dim, n, value, published, source) {(measure), (n), (dim), (value), (published), (source)},
 #include "patterns/shared/records.inc"
-#include "patterns/shared/records_l2.inc"
+#include "patterns/shared/records_made.inc"
 #undef RECORD
 };
 
@@ -38,7 +38,7 @@ enum {
 };
 
 #include "patterns/shared/records.inc"
-#include "patterns/shared/records_l2.inc"
+#include "patterns/shared/records_made.inc"
 
 const koksma_record *koksma_record_at(size_t i)
 {
@@ -54,7 +54,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     for (size_t i = 0; i < sizeof records / sizeof *records; i++) {
         const koksma_record *r = &records[i];
         const bool alike = !strcmp(r->measure, measure) && r->dim == out->dim;
-        xs = i == STARS ? points_l2 : xs;
+        xs = i == STARS ? points_made : xs;
         if (alike && r->n == out->n) {
             for (size_t c = 0; c < out->n * (size_t)out->dim; c++) {
                 out->xs[c] = (double)xs[c] / 1e12;
@@ -64,6 +64,10 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         below = alike && r->n < out->n ? r->n : below;
         above = alike && r->n > out->n && !above ? r->n : above;
         xs += r->n * (size_t)r->dim;
+    }
+    if (!above && !below) {
+        return koksma__fail(KOKSMA_DIM, "record: there are no sets of dim = %d for %s; dim = 2 would do", out->dim,
+                            measure);
     }
     return above && below
                ? koksma__fail(KOKSMA_N, "record: there is no set of n = %zu points for %s; n = %zu or %zu would do",
@@ -82,9 +86,9 @@ const koksma_pattern koksma__pattern_record = {
     .title = "the best known sets for a measure, for some n (koksma list records)",
     .cite = "clement2023",
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = 3,
     .claims = KOKSMA_CLAIM_DETERMINISTIC,
-    .revision = 1,
+    .revision = 2,
     .params = params,
     .generate = generate,
 };

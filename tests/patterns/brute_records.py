@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """brute_records.py PROGRAM: the value of every set of `koksma list records`, from the definition alone.
 
-    D* = the largest |#/n - x y| over all boxes [0, x) x [0, y) and [0, x] x [0, y],
+    D* = the largest |#/n - x y| over all boxes [0, x) x [0, y) and [0, x] x [0, y] (with z in 3 dimensions),
 
-x and y coordinates of points, or 1, in numpy, which shares no code with the library; L2 discrepancies as sums over all pairs
+x, y and z coordinates of points, or 1, in numpy, which shares no code with the library; L2 discrepancies as sums over all pairs
 (Warnock 1972; Hickernell 1998; Hinrichs & Oettershagen 2016). The value that is listed must be that to 1e-14 (of L2 1e-11, as it
 is the root of a difference of near numbers), and, where a value is published, not above it by more than the rounding of its
-last digit. Sets of up to 8 points are made again by the commands that the file of the L2 records has.
+last digit. Sets of up to 8 points are made again by the commands that records_made.inc has.
 """
 import json
 import os
@@ -15,6 +15,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from functools import reduce
 
 import numpy as np
 
@@ -24,11 +25,16 @@ def run(*arguments):
 
 
 def star(points):
-    x, y = (np.append(np.unique(points[:, k]), 1.0) for k in (0, 1))
+    """One box after the other by the first axis, all by the others at once."""
+    sides = [np.append(np.unique(x), 1.0) for x in points.T]
+    volumes = reduce(np.multiply.outer, sides[1:])
     largest = 0.0
     for below in (np.less, np.less_equal):
-        counts = below(points[:, 0], x[:, None]).astype(float) @ below(points[:, 1], y[:, None]).astype(float).T
-        largest = max(largest, np.abs(counts / len(points) - np.outer(x, y)).max())
+        inside = [below(x, side[:, None]).astype(float) for x, side in zip(points.T, sides)]
+        rest = inside[2] if len(inside) == 3 else np.ones((1, len(points)))
+        for first, side in zip(inside[0], sides[0]):
+            counts = ((inside[1] * first) @ rest.T).reshape(volumes.shape)
+            largest = max(largest, np.abs(counts / len(points) - side * volumes).max())
     return largest
 
 
@@ -50,7 +56,7 @@ def l2_centered(x):
 
 DEFINITIONS = {"star": (star, 1e-14), "l2-star": (l2_star, 1e-11), "l2-periodic": (l2_periodic, 1e-11),
                "l2-centered": (l2_centered, 1e-11)}
-COMMANDS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../src/patterns/shared/records_l2.inc")
+COMMANDS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../src/patterns/shared/records_made.inc")
 failed = count = 0
 for row in (json.loads(line) for line in run("list", "records", "--json").splitlines()):
     with tempfile.NamedTemporaryFile(suffix=".npy") as file:
@@ -65,10 +71,10 @@ for row in (json.loads(line) for line in run("list", "records", "--json").splitl
     if row["published"] and row["value"] > row["published"] + 0.51 * 10.0**-max(digits, 4):
         print(f"n = {row['n']}: {row['value']} is above the published {row['published']}")
         failed += 1
-for command, measure, n in re.findall(r"koksma (optimise (\S+) -n ([1-8]) .*) \*/", open(COMMANDS, encoding="utf-8").read()):
+for command, measure, n, dim in re.findall(r"koksma (optimise (\S+) -n ([1-8])(?: -d (\d))? .*) \*/", open(COMMANDS, encoding="utf-8").read()):
     with tempfile.NamedTemporaryFile(suffix=".npy") as made, tempfile.NamedTemporaryFile(suffix=".npy") as kept:
         run(*command.split(), "-q", "-o", made.name)
-        run("generate", f"record:measure={measure}", "-n", n, "-o", kept.name)
+        run("generate", f"record:measure={measure}", "-n", n, "-d", dim or "2", "-o", kept.name)
         if np.abs(np.load(made.name) - np.load(kept.name)).max() > 1e-9:
             print(f"koksma {command}: it makes another set")
             failed += 1

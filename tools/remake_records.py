@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes src/patterns/shared/records_l2.inc: make_l2_records.py PROGRAM FOLDER
+"""Writes src/patterns/shared/records_made.inc: remake_records.py PROGRAM FOLDER
 
-FOLDER has sets that `koksma optimise MEASURE -n N --seed S --steps K -o FOLDER/ANY.txt` wrote, of measures with a pair kernel. Of
-each measure and n the best is kept, with the command that makes it. Coordinates are rounded to multiples of 10^-12, and the
+FOLDER has sets that `koksma optimise MEASURE -n N --seed S --steps K -o FOLDER/ANY.txt` wrote, of measures with a pair kernel or of
+star in 3 dimensions. Of each measure, dim and n the best is kept, with the command that makes it. Coordinates are rounded to multiples of 10^-12, and the
 values are those that PROGRAM measures of the rounded sets. A set that is there already stays if it is not worse.
 """
 import glob
@@ -14,8 +14,8 @@ import subprocess
 import sys
 import tempfile
 
-OUT = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "src/patterns/shared/records_l2.inc")
-MEASURES = ["l2-star", "l2-periodic", "l2-centered"]  # in the order of record.c
+OUT = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "src/patterns/shared/records_made.inc")
+MEASURES = ["star", "l2-star", "l2-periodic", "l2-centered"]  # in the order of record.c
 
 
 def measured(program, measure, points):
@@ -31,7 +31,7 @@ def known():
     sets = {}
     if os.path.exists(OUT):
         text = open(OUT, encoding="utf-8").read()
-        numbers = [int(x) for x in re.findall(r"\d{1,12}(?=,)", text.split("points_l2[] = {")[1])]
+        numbers = [int(x) for x in re.findall(r"\d{1,12}(?=,)", text.split("points_made[] = {")[1])]
         for name, dim, n, command in re.findall(r"^RECORD\((\w+), (\d+), (\d+), .*\) /\* (.*) \*/$", text, re.M):
             dim, n = int(dim), int(n)
             sets[MEASURES.index(name.lower().replace("_", "-")), dim, n] = (
@@ -55,14 +55,14 @@ def main():
             sets[key] = (value, points, command)
     with open(OUT, "w", encoding="utf-8") as out:
         out.write("""/* SPDX-License-Identifier: Apache-2.0 */
-/* Made by tools/make_l2_records.py. A line RECORD(measure, dim, n, value, published, source) for each set, in order of
+/* Made by tools/remake_records.py. A line RECORD(measure, dim, n, value, published, source) for each set, in order of
    measure, dim and n, with the command that makes it; 0: no published value was at hand. Then the coordinates of all sets, in
    that order, point by point, in units of 10^-12. */
 #ifdef RECORD
 """)
         for (measure, dim, n), (value, _, command) in sorted(sets.items()):
             out.write(f"RECORD({MEASURES[measure].upper().replace('-', '_')}, {dim}, {n}, {value!r}, 0, \"-\") /* {command} */\n")
-        out.write("#else\nstatic const uint64_t points_l2[] = {\n")
+        out.write("#else\nstatic const uint64_t points_made[] = {\n")
         for _, (_, points, _) in sorted(sets.items()):
             numbers = [f"{x}," for point in points for x in point]
             for i in range(0, len(numbers), 8):
