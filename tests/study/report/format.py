@@ -36,8 +36,8 @@ def lines_of(table, macro):
 SCHEMA = json.loads((ROOT / "docs/report.schema.json").read_text())
 
 
-def check_schema(name, report):
-    for error in list(errors(report, SCHEMA, SCHEMA))[:5]:
+def check_schema(name, report, schema=SCHEMA):
+    for error in list(errors(report, schema, SCHEMA))[:5]:
         complain(f"{name}: {error}")
 
 
@@ -66,6 +66,21 @@ def check_tables(name, report):
             for cell, column in zip(row, table["columns"]):
                 if column["type"] in ("interval", "spread") and isinstance(cell, (str, int, float)):
                     complain(f"{name}: table {table['name']}, {column['name']}: {cell} has no interval")
+
+
+PALETTE = [re.findall(r"[\w-]+", names) for names in re.findall(r"^COLOUR\(\w+, \w+, ([^)]*)\)", (ROOT / "src/plot/palette.def").read_text(), re.M)]
+
+
+def check_colours(name, report):
+    """A pattern has its colour of the palette in every chart, and no two series of a chart look alike."""
+    for chart in (b for b in blocks(report["content"]) if b["kind"] == "chart"):
+        series = [s for s in chart["series"] if s["style"] in ("line", "marks")]
+        for s in series:
+            wanted = [i for i, names in enumerate(PALETTE) if re.split("[:@ ]", s["label"])[0] in names]
+            if wanted and s["colour"] != wanted[0]:
+                complain(f"{name}: {chart['title']}: {s['label']} has the colour {s['colour']}, in plots {wanted[0]}")
+        if len({(s["colour"], s["dash"]) for s in series}) < len(series):
+            complain(f"{name}: {chart['title']}: two series look alike")
 
 
 def check_numbers(name, report):
@@ -97,6 +112,7 @@ def run_study(name, plan):
         complain(f"{name}: report.json is no JSON: {error}")
         return None
     check_schema(name, report)
+    check_colours(name, report)
     check_tables(name, report)
     check_numbers(name, report)
     return report
