@@ -48,7 +48,7 @@ MAY_USE = {
     "study/store": "core study/plan",
     "study/run": "core modules stats patterns measures warps image scene render study/plan study/store api",
     "study/ranking": "core stats image scene render study/plan study/run api",
-    "study/images": "core stats image study/plan study/run",
+    "study/images": "core stats image study/plan study/run study/report",
     "study/report": "core stats patterns measures warps image plot render study/plan study/store study/run api",
     "study/sheet": "core stats patterns measures verify api image scene render study/plan study/ranking study/report",
     "cli": "core kernels stats patterns measures warps api verify optimise image scene plot render study/plan study/run "
