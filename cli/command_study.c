@@ -423,7 +423,8 @@ static int images(const cli_arguments *arguments)
     if (!cli_work_begin(arguments, "comparing", &work)) {
         return CLI_USAGE;
     }
-    const koksma_status status = koksma_study_images(arguments->operands[1], reference, &work.run, &rows, &n);
+    const koksma_status status = koksma_study_images(arguments->operands[1], reference,
+                                                     cli_text(arguments, "output", NULL), &work.run, &rows, &n);
     cli_work_end();
     if (status) {
         return cli_fail(arguments, status);
@@ -469,7 +470,7 @@ static int run(const cli_arguments *arguments)
                  {"export", export_rows, " output format "},
                  {"report", report, " "},
                  {"audit", audit, " rows seed json digits long "},
-                 {"images", images, " reference json digits long "}};
+                 {"images", images, " output reference json digits long "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
@@ -484,7 +485,7 @@ static const cli_option options[] = {
     {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
     {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
     {0, "spp", "LIST", "quick: samples a pixel in the scenes (default: 4,16,64)"},
-    {'o', "output", "PATH", "run, quick: the folder; new, export: the file (default: -, standard output)"},
+    {'o', "output", "PATH", "run, quick, images: the folder; new, export: the file (default: -, standard output)"},
     {0, "trials", "T", "run, quick, estimate: trials of everything instead of the plan's own numbers"},
     {0, "quick", NULL, "run, quick, estimate: every block's 'quick' number of trials"},
     {0, "time-limit", "S",
@@ -508,7 +509,7 @@ const cli_command cli_command_study = {
                 "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
                 "report DIR\n"
                 "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
-                "images 'PLACES' --reference FILE [--json]",
+                "images 'PLACES' --reference FILE [-o DIR] [--json]",
     .details =
         "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
         "the plan's file.\n"
@@ -532,7 +533,9 @@ const cli_command cli_command_study = {
         "braces, which make groups. 'behind' is how much larger a group's error is than that of the first of its "
         "spp,\n"
         "with an interval of the differences of images with equal {trial}, where both groups have the same. 'koksma "
-        "compare --help' explains coherence.\n",
+        "compare --help' explains coherence. With -o DIR it writes DIR/report.html, a page with these numbers, "
+        "charts "
+        "and pictures, and DIR/report.json.\n",
     .examples = "koksma study quick -p random,sobol -m star -n 16,64 --quick -o quick\n"
                 "koksma study new plan.json\n"
                 "koksma study estimate ./plan.json\n"
@@ -540,7 +543,7 @@ const cli_command cli_command_study = {
                 "koksma study export results --format csv -o rows.csv\n"
                 "koksma study report results\n"
                 "koksma study audit results --rows all\n"
-                "koksma study images 'mine_{sampler}_{spp}_{trial}.exr' --reference truth.exr\n",
+                "koksma study images 'mine_{p}_{spp}_{trial}.exr' --reference truth.exr -o mine\n",
     .options = options,
     .run = run,
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// assemble.mjs WASM OUT: puts page/ and the WebAssembly file together into one HTML file. The modules are put one after the
+// assemble.mjs WASM OUT: puts page/, the WebAssembly file, the sources and the palette together into one HTML file. The modules are put one after the
 // other in the order of their imports; as all their names then stand in one scope, a name that two of them give is an error.
 import crypto from "node:crypto";
 import fs from "node:fs";
@@ -45,12 +45,20 @@ function references() {
   return found;
 }
 
+// The colours of the plots: [{ light, dark, patterns: [name, ..] }, ..]
+function palette() {
+  const text = fs.readFileSync(path.join(here, "../src/plot/palette.def"), "utf8");
+  return [...text.matchAll(/^COLOUR\(0x(\w{6}), 0x(\w{6}), ([^)]*)\)/gm)].map(([, light, dark, names]) =>
+    ({ light: `#${light}`, dark: `#${dark}`, patterns: names.match(/[\w-]+/g) }));
+}
+
 const safe = script => script.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
 const fill = {
   style: fs.readFileSync(path.join(page, "style.css"), "utf8"),
   main: safe(bundle("main.mjs")),
   worker: safe(bundle("worker.mjs")),
   references: safe(JSON.stringify(references())),
+  palette: safe(JSON.stringify(palette())),
   wasm: fs.readFileSync(wasm).toString("base64"),
 };
 // The page's Content-Security-Policy lets no other script run: this is the hash of the element's text.

@@ -49,7 +49,7 @@ MAY_USE = {
     "study/store": "core study/plan",
     "study/run": "core modules stats patterns measures warps integrands image scene render study/plan study/store api",
     "study/ranking": "core stats image scene render study/plan study/run api",
-    "study/images": "core stats image study/plan study/run",
+    "study/images": "core stats image study/plan study/run study/report",
     "study/report": "core stats patterns measures warps integrands image plot render study/plan study/store study/run "
                     "api",
     "study/sheet": "core stats patterns measures integrands verify api image scene render study/plan study/ranking study/report",

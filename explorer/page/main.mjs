@@ -228,10 +228,17 @@ function refresh(name) {
     }
     soon(drawSets);
   });
+  showColour(name);
   soon(drawSets);
   showStrataControls();
   showAxes();
   keepHash();
+}
+
+// A pattern has the colour that it has in all plots; of two of one colour the lines of set B are dashed.
+function showColour(name) {
+  const pattern = parseSpec(state[name].spec).name, colour = tables.palette.find(({ patterns }) => patterns.includes(pattern)) || tables.palette[0];
+  document.body.style.setProperty(`--${name}`, `light-dark(${colour.light}, ${colour.dark})`);
 }
 
 function moved(name, i, place) {
@@ -420,6 +427,7 @@ async function start() {
   tables = await new Promise(done => jobs.ask("tables", 0, { kind: "tables" }, done, { limited: false }));
   if (tables.error) throw new Error(tables.error);
   tables.references = JSON.parse(byId("references").textContent);
+  tables.palette = JSON.parse(byId("palette").textContent);
   measures = new Measures(byId("measures"), tables.measures, name => {
     state.witness = name;
     chooseRows();

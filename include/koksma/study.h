@@ -214,12 +214,13 @@ typedef struct koksma_images_row {
      places     the template, such as "out_{spp}_{trial}.exr": {spp} and {trial} match digits, other names any text
                 without '/'
      reference  path of the reference image
+     folder     gets report.json and report.html, a page with all numbers (docs/report-format.md); NULL: neither
      rows, n    receive the rows, sorted by group and spp; the caller frees *rows with free()
    Each image is read twice: for its error and for the coherence of its row.
    Errors: ARGUMENT (a brace that is not closed), MISSING (no file matches), MALFORMED (a pixel that is not a finite
    number), those of koksma_image_read, MEMORY, INTERRUPTED. */
-KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference, const koksma_run *run,
-                                             koksma_images_row **rows, size_t *n);
+KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference, const char *folder,
+                                             const koksma_run *run, koksma_images_row **rows, size_t *n);
 
 /* ---- Ranking patterns for a scene ------------------------------------------------------------------------- */
 

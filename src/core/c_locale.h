@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Numbers as text, the same whatever the host program's locale is: libc's own functions write 0,5 and stop reading
-   0.5 at the point once a program in Germany has called setlocale(LC_ALL, ""), as those with Qt or GTK do. Every
-   number with a decimal point goes by these (tests/lint/locale.sh); whole numbers and words may go by libc's. The
+   0.5 at the point once a program in Germany has called setlocale(LC_ALL, ""), as those with Qt or GTK do. All
+   conversions of numbers with a decimal point use these functions (tests/lint/locale.sh); whole numbers may use libc's. The
    locale is switched for the duration of the call and in its thread only, so that the host's code never runs under
    another locale. */
 #ifndef KOKSMA_CORE_C_LOCALE_H

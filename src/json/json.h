@@ -42,8 +42,8 @@ koksma_status koksma__json_fail(const koksma__json_node *node, const char *forma
 /* Ends the function with it. */
 #define KOKSMA__JSON_FAIL_IF(condition, ...) KOKSMA__TRY((condition) ? koksma__json_fail(__VA_ARGS__) : KOKSMA_OK)
 
-/* The same of an error below with the current text: MALFORMED, but want of memory and failures of the system stay
-   what they are. */
+/* Puts the place of the node before the text of an error that another function returned. The status becomes MALFORMED, except
+   MEMORY and SYSTEM, which stay. */
 koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status status);
 
 /* Fails unless node is an object whose keys are all among `keys`, which ends at NULL. */

@@ -15,7 +15,7 @@ typedef struct koksma__text {
     size_t number;          /* of the current line, from 1 on */
 } koksma__text;
 
-/* Before the first line, behind UTF-8's byte order mark if there is one. */
+/* Starts before the first line, and skips a UTF-8 byte order mark. */
 koksma__text koksma__text_open(const char *path, const unsigned char *file, size_t size);
 
 /* Goes to the next line, without its end (LF or CR LF); false: there is none. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* For the sources of modules, after all other headers: our functions by way of the host. One source of a module says
-   KOKSMA__MODULE(its functions). */
+/* The sources of modules include this after all other headers: it makes calls of the library's functions go through the
+   table that the host hands to the module. One source of a module contains KOKSMA__MODULE(its functions). */
 #ifndef KOKSMA_MODULES_MODULE_SIDE_H
 #define KOKSMA_MODULES_MODULE_SIDE_H
 

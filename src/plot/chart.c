@@ -214,7 +214,7 @@ static double label_width(const axis *y, double height)
 static koksma__style style_of(const koksma__theme *theme, const koksma_curve *k)
 {
     return k->dashed ? (koksma__style){1, theme->guide, KOKSMA__DASH_GUIDE}
-                     : koksma__series_style(theme, k->colour, 1.5);
+                     : koksma__curve_style(theme, k->colour, 1.5);
 }
 
 /* A disk, a square, a triangle or a diamond, by the dashes. */

@@ -33,7 +33,8 @@ typedef struct layout {
     line *lines;
 } layout;
 
-/* The cells of a row from `first` on that fit beside each other; in columns as those before. */
+/* The next line of a figure: the cells from `first` on that belong to its row and fit into the width. A line that goes on with
+   the row of the line `before` has that line's columns. */
 static line find_line(const koksma_figure *f, size_t first, double width, const line *before)
 {
     line l = {.first = first};

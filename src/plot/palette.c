@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The colours of plots. A curve's number is colour + N_COLOURS dash: palette.def gives a pattern its colour, and specs
- * of equal colour in a picture get its dashes in turn. What is no pattern gets the first number that is free.
+ * The colours of plots. A curve's number is colour + KOKSMA__COLOURS dash: palette.def gives a pattern its colour, and
+ * specs of equal colour in a picture get its dashes in turn. What is no pattern gets the first number that is free.
  */
 #include "plot/palette.h"
 
@@ -17,8 +17,6 @@ static const struct {
 #include "plot/palette.def"
 #undef COLOUR
 };
-
-enum { N_COLOURS = sizeof colours / sizeof *colours, N_STYLES = N_COLOURS * KOKSMA__DASH_GUIDE };
 
 const koksma__theme *koksma__theme_of(bool dark)
 {
@@ -42,18 +40,19 @@ const koksma__theme *koksma__theme_of(bool dark)
     return &themes[dark];
 }
 
-koksma__style koksma__series_style(const koksma__theme *theme, size_t number, double thickness)
+koksma__style koksma__curve_style(const koksma__theme *theme, size_t number, double thickness)
 {
-    const unsigned rgb = theme->dark ? colours[number % N_COLOURS].dark : colours[number % N_COLOURS].light;
+    const unsigned rgb =
+        theme->dark ? colours[number % KOKSMA__COLOURS].dark : colours[number % KOKSMA__COLOURS].light;
     const koksma__colour colour = {(rgb >> 16) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1};
-    return (koksma__style){thickness, colour, (koksma__dash)(number / N_COLOURS % KOKSMA__DASH_GUIDE)};
+    return (koksma__style){thickness, colour, (koksma__dash)(number / KOKSMA__COLOURS % KOKSMA__DASH_GUIDE)};
 }
 
-/* The colour of the pattern that a text begins with the name of; N_COLOURS: it is in no list. */
+/* The colour of the pattern that a text begins with the name of; KOKSMA__COLOURS: it is in no list. */
 static size_t colour_of(const char *spec)
 {
     const size_t length = strcspn(spec, ":@ ");
-    for (size_t c = 0; c < N_COLOURS && length; c++) {
+    for (size_t c = 0; c < KOKSMA__COLOURS && length; c++) {
         for (const char *at = colours[c].patterns; *at;) {
             const size_t word = strcspn(at, " ");
             if (word == length && !strncmp(at, spec, length)) {
@@ -62,25 +61,33 @@ static size_t colour_of(const char *spec)
             at += word + strspn(at + word, " ");
         }
     }
-    return N_COLOURS;
+    return KOKSMA__COLOURS;
+}
+
+size_t koksma__take_curve_number(const char *spec, bool *taken)
+{
+    const size_t colour = colour_of(spec), step = colour < KOKSMA__COLOURS ? KOKSMA__COLOURS : 1;
+    for (size_t number = colour % KOKSMA__COLOURS; number < KOKSMA__CURVE_STYLES; number += step) {
+        if (!taken[number]) {
+            taken[number] = true;
+            return number;
+        }
+    }
+    return KOKSMA__CURVE_STYLES;
 }
 
 koksma_status koksma_plot_colours(const char *const *specs, size_t n, size_t *numbers)
 {
     KOKSMA__REQUIRE(specs, numbers);
     const koksma_status status = koksma__array_check("specs", specs, n, sizeof *specs);
-    bool taken[N_STYLES] = {false};
+    bool taken[KOKSMA__CURVE_STYLES] = {false};
     for (size_t pass = 0; pass < 2 && !status; pass++) { /* first those that have a colour */
         for (size_t i = 0; i < n; i++) {
             KOKSMA__REQUIRE(specs[i]);
-            const size_t colour = colour_of(specs[i]);
-            if ((colour < N_COLOURS) == (pass == 0)) {
-                size_t number = pass ? 0 : colour;
-                while (number < N_STYLES && taken[number]) {
-                    number += pass ? 1 : N_COLOURS;
-                }
-                numbers[i] = number < N_STYLES ? number : i % N_STYLES; /* more than there are styles */
-                taken[numbers[i]] = true;
+            if ((colour_of(specs[i]) < KOKSMA__COLOURS) == (pass == 0)) {
+                const size_t number = koksma__take_curve_number(specs[i], taken);
+                numbers[i] =
+                    number < KOKSMA__CURVE_STYLES ? number : i % KOKSMA__CURVE_STYLES; /* more than there are */
             }
         }
     }

@@ -300,7 +300,7 @@ koksma_status koksma__panel_draw(koksma__canvas *canvas, const koksma__theme *th
         if (panel->swatch) {
             const double half = fmin(koksma__text_width(panel->title, TITLE), inner - 2 * swatch) / 2;
             koksma__canvas_box(canvas, (koksma__box){middle - half - swatch / 2, y - 8, 8, 8},
-                               koksma__series_style(theme, panel->swatch - 1, 0));
+                               koksma__curve_style(theme, panel->swatch - 1, 0));
         }
     }
     if (!panel->points) {

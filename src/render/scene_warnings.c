@@ -151,8 +151,8 @@ static bool of_unread(const koksma__unread *u, asked *a)
         {u->animations, "animations", "everything stays where its node puts it"},
         {u->skins, "skins", "their meshes stand as they were modelled"},
         {u->vertex_colours, "meshes' vertex colours", "materials alone say the colour"},
-        {u->second_uvs, "other texture coordinates than the first", "textures lie by the first"},
-        {u->transforms, "transforms of textures", "textures lie as if there were none"},
+        {u->second_uvs, "other texture coordinates than the first", "textures use the first"},
+        {u->transforms, "transforms of textures", "textures are placed without them"},
         {u->see_through, "materials' transparencies", "they are opaque"},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {

@@ -12,8 +12,8 @@ typedef struct koksma__rank_case {
     double *ranks; /* k lists of n unit ranks (koksma__unit_ranks), a measure's after another's; then the error's */
 } koksma__rank_case;
 
-/* What a scene's cases were predicted with, fitted to all other scenes, and how well: mean Spearman correlations of
-   the predicted order with that of the errors. */
+/* Prediction of one scene's errors by models that were fitted to all other scenes: the models, and the mean Spearman
+   correlation of each one's predicted order with the order of the errors. */
 typedef struct koksma__held_out {
     size_t cases;     /* 0: nothing else of this is set */
     size_t single;    /* the measure chosen in the other scenes */

@@ -85,7 +85,7 @@ VALID = {
     "koksma_adaptive_parse.text": "\"contrast\"", "koksma_adaptive_parse.out": "a_buffer(sizeof(koksma_adaptive_options))",
     "koksma_mask_void_and_cluster.size": "4", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
     "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
-    "koksma_study_images.places": "work_path(\"in_{trial}.pfm\")", "koksma_study_images.reference": "work_path(\"in.pfm\")",
+    "koksma_study_images.places": "work_path(\"in_{trial}.pfm\")", "koksma_study_images.reference": "work_path(\"in.pfm\")", "koksma_study_images.folder": "work_path(\"images\")",
     "koksma_name_at *": "a_name", "koksma_closest_name.table": "NULL", "koksma_closest_name.word": "\"jitered\"", "koksma_text_escape.text": "a_copy(\"jittered\", 9)",
     "koksma_text_escape.size": "9", "koksma_entry *": "a_buffer(sizeof(koksma_entry))", "koksma_scene_kind_at.member": "\"lights\"",
     "koksma_method_find.name": "\"descent\"", "koksma_optimise_options *": "optimise_options()", "koksma_optimise.measure": "a_measure(\"l2-disk\")",
@@ -158,7 +158,7 @@ ALLOWED = [
     r"koksma_rank_patterns options->(width = 0|height = 0|integrator = NULL|filter = NULL|time_limit_s = (INFINITY|0|1e308)) .*",
     r"\w+ spectrum->sets = .*", r"koksma_image_check_finite name = .*", r"\w+ options->caption.*", r"\w+ \S*(caption|label) = .*",
     r"\w+ options->(columns|rows) = 0 .*", r"\w+ \S*(size|white|level|errors|warp|witness|splits|strata|curves) = (0|NULL) .*", r"\w+ \S*n(_splits|_curves)? = 0 .*",
-    r"koksma_closest_name table = NULL.*", r"koksma_optimise options->first = NULL .*", r"koksma_optimise options->first.*absent.*",
+    r"koksma_study_images folder = NULL .*", r"koksma_closest_name table = NULL.*", r"koksma_optimise options->first = NULL .*", r"koksma_optimise options->first.*absent.*",
     r"koksma_study_audit options->(rows = LLONG_MAX|rows = 0|differs.*) .*", r"koksma_text_escape (size|text) = .*", r"koksma_optimise options->(steps|seed|first) = .*",
     r"koksma_rank_by_command picture->(scene|pattern) = (\"|long_text).*", r"koksma_rank_by_command picture->(spp|width|height|seed) = .*",  # its affair
     r"koksma_rank_patterns options->(render|render_context|reference) = .*",

@@ -68,6 +68,20 @@ async function controls(page) {
   await compare(page, "a", "pattern:halton@16@1", "--seed", 3);
 }
 
+// Both sets have the colours of their patterns in the plots of the program, on light and on dark.
+async function colours(browser) {
+  const rows = [...fs.readFileSync(path.join(__dirname, "../../src/plot/palette.def"), "utf8").matchAll(/COLOUR\(0x(\w+), 0x(\w+), ([^)]*)\)/g)];
+  for (const [colorScheme, at] of [["light", 1], ["dark", 2]]) {
+    const page = await open(browser, { hash: "#a=sobol:scramble=owen@16&b=poisson-disk@16", colorScheme });
+    for (const [which, pattern] of [["a", "sobol"], ["b", "poisson-disk"]]) {
+      const hex = rows.find(row => row[3].match(/[\w-]+/g).includes(pattern))[at], rgb = hex.match(/../g).map(x => parseInt(x, 16)).join(", ");
+      const stroke = await page.locator(`.set-${which} svg.plane .points`).evaluate(node => getComputedStyle(node).stroke);
+      check(stroke === `rgb(${rgb})`, `${colorScheme}: ${pattern} is drawn in ${stroke}, in plots in ${rgb}`);
+    }
+    await page.context().close();
+  }
+}
+
 async function strataAndWitness(page) {
   await visit(page, "#a=sobol@16&strata=grid:4x4");
   const text = () => page.locator(".set-a .strata-text").textContent();
@@ -495,6 +509,7 @@ async function looks(browser) {
     await comparing(page);
     await page.context().close();
     await policy(browser);
+    await colours(browser);
     await commandsOfStates(browser);
     await manyMoves(browser);
     await guards(browser);

@@ -91,7 +91,7 @@ void koksma__disks_put(koksma__disks *disks, const koksma__tile *tile, uint32_t 
 /* Cuts the squares in four and keeps those with room. */
 koksma_status koksma__disks_refine(koksma__disks *disks);
 
-/* The first cell of a row of tiles, and the tile in the row that a cell is of. */
+/* The first cell of tile number `tile` along an axis; below, the tile that holds a cell. */
 static inline uint32_t koksma__disks_start(const koksma__disks *s, uint32_t tile)
 {
     return (uint32_t)((uint64_t)tile * s->cells / s->tiles);

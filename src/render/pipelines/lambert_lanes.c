@@ -16,7 +16,7 @@ typedef struct scratch {
     koksma__sample_scratch draw;
     float *positions; /* one array a light */
     size_t capacity;
-    /* The shapes that a group may see, and their numbers; of which group. */
+    /* The shapes that a group of pixels may see, their indices, and which group they are of. */
     koksma__batch_shapes shapes;
     koksma__batch_shape *list;
     size_t *seen, first, count;

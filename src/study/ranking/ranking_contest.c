@@ -120,7 +120,7 @@ static koksma_status measure_coherence(koksma__contest *c, koksma__contestant *p
     return add_coherence(c, p, trial, errors);
 }
 
-/* The errors of a trial, of the first round with their coherence. */
+/* Renders a trial and takes its errors; in the first round their spectra for the coherence, too. */
 static koksma_status render_trial(koksma__contest *c, koksma__contestant *p, size_t trial, const koksma_run *run,
                                   double errors[ERRORS])
 {

@@ -3,8 +3,7 @@
  * The report's document model, written as JSON while it is built: no tree is kept, because blocks come in the order
  * in which they are shown. What must be shown before something that is known earlier, such as a sentence before the
  * table that it sums up, is gathered in a document of its own and appended (koksma__doc_append).
- * docs/report-format.md says what every member means, docs/report.schema.json says it to programs; a change of either
- * needs this file, those two and the page (page/report.mjs).
+ * docs/report-format.md describes the members, docs/report.schema.json checks them; a change needs both, and the page.
  *
  * Words are a list of runs: a text, or an object with a style or with the value of a number. A run stays open while
  * words of the same style follow.
@@ -48,7 +47,6 @@ static void put_number(koksma__document *d, const char *key, double value)
     koksma__json_write_rounded(&d->json, key, value, digits);
 }
 
-/* Members that are there. */
 static void put_text(koksma__document *d, const char *key, const char *text)
 {
     if (text) {
@@ -433,12 +431,10 @@ void koksma__doc_cell(koksma__document *d, const koksma__cell_data *c)
 void koksma__doc_table_end(koksma__document *d)
 {
     koksma__json_end(&d->json);
-    if (d->in_rows) {
-        koksma__json_end(&d->json);
-    } else {
+    if (!d->in_rows) {
         koksma__json_begin_array(&d->json, "rows");
-        koksma__json_end(&d->json);
     }
+    koksma__json_end(&d->json);
     koksma__json_end(&d->json);
 }
 
@@ -459,6 +455,7 @@ void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *c)
     put_axis(d, "x", c->x_title, c->log_x);
     put_axis(d, "y", c->y_title, c->log_y);
     koksma__json_begin_array(&d->json, "series");
+    memset(d->curves, 0, sizeof d->curves);
 }
 
 void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__series_style style)
@@ -470,6 +467,11 @@ void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__se
     koksma__json_begin_object(&d->json, NULL);
     koksma__json_write_text(&d->json, "label", label);
     koksma__json_write_text(&d->json, "style", styles[style]);
+    if (style == KOKSMA__SERIES_LINE || style == KOKSMA__SERIES_MARKS) {
+        const size_t number = koksma__take_curve_number(label, d->curves);
+        koksma__json_write_whole(&d->json, "colour", (long long)(number % KOKSMA__COLOURS));
+        koksma__json_write_whole(&d->json, "dash", (long long)(number / KOKSMA__COLOURS % KOKSMA__DASH_GUIDE));
+    }
     koksma__json_begin_array(&d->json, "points");
 }
 

@@ -11,6 +11,7 @@
 #include <koksma/image.h>
 
 #include "core/json_writer.h"
+#include "plot/palette.h"
 #include "stats/statistics.h"
 
 typedef struct koksma__document {
@@ -18,6 +19,7 @@ typedef struct koksma__document {
     char style;   /* of the words that follow: '`' code, '*' strong, '_' emphasised, '^' superscript; 0: none */
     bool in_text; /* a run of words is open */
     bool in_rows; /* the open table has rows */
+    bool curves[KOKSMA__CURVE_STYLES]; /* numbers that series of the open chart have */
 } koksma__document;
 
 /* Appends what `part` has, and empties it. */
@@ -124,7 +126,7 @@ typedef enum koksma__series_style {
     KOKSMA__SERIES_HOLLOW
 } koksma__series_style;
 
-/* Series between begin and end; the page draws the first 24, and says how many more there are. */
+/* Series between begin and end. A series of lines or marks whose label begins with a pattern has its colour in all plots. */
 void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *chart);
 void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__series_style style);
 /* low, high: the bar of y; NAN: none. */

@@ -5,10 +5,8 @@
  * rows give the same bytes, whenever and however often the run was interrupted; the list of runs is one line of the
  * text. The sections come from sections.def. Files are replaced as a whole, the data first.
  */
-#include <stdio.h>
 #include <string.h>
 
-#include "core/atomic_file.h"
 #include "core/status.h"
 #include "study/report/export.h"
 #include "study/report/page.h"
@@ -87,20 +85,6 @@ static koksma_status build(koksma_study *study, const koksma_run *run, koksma__d
     return status ? status : d->json.status;
 }
 
-/* Writes the parts, which end at NULL, to a file of the study's folder. */
-static koksma_status write_file(const koksma_study *study, const char *name, const char *const *parts)
-{
-    koksma__atomic_file file;
-    koksma_status status = koksma__atomic_open(study->folder, name, &file);
-    if (!status) {
-        for (; *parts; parts++) {
-            fputs(*parts, file.stream);
-        }
-        status = koksma__atomic_close(&file, true);
-    }
-    return status;
-}
-
 koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
 {
     KOKSMA__REQUIRE(study);
@@ -110,13 +94,7 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
         return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder has no report");
     }
     koksma_status status = build(study, run, &d);
-    if (!status) {
-        status = write_file(study, "report.json", (const char *const[]){d.json.text, "\n", NULL});
-    }
-    if (!status) {
-        status = write_file(study, "report.html",
-                            (const char *const[]){koksma__page_before(), d.json.text, koksma__page_after(), NULL});
-    }
+    status = status ? status : koksma__page_write(study->folder, d.json.text);
     koksma__json_writer_fini(&d.json);
     return status;
 }

@@ -196,7 +196,8 @@ static koksma_status put_job(void *context, const koksma__task *t, const koksma_
 
 /* ---- References ---------------------------------------------------------------------------------------- */
 
-/* The file, where there is one; *same: its pixels have this hash. What is wrong with it is a difference. */
+/* Compares a reference image's file, if there is one, with the hash of its pixels; *same: they agree. A file that
+   cannot be read counts as a difference. */
 static koksma_status check_file(audit *a, const koksma__reference_image *reference, const char *pixels,
                                 const char *name, bool *same)
 {

@@ -15,7 +15,7 @@
 
 static const double REST_S = 2e-4;
 
-/* Jobs' results on their way. */
+/* Results of jobs that are sent to rank 0 together. */
 typedef struct outbox {
     unsigned char *bytes;
     size_t size, room;

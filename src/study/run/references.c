@@ -187,8 +187,8 @@ koksma_status koksma__reference_read(const koksma_study *study, koksma__referenc
         koksma_image_fini(&reference->image);
         reference->image = (koksma_image){0};
         status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s: not the picture that the study made, by the hash of its pixels; "
-                              "remove it, and a run makes it again",
+                              "%s: its pixels are not those that the study rendered, by their hash; "
+                              "remove the file, and 'koksma study run' renders it again",
                               path);
     }
     return status;

@@ -12,6 +12,32 @@
 
 #include "core/status.h"
 
+/* Work that a pixel's samples and the pixels of an image may make together: 64 samples in 160 x 120 pixels. */
+enum { MOST_SAMPLES = 64 * 160 * 120 };
+
+/* The size of the images of a scene, one for all numbers of samples: 0 x 0, what koksma rank takes, or halved further. */
+static koksma_status choose_size(const koksma__sheet *sheet, const char *name, int *width, int *height)
+{
+    koksma_scene *scene;
+    int spp = 0;
+    for (size_t i = 0; i < sheet->n_spp; i++) {
+        spp = sheet->spp[i] > spp ? sheet->spp[i] : spp;
+    }
+    koksma_render_options defaults;
+    *width = *height = 0;
+    KOKSMA__TRY(koksma_scene_open(name, &scene));
+    koksma_render_options_init(&defaults, scene);
+    for (int w = defaults.width, h = defaults.height; spp > 64 && w > 1 && h > 1 && !*width;
+         w = (w + 1) / 2, h = (h + 1) / 2) {
+        if ((long long)spp * w * h <= MOST_SAMPLES) {
+            *width = w;
+            *height = h;
+        }
+    }
+    koksma_scene_close(scene);
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__sheet_rank(koksma__sheet *sheet)
 {
     const char *patterns[KOKSMA__SHEET_SAMPLERS];
@@ -29,13 +55,14 @@ koksma_status koksma__sheet_rank(koksma__sheet *sheet)
         const koksma_run run = koksma__sheet_part(sheet, 0.4 / (double)n, 0.06);
         r->scene = sheet->scenes[i / sheet->n_spp];
         r->spp = sheet->spp[i % sheet->n_spp];
-        const koksma_rank_options options = {.scene = r->scene,
-                                             .patterns = patterns,
-                                             .n_patterns = sheet->n_samplers,
-                                             .spp = r->spp,
-                                             .max_trials = (long long)sheet->max_trials,
-                                             .one_size = true};
-        status = koksma_rank_patterns(&options, &run, r->rows, &r->ranking);
+        koksma_rank_options options = {.scene = r->scene,
+                                       .patterns = patterns,
+                                       .n_patterns = sheet->n_samplers,
+                                       .spp = r->spp,
+                                       .max_trials = (long long)sheet->max_trials,
+                                       .one_size = true};
+        status = choose_size(sheet, r->scene, &options.width, &options.height);
+        status = status ? status : koksma_rank_patterns(&options, &run, r->rows, &r->ranking);
         sheet->n_rankings += !status;
     }
     return status;
@@ -115,6 +142,7 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
 
 static void put_command(koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
+    const koksma_ranking *ranking = &sheet->rankings[scene * sheet->n_spp].ranking;
     char patterns[KOKSMA__SHEET_COMMAND] = "", spp[64] = "";
     bool quoted = false;
     for (size_t s = 0; s < sheet->n_samplers; s++) {
@@ -126,9 +154,10 @@ static void put_command(koksma__sheet *sheet, size_t scene, koksma__document *d)
         const size_t used = strlen(spp);
         snprintf(spp + used, sizeof spp - used, "%s%d", used ? "," : "", sheet->spp[k]);
     }
-    koksma__sheet_command(sheet, "rank %s --spp %s -p %s%s%s --max-trials %zu --one-size --time-limit 1000000000",
-                          sheet->scenes[scene], spp, quoted ? "'" : "", patterns, quoted ? "'" : "",
-                          sheet->max_trials);
+    koksma__sheet_command(
+        sheet, "rank %s --spp %s --size %dx%d -p %s%s%s --max-trials %zu --one-size --time-limit 1000000000",
+        sheet->scenes[scene], spp, ranking->width, ranking->height, quoted ? "'" : "", patterns, quoted ? "'" : "",
+        sheet->max_trials);
     koksma__sheet_put_commands(sheet, d);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A file of SQLite's, and nothing of studies: database.c is the only file that knows SQLite. The caller sees to it
-   that one thread at a time is here. Errors of what returns a status: IO (can't be written; another run holds it),
+/* An SQLite file, without any knowledge of studies: database.c alone includes SQLite. The caller lets one thread at a
+   time call these functions. Errors of those that return a status: IO (can't be written; another run holds it),
    MALFORMED (no database, or a damaged one), MEMORY. */
 #ifndef KOKSMA_STUDY_STORE_DATABASE_H
 #define KOKSMA_STUDY_STORE_DATABASE_H

@@ -36,8 +36,8 @@ def lines_of(table, macro):
 SCHEMA = json.loads((ROOT / "docs/report.schema.json").read_text())
 
 
-def check_schema(name, report):
-    for error in list(errors(report, SCHEMA, SCHEMA))[:5]:
+def check_schema(name, report, schema=SCHEMA):
+    for error in list(errors(report, schema, SCHEMA))[:5]:
         complain(f"{name}: {error}")
 
 
@@ -66,6 +66,21 @@ def check_tables(name, report):
             for cell, column in zip(row, table["columns"]):
                 if column["type"] in ("interval", "spread") and isinstance(cell, (str, int, float)):
                     complain(f"{name}: table {table['name']}, {column['name']}: {cell} has no interval")
+
+
+PALETTE = [re.findall(r"[\w-]+", names) for names in re.findall(r"^COLOUR\(\w+, \w+, ([^)]*)\)", (ROOT / "src/plot/palette.def").read_text(), re.M)]
+
+
+def check_colours(name, report):
+    """A pattern has its colour of the palette in every chart, and no two series of a chart look alike."""
+    for chart in (b for b in blocks(report["content"]) if b["kind"] == "chart"):
+        series = [s for s in chart["series"] if s["style"] in ("line", "marks")]
+        for s in series:
+            wanted = [i for i, names in enumerate(PALETTE) if re.split("[:@ ]", s["label"])[0] in names]
+            if wanted and s["colour"] != wanted[0]:
+                complain(f"{name}: {chart['title']}: {s['label']} has the colour {s['colour']}, in plots {wanted[0]}")
+        if len({(s["colour"], s["dash"]) for s in series}) < len(series):
+            complain(f"{name}: {chart['title']}: two series look alike")
 
 
 def check_numbers(name, report):
@@ -97,9 +112,47 @@ def run_study(name, plan):
         complain(f"{name}: report.json is no JSON: {error}")
         return None
     check_schema(name, report)
+    check_colours(name, report)
     check_tables(name, report)
     check_numbers(name, report)
     return report
+
+
+def check_images():
+    """Images of another renderer: the page's numbers are those of the command, and its answers follow from them."""
+    with tempfile.TemporaryDirectory() as folder:
+        def koksma(*words):
+            return subprocess.run([KOKSMA, *map(str, words)], cwd=folder, capture_output=True, text=True, check=True).stdout
+        for pattern in ("random", "jittered"):
+            for spp in (4, 16, 64):
+                for trial in (1, 2, 3, 4):
+                    koksma("render", "ball", "--size", "16x12", "--spp", spp, "-s", trial, "-p", pattern, "-o", f"i_{pattern}_{spp}_{trial}.pfm", "-q")
+        koksma("render", "ball", "--size", "16x12", "--spp", 1024, "-p", "jittered", "-o", "ref.pfm", "-q")
+        rows = [json.loads(line) for line in koksma("study", "images", "i_{p}_{spp}_{trial}.pfm", "--reference", "ref.pfm", "--json", "-o", "out").splitlines()]
+        text, page = ((Path(folder) / "out" / name).read_text() for name in ("report.json", "report.html"))
+    report = json.loads(text)
+    if text.strip() not in page:
+        complain("images: the page does not hold report.json")
+    check_schema("images", report, json.loads((ROOT / "docs/images.schema.json").read_text()))
+    check_colours("images", report)
+    check_tables("images", report)
+    check_numbers("images", report)
+    found = list(blocks(report["content"]))
+    for spp in (4, 16, 64):
+        table = next(b for b in found if b.get("name") == f"errors-{spp}")
+        names = [column["name"] for column in table["columns"]]
+        cells = {row[0]: dict(zip(names, row)) for row in table["rows"]}
+        for row in (r for r in rows if r["spp"] == spp):
+            cell = cells[row["images"]]
+            close = all(abs(a - b) < 1e-12 for a, b in zip(cell["error"] + [cell["rmse"]], (row["mean"], row["low"], row["high"], row["rmse"])))
+            if not close or cell["trials"] != 4 or cell["position"] != row["position"] or (cell["coherent"] == "yes") != row["coherent"]:
+                complain(f"images: {cell} is not {row}")
+    answers = [b["answer"] for b in found if b.get("answer")]
+    wanted = ["decided" if all(r["position"] == 1 or r["behind_low"] > 0 for r in rows if r["spp"] == spp) else "undecided" for spp in (4, 16, 64)]
+    if answers != wanted:
+        complain(f"images: the answers are {answers}, the intervals say {wanted}")
+    if [len(b["images"]) for b in found if b["kind"] == "pictures"] != [3] or {s["label"] for b in found if b["kind"] == "chart" for s in b["series"]} != {"random", "jittered"}:
+        complain("images: other pictures or lines")
 
 
 def check_question(kind):
@@ -165,6 +218,7 @@ assert not list(errors(GOOD, SCHEMA, SCHEMA))
 for kind in lines_of("plan/questions.def", "QUESTION"):
     check_question(kind)
 check_sections()
+check_images()
 check_documents()
 print(f"{problems} problems")
 sys.exit(problems > 0)

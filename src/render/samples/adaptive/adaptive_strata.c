@@ -134,8 +134,8 @@ static void compare_all(const koksma__strata *s, const koksma__tree *tree, const
     }
 }
 
-/* Under a budget the order is by the variance that a pixel may lose a sample: the sum of (volume x difference)^2 over
-   the strata to be split, over the samples that it takes. */
+/* Under a budget, pixels come in the order of the variance that each may lose for one sample: the sum of (volume x
+   difference)^2 over the strata to be split, divided by the samples that this takes. */
 void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     koksma__strata *s = run->state;

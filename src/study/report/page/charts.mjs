@@ -57,16 +57,17 @@ function inspect(stage, tip, block, points) {
 
 export function chartFigure(block) {
   const named = block.series.filter(s => s.style !== "theory" && s.points.length), labels = [...new Set(named.map(s => s.label))];
-  const limited = named.some(s => s.style === "line"), slots = new Map(); // label: its colour and mark
+  const limited = named.some(s => s.style === "line"), slots = new Map(); // label: its mark
   labels.slice(0, limited ? lines : labels.length).forEach((label, i) => slots.set(label, i));
   const plot = element("div", { class: "plot" }), tip = element("output", { class: "tip", hidden: true }), legend = element("ul", { class: "legend" });
   const stage = element("div", { class: "stage", tabindex: 0, role: "group", "aria-label": `${block.title}: arrow keys name its points` }, plot, tip);
   const choice = element("div", { class: "boxes" }), count = element("summary", {}), boxes = new Map();
+  const classes = new Map(named.filter(s => s.style !== "hollow").map(s => [s.label, `c${s.colour} d${s.dash}`]));
   let points = [];
   const draw = () => {
     const series = block.series.filter(s => s.style === "theory" || slots.has(s.label)).map(({ label, style, points: values }) => {
       const theory = style === "theory", hollow = style === "hollow", slot = slots.get(label);
-      return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}s${slot % lines}`,
+      return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}${classes.get(label) ?? "c0"}`,
         line: style === "line" || theory, marks: theory ? undefined : slot };
     });
     points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most: 1400 });
