@@ -10,6 +10,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "api/generate.h"
 #include "core/parallel.h"
@@ -140,6 +141,31 @@ static koksma_status integrate_set(void *context, size_t block)
     return status;
 }
 
+static bool estimates_are_equal(const koksma_integration_options *o, const double *estimates)
+{
+    bool equal = true;
+    for (size_t i = o->n_sizes; i < o->trials * o->n_sizes; i++) {
+        equal = equal && estimates[i] == estimates[i % o->n_sizes];
+    }
+    return equal;
+}
+
+/* Whether two seeds give one set: not every pattern of which that holds claims it. */
+static koksma_status has_one_set(const job *j, bool *one)
+{
+    koksma_points sets[2] = {{0}, {0}};
+    koksma_status status = KOKSMA_OK;
+    for (size_t s = 0; s < 2 && !status; s++) {
+        status = koksma_points_init(&sets[s], j->options->sizes[0], j->f->dim);
+        status = status ? status : koksma_generate(j->pattern, j->options->seed + s, NULL, &sets[s]);
+    }
+    const size_t bytes = sets[0].n * (size_t)sets[0].dim * sizeof *sets[0].xs;
+    *one = !status && !memcmp(sets[0].xs, sets[1].xs, bytes);
+    koksma_points_fini(&sets[0]);
+    koksma_points_fini(&sets[1]);
+    return status;
+}
+
 /* Within a set only whether to go on is asked; how far the work is, is counted in sets. */
 static bool go_on(void *context, double fraction)
 {
@@ -166,6 +192,11 @@ koksma_status koksma_integration_errors(const koksma_integral *integral, const k
     koksma_run outer = run ? *run : (koksma_run){0};
     outer.threads = together ? outer.threads : 1;
     koksma_status status = koksma__parallel(&outer, jobs, integrate_set, &j);
+    bool one_set = false;
+    if (!status && o.trials > 1 && estimates_are_equal(&o, j.estimates)) {
+        status = has_one_set(&j, &one_set);
+        o.trials = one_set ? 1 : o.trials;
+    }
     koksma_integral_facts facts;
     koksma_integral_about(integral, &facts);
     status = status ? status : koksma_integration_summary(facts.value, facts.variance, &o, j.estimates, out);
