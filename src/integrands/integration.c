@@ -71,22 +71,29 @@ static koksma_integration_row row_of(const koksma_integration_options *o, const 
     return row;
 }
 
-/* The mean squared errors that are no rounding; NaN for the others. */
-static void fit_slope(double value, const koksma_integration_options *o, const double *estimates,
+/* Below it errors are rounding: 2^-44 of what the integral, the function's values or the estimates are. */
+static double rounding(const koksma_integration_options *o, const double *estimates, double value, double variance)
+{
+    double scale = fmax(isnan(value) ? 0 : fabs(value), isnan(variance) ? 0 : sqrt(variance));
+    for (size_t i = 0; i < o->trials * o->n_sizes; i++) {
+        scale = fmax(scale, fabs(estimates[i]));
+    }
+    return 0x1p-44 * scale;
+}
+
+/* Of the mean squared errors that are no rounding; others are NaN, which the line leaves out. */
+static void fit_slope(double value, const koksma_integration_options *o, const double *estimates, double least,
                       koksma_integration *out)
 {
-    double squares[KOKSMA_MAX_SIZES], sizes[KOKSMA_MAX_SIZES], means[KOKSMA_MAX_SIZES], scale = fabs(value);
+    double squares[KOKSMA_MAX_SIZES], sizes[KOKSMA_MAX_SIZES], means[KOKSMA_MAX_SIZES];
     koksma_tally tallies[KOKSMA_MAX_SIZES];
     koksma_joint joint = {0};
     koksma_line line;
     for (size_t i = 0; i < o->n_sizes; i++) {
-        tallies[i] = tally_of(o, estimates, i);
-        scale = fmax(scale, fmax(fabs(tallies[i].min), fabs(tallies[i].max)));
-    }
-    for (size_t i = 0; i < o->n_sizes; i++) {
         const double rmse = out->rows[i].rmse;
+        tallies[i] = tally_of(o, estimates, i);
         sizes[i] = (double)o->sizes[i];
-        means[i] = rmse > 0x1p-44 * scale ? rmse * rmse : (double)NAN;
+        means[i] = rmse > least ? rmse * rmse : (double)NAN;
     }
     for (uint64_t t = 0; t < o->trials; t++) {
         for (size_t i = 0; i < o->n_sizes; i++) {
@@ -111,10 +118,12 @@ koksma_status koksma_integration_summary(double value, double variance, const ko
 {
     KOKSMA__REQUIRE(options, estimates, out);
     KOKSMA__TRY(check_options(options));
+    const double least = rounding(options, estimates, value, variance);
     for (size_t i = 0; i < options->n_sizes; i++) {
         out->rows[i] = row_of(options, estimates, i, value, variance);
+        out->rows[i].gain = out->rows[i].rmse > least ? out->rows[i].gain : (double)NAN;
     }
-    fit_slope(value, options, estimates, out);
+    fit_slope(value, options, estimates, least, out);
     return KOKSMA_OK;
 }
 
