@@ -111,7 +111,8 @@ const cli_command cli_command_datasheet = {
     .details =
         "A page with the verdict (at what the sampler is best, where it is beaten, how sure that is), its points, "
         "errors\n"
-        "and coherence in scenes, all measures against n with slopes, spectra, pair correlation, verified "
+        "and coherence in scenes, all measures against n with slopes, errors of integration, spectra, pair "
+        "correlation, verified "
         "properties\n"
         "and projections in more dimensions, each with the commands that give the numbers.\n"
         "\n"

@@ -463,14 +463,15 @@ static int run(const cli_arguments *arguments)
         const char *name;
         int (*run)(const cli_arguments *arguments);
         const char *options; /* that it takes beside those of all long work */
-    } verbs[] = {{"run", run_plans, " output trials quick time-limit "},
-                 {"quick", run_quick, " output trials quick time-limit patterns measures points scene spp "},
-                 {"new", new_plan, " output "},
-                 {"estimate", estimate, " trials quick time-limit json digits long "},
-                 {"export", export_rows, " output format "},
-                 {"report", report, " "},
-                 {"audit", audit, " rows seed json digits long "},
-                 {"images", images, " output reference json digits long "}};
+    } verbs[] = {
+        {"run", run_plans, " output trials quick time-limit "},
+        {"quick", run_quick, " output trials quick time-limit patterns measures integrands points scene spp "},
+        {"new", new_plan, " output "},
+        {"estimate", estimate, " trials quick time-limit json digits long "},
+        {"export", export_rows, " output format "},
+        {"report", report, " "},
+        {"audit", audit, " rows seed json digits long "},
+        {"images", images, " output reference json digits long "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
@@ -482,6 +483,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'p', "patterns", "LIST", "quick: the patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
     {'m', "measures", "LIST", "quick: the measures (default: star,l2-star)"},
+    {0, "integrands", "INTEGRAND,..", "quick: errors of integration beside the measures"},
     {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
     {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
     {0, "spp", "LIST", "quick: samples a pixel in the scenes (default: 4,16,64)"},

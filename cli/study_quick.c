@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The plan of `koksma study quick`: the patterns, measures, numbers of points and scenes of the command line as one
+ * The plan of `koksma study quick`: the patterns, measures, integrands, numbers of points and scenes of the command line as one
  * block of points and one of images, both with `skip`, written to DIR/plan.json, from where `koksma study run` takes
  * it as well. Files get absolute paths, as a plan's paths begin in its own folder.
  */
@@ -106,6 +106,7 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
     const char *patterns = cli_text(arguments, "patterns", default_patterns);
     const char *scenes = cli_text(arguments, "scene", NULL);
     const char *measures = cli_text(arguments, "measures", "star,l2-star");
+    const char *integrands = cli_text(arguments, "integrands", NULL);
     fputs("{\n  \"comment\": \"Made by koksma study quick; studies/README.md has all fields.\",\n"
           "  \"name\": \"quick\",\n  \"title\": \"Patterns by ",
           out);
@@ -117,6 +118,10 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
     fputs(",\n     ", out);
     put_list(out, "measures", measures, false);
     fputs(",\n     ", out);
+    if (integrands) {
+        put_list(out, "integrands", integrands, false);
+        fputs(",\n     ", out);
+    }
     if (!put_numbers(out, arguments, "n", "points", "16,64,256,1024")) {
         return false;
     }

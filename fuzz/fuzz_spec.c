@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Specs of patterns, measures and adaptive methods, and the patterns of a renderer's uses: what parses has a canonical
+/* Specs of patterns, measures, integrands and adaptive methods, and the patterns of a renderer's uses: what parses has a canonical
    text, which parses to the same. */
 #include <koksma/adaptive.h>
+#include <koksma/integrate.h>
 
 #include "target.h"
 
@@ -55,6 +56,28 @@ static void check_uses(const char *text)
     }
 }
 
+/* An integrand's canonical text opens again, as the same. */
+static void check_integrand(const char *text)
+{
+    koksma_integral *integral;
+    koksma_integral_facts first, second;
+    const koksma_status status = koksma_integral_open(text, 2, &integral);
+    fuzz_check_status(status);
+    if (status) {
+        return;
+    }
+    koksma_integral_about(integral, &first);
+    koksma_integral_close(integral);
+    if (koksma_integral_open(first.text, 2, &integral)) {
+        abort();
+    }
+    koksma_integral_about(integral, &second);
+    koksma_integral_close(integral);
+    if (strcmp(first.text, second.text)) {
+        abort();
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     koksma_spec spec;
@@ -75,6 +98,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
         check_round_trip(&spec, koksma_measure_spec);
     }
     check_adaptive(text);
+    check_integrand(text);
     check_uses(text);
     free(text);
     return 0;

@@ -104,12 +104,13 @@ typedef struct koksma_integration_row {
     double low,
         high;    /* 95 % interval of rmse over all sets (delta method on its logarithm, Student's t); NaN with one
                          set */
-    double gain; /* variance / n / rmse^2: how many times more random points give this error; NaN if not known */
+    double gain; /* variance / n / rmse^2: how many times more random points give this error; NaN if not known, or if
+                         the error is rounding */
 } koksma_integration_row;
 
 /* The slope of log rmse against log n by least squares, with its 95 % interval: from the trials as koksma_joint_line,
-   of one set from the residuals. Sizes whose rmse is rounding take no part: below 2^-44 of the integral, or of the
-   largest estimate. All NaN with fewer than three sizes left. */
+   of one set from the residuals. Sizes whose rmse is rounding take no part: below 2^-44 of the integral, the
+   largest estimate or the root of the variance. All NaN with fewer than three sizes left. */
 typedef struct koksma_integration_slope {
     size_t count; /* sizes used */
     double value, standard_error, low, high;

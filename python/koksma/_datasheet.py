@@ -60,7 +60,8 @@ class Datasheet:
 def datasheet(sampler: Union[str, "os.PathLike[str]"], beside: Optional[Sequence[str]] = None,
               scenes: Optional[Sequence[str]] = None, quick: bool = False, threads: SupportsIndex = 0,
               progress: Optional[Callable[[float], object]] = None) -> Datasheet:
-    """Measures a sampler beside others: errors in scenes, all measures against n, errors of integration, spectra, properties, projections.
+    """Measures a sampler beside others: errors in scenes, all measures against n, errors of integration, spectra,
+    properties, projections.
 
     Parameters
     ----------

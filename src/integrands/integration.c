@@ -10,6 +10,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "api/generate.h"
 #include "core/parallel.h"
@@ -70,22 +71,29 @@ static koksma_integration_row row_of(const koksma_integration_options *o, const 
     return row;
 }
 
-/* The mean squared errors that are no rounding; NaN for the others. */
-static void fit_slope(double value, const koksma_integration_options *o, const double *estimates,
+/* Below it errors are rounding: 2^-44 of what the integral, the function's values or the estimates are. */
+static double rounding(const koksma_integration_options *o, const double *estimates, double value, double variance)
+{
+    double scale = fmax(isnan(value) ? 0 : fabs(value), isnan(variance) ? 0 : sqrt(variance));
+    for (size_t i = 0; i < o->trials * o->n_sizes; i++) {
+        scale = fmax(scale, fabs(estimates[i]));
+    }
+    return 0x1p-44 * scale;
+}
+
+/* Of the mean squared errors that are no rounding; others are NaN, which the line leaves out. */
+static void fit_slope(double value, const koksma_integration_options *o, const double *estimates, double least,
                       koksma_integration *out)
 {
-    double squares[KOKSMA_MAX_SIZES], sizes[KOKSMA_MAX_SIZES], means[KOKSMA_MAX_SIZES], scale = fabs(value);
+    double squares[KOKSMA_MAX_SIZES], sizes[KOKSMA_MAX_SIZES], means[KOKSMA_MAX_SIZES];
     koksma_tally tallies[KOKSMA_MAX_SIZES];
     koksma_joint joint = {0};
     koksma_line line;
     for (size_t i = 0; i < o->n_sizes; i++) {
-        tallies[i] = tally_of(o, estimates, i);
-        scale = fmax(scale, fmax(fabs(tallies[i].min), fabs(tallies[i].max)));
-    }
-    for (size_t i = 0; i < o->n_sizes; i++) {
         const double rmse = out->rows[i].rmse;
+        tallies[i] = tally_of(o, estimates, i);
         sizes[i] = (double)o->sizes[i];
-        means[i] = rmse > 0x1p-44 * scale ? rmse * rmse : (double)NAN;
+        means[i] = rmse > least ? rmse * rmse : (double)NAN;
     }
     for (uint64_t t = 0; t < o->trials; t++) {
         for (size_t i = 0; i < o->n_sizes; i++) {
@@ -110,10 +118,12 @@ koksma_status koksma_integration_summary(double value, double variance, const ko
 {
     KOKSMA__REQUIRE(options, estimates, out);
     KOKSMA__TRY(check_options(options));
+    const double least = rounding(options, estimates, value, variance);
     for (size_t i = 0; i < options->n_sizes; i++) {
         out->rows[i] = row_of(options, estimates, i, value, variance);
+        out->rows[i].gain = out->rows[i].rmse > least ? out->rows[i].gain : (double)NAN;
     }
-    fit_slope(value, options, estimates, out);
+    fit_slope(value, options, estimates, least, out);
     return KOKSMA_OK;
 }
 
@@ -137,6 +147,31 @@ static koksma_status integrate_set(void *context, size_t block)
     koksma_status status = koksma_generate(j->pattern, j->options->seed + last / n_sizes, j->run, &points);
     status = status ? status : koksma_integrate(j->f, &points, j->run, &j->estimates[last]);
     koksma_points_fini(&points);
+    return status;
+}
+
+static bool estimates_are_equal(const koksma_integration_options *o, const double *estimates)
+{
+    bool equal = true;
+    for (size_t i = o->n_sizes; i < o->trials * o->n_sizes; i++) {
+        equal = equal && estimates[i] == estimates[i % o->n_sizes];
+    }
+    return equal;
+}
+
+/* Whether two seeds give one set: not every pattern of which that holds claims it. */
+static koksma_status has_one_set(const job *j, bool *one)
+{
+    koksma_points sets[2] = {{0}, {0}};
+    koksma_status status = KOKSMA_OK;
+    for (size_t s = 0; s < 2 && !status; s++) {
+        status = koksma_points_init(&sets[s], j->options->sizes[0], j->f->dim);
+        status = status ? status : koksma_generate(j->pattern, j->options->seed + s, NULL, &sets[s]);
+    }
+    const size_t bytes = sets[0].n * (size_t)sets[0].dim * sizeof *sets[0].xs;
+    *one = !status && !memcmp(sets[0].xs, sets[1].xs, bytes);
+    koksma_points_fini(&sets[0]);
+    koksma_points_fini(&sets[1]);
     return status;
 }
 
@@ -166,6 +201,11 @@ koksma_status koksma_integration_errors(const koksma_integral *integral, const k
     koksma_run outer = run ? *run : (koksma_run){0};
     outer.threads = together ? outer.threads : 1;
     koksma_status status = koksma__parallel(&outer, jobs, integrate_set, &j);
+    bool one_set = false;
+    if (!status && o.trials > 1 && estimates_are_equal(&o, j.estimates)) {
+        status = has_one_set(&j, &one_set);
+        o.trials = one_set ? 1 : o.trials;
+    }
     koksma_integral_facts facts;
     koksma_integral_about(integral, &facts);
     status = status ? status : koksma_integration_summary(facts.value, facts.variance, &o, j.estimates, out);

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import subprocess
+import tempfile
 import unittest
 
 import numpy as np
@@ -116,6 +117,32 @@ class Definitions(unittest.TestCase):
             self.assertAlmostEqual(known.variance, known.value * (1 - known.value), places=12, msg=spec)
             self.assertAlmostEqual(float(koksma.sensitivity(spec, 0).component), (square - known.value**2) / known.variance,
                                    places=9, msg=spec)
+
+    def test_genz(self):
+        """In one dimension a is the difficulty; u is where the table's function says: found from two values."""
+        a = 2.5
+        for name, at in [("oscillatory", lambda x, u: math.cos(2 * math.pi * u + a * x)),
+                         ("product-peak", lambda x, u: 1 / (a**-2 + (x - u)**2)), ("corner-peak", lambda x, u: (1 + a * x)**-2),
+                         ("gaussian", lambda x, u: math.exp(-a * a * (x - u)**2)), ("continuous", lambda x, u: math.exp(-a * abs(x - u))),
+                         ("discontinuous", lambda x, u: math.exp(a * x) if x <= u else 0)]:
+            spec = f"genz-{name}:difficulty={a},seed=3"
+            known, u = koksma.integrand(spec, 1), self.place(spec)
+            moments = [self.mean(lambda x: at(x, u)**k, (u,)) for k in (1, 2)]
+            self.assertAlmostEqual(known.value, moments[0], places=10, msg=spec)
+            self.assertAlmostEqual(known.variance, moments[1] - moments[0]**2, places=10, msg=spec)
+
+    @staticmethod
+    def place(spec):
+        """u of a family with this seed, whose a and u do not depend on the family: the peak of the Gaussian one, from the
+        logarithms of its means over one point each at 1/4 and 3/4, (x - u)^2 = -log f / a^2."""
+        gaussian, a = "genz-gaussian:" + spec.split(":")[1], float(spec.split("difficulty=")[1].split(",")[0])
+        with tempfile.TemporaryDirectory() as folder:
+            logs = []
+            for x in (0.25, 0.75):
+                path = os.path.join(folder, "x.txt")
+                koksma.write(path, [[x]])
+                logs.append(-math.log(rows(gaussian, path)[0]["mean"]) / a**2)
+        return 0.5 + (logs[0] - logs[1])  # (1/4 - u)^2 - (3/4 - u)^2 = u - 1/2
 
     def test_asian_options(self):
         """The distribution of the geometric mean: lognormal, its variance that of the mean of a Brownian motion."""
