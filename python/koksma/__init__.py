@@ -14,7 +14,7 @@ try:
 except ModuleNotFoundError:
     raise ImportError("koksma needs NumPy: apt install python3-numpy, or pip install numpy") from None
 
-from ._compare import Comparison, compare
+from ._compare import Comparison, MetricValue, compare
 from ._datasheet import Datasheet, datasheet
 from ._engine import Engine
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
@@ -31,7 +31,7 @@ from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
+    "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding", "MetricValue",
     "MalformedError", "Member", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
     "Ranked", "Ranking", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
     "Witness", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "measure", "measures",
