@@ -16,6 +16,7 @@ except ModuleNotFoundError:
 
 from ._compare import Comparison, MetricValue, compare
 from ._datasheet import Datasheet, datasheet
+from ._display import load_ipython_extension, unload_ipython_extension
 from ._engine import Engine
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)

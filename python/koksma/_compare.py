@@ -55,6 +55,16 @@ class Comparison:
     images: int
     metrics: Dict[str, MetricValue] = field(default_factory=dict)
 
+    def _repr_html_(self) -> str:
+        from ._display import table
+
+        rows = [("mean absolute error", self.mean, "", ""), ("largest", self.max, "", "")]
+        rows += [(name, m.value, m.robust, f"{100 * m.top_share:.0f} %") for name, m in self.metrics.items()]
+        error = "bands" if self.coherent else "noise"
+        return table(("error", "value", "without 0.1 % of the pixels", "their share"), rows,
+                     f"{self.images} image{'s' * (self.images != 1)}; the error is {error} (coherence {self.coherence:.3g}, noise is "
+                     f"below {self.noise_high:.3g})")
+
 
 def _metric(name: str) -> Tuple[s.MetricSpec, str]:
     """A metric by its text, and the canonical text."""

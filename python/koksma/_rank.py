@@ -90,6 +90,16 @@ class Ranking:
         """The pattern with the least error, in bands or not; None while it is undecided. What to use is `advised`."""
         return self.rows[0].pattern if self.settled else None
 
+    def _repr_html_(self) -> str:
+        from ._display import number, table
+
+        advice = f"use {self.advised}" if self.advised else "undecided"
+        return table(("position", "pattern", f"error ({self.metric})", "interval", "behind the first", "images", "error is"),
+                     [(r.position if r.position else r.reason or r.state, r.pattern, r.error,
+                       " to ".join(map(number, r.interval)), "" if math.isnan(r.behind) else f"{100 * r.behind:.3g} %", r.trials,
+                       "bands" if r.coherent else "noise") for r in self.rows],
+                     f"{advice} ({self.size[0]} x {self.size[1]} pixels; intervals hold together with 95 %)")
+
 
 @dataclass(frozen=True)
 class Asked:
