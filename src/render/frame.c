@@ -73,7 +73,10 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
     for (size_t i = 0; i < scene->n_materials; i++) {
         lobes |= scene->materials[i].bsdf->lobes;
     }
-    const bool one = options->lights != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
+    if (flags->replace_scene) {
+        lobes = KOKSMA__LOBE_DIFFUSE;
+    }
+    const bool one = options->lights != KOKSMA_LIGHTS_ALL && scene->n_lights > 0 && !flags->replace_scene;
     const int lights = one ? 1 : (int)scene->n_lights;
     return (koksma__use_list){.lens = scene->camera.lens_radius > 0,
                               .time = scene->moves,
@@ -152,6 +155,9 @@ void koksma__frame_close(koksma__frame *f)
     koksma__lights_fini(&f->lights);
     free(f->materials);
     free(f->shading_materials);
+    if (f->replaced) {
+        f->flags->release_scene(f->replaced);
+    }
 }
 
 static koksma_status check(const koksma_render_options *o)
@@ -184,5 +190,9 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     out->depth = depth_of(options);
     out->channels = scene->grey ? 1 : 3;
     out->batch = koksma__batch();
+    if (out->flags->replace_scene) {
+        KOKSMA__TRY(out->flags->replace_scene(scene, &out->replaced));
+        out->scene = out->replaced;
+    }
     return make_frame(out, run);
 }

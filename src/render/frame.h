@@ -33,6 +33,7 @@ typedef struct koksma__frame {
     koksma__shading_material *shading_materials;
     koksma__filter_table *filter; /* NULL: box */
     void *cache;                  /* the integrator's own */
+    koksma_scene *replaced;       /* the integrator's own scene, which `scene` is then; or NULL */
 } koksma__frame;
 
 /* Pixels first .. first + count - 1, and their samples: pixel first + p has samples start[p] .. start[p + 1] - 1. The
