@@ -215,7 +215,7 @@ class RankOptions(Structure):
 
 class DatasheetOptions(Structure):
     _fields_ = [("sampler", c_char_p), ("beside", POINTER(c_char_p)), ("n_beside", c_size_t),
-                ("scenes", POINTER(c_char_p)), ("n_scenes", c_size_t), ("quick", c_bool)]
+                ("scenes", POINTER(c_char_p)), ("n_scenes", c_size_t), ("metric", c_char_p), ("quick", c_bool)]
 
 
 class RankRow(Structure):
