@@ -6,7 +6,7 @@
 #include <koksma/image.h>
 
 #include "cli.h"
-#include "metrics.h"
+#include "metric_option.h"
 
 /* What is known of the images so far. */
 typedef struct comparison {

@@ -83,6 +83,7 @@ static int run(const cli_arguments *arguments)
         .n_beside = beside.n,
         .scenes = cli_text(arguments, "scenes", NULL) ? scenes.at : NULL,
         .n_scenes = scenes.n,
+        .metric = cli_text(arguments, "metric", NULL),
         .quick = cli_flag(arguments, "quick"),
     };
     koksma_status status = koksma_datasheet(&options, &work.run, &json);
@@ -97,6 +98,7 @@ static const cli_option options[] = {
     {'b', "beside", "PATTERN,..|none",
      "samplers to compare with, up to 7 (default: random,jittered,sobol:scramble=owen)"},
     {0, "scenes", "SCENE,..|none", "scenes to render (default: ball,checker,cornell)"},
+    {'m', "metric", "METRIC", "of the errors in scenes: mae (default), relmse, ldr-flip, ..."},
     {0, "quick", NULL, "fewer sets, sizes and images: under a minute"},
     {0, "json", NULL, "the data on stdout, instead of a page"},
     CLI_RUN_OPTIONS,
@@ -106,7 +108,8 @@ static const cli_option options[] = {
 const cli_command cli_command_datasheet = {
     .name = "datasheet",
     .summary = "all about one sampler beside others, on one page",
-    .synopsis = "SPEC|FILE|'my_{n}_{seed}.npy' -o FILE [--beside PATTERN,..|none] [--scenes SCENE,..|none] [--quick] "
+    .synopsis = "SPEC|FILE|'my_{n}_{seed}.npy' -o FILE [--beside PATTERN,..|none] [--scenes SCENE,..|none] [--metric "
+                "METRIC] [--quick] "
                 "[--json]",
     .details =
         "A page with the verdict (at what the sampler is best, where it is beaten, how sure that is), its points, "

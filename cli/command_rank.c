@@ -12,6 +12,7 @@
 #include <koksma/study.h>
 
 #include "cli.h"
+#include "metric_option.h"
 #include "rank_advice.h"
 #include "render_options.h"
 #include "source.h"
@@ -158,7 +159,12 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_flag(rows, "coherent", row->coherence.coherent);
     cli_row_whole(rows, "width", (uint64_t)ranking->width);
     cli_row_whole(rows, "height", (uint64_t)ranking->height);
+    char metric[KOKSMA_MAX_SPEC];
+    koksma_metric_text(options->metric, metric);
+    cli_row_text(rows, "metric", metric);
     if (json) {
+        cli_row_number(rows, "robust", row->robust);
+        cli_row_number(rows, "top_share", row->top_share);
         cli_row_text(rows, "state", states[row->state]);
         cli_row_text(rows, "decision", decisions[row->decision]);
         cli_row_text(rows, "reason", row->reason);
@@ -215,6 +221,7 @@ static int run(const cli_arguments *arguments)
     double time_limit_s;
     int width = 0, height = 0;
     uint64_t max_trials;
+    cli_metrics metric = {.n = 0};
     const koksma_integrator *integrator = koksma_integrator_find("distribution");
     const koksma_filter *filter = koksma_filter_find("box");
     const char *list = cli_text(arguments, "spp", "4,16,64"), *command = cli_text(arguments, "with", NULL);
@@ -249,7 +256,14 @@ static int run(const cli_arguments *arguments)
     if (!cli_real(arguments, "time-limit", 60, 0.1, 1e9, &time_limit_s) ||
         !cli_integrator_and_filter(arguments, &integrator, &filter) || !cli_size(arguments, &width, &height) ||
         !cli_whole(arguments, "max-trials", 4096, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
-        !cli_work_begin(arguments, "ranking", &work)) {
+        !cli_metrics_parse(arguments, &metric)) {
+        return CLI_USAGE;
+    }
+    if (metric.n > 1) {
+        return cli_usage_error(arguments, "--metric: one metric ranks; 'koksma compare -m' prints several");
+    }
+    metric.specs[0].metric = metric.n ? metric.specs[0].metric : koksma_metric_find("mae");
+    if (!cli_work_begin(arguments, "ranking", &work)) {
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
@@ -268,6 +282,7 @@ static int run(const cli_arguments *arguments)
                                              .height = height,
                                              .integrator = integrator,
                                              .filter = filter,
+                                             .metric = metric.specs,
                                              .time_limit_s = left_s / (double)(n_spp - i),
                                              .max_trials = (long long)max_trials,
                                              .one_size = cli_flag(arguments, "one-size"),
@@ -292,6 +307,7 @@ static const cli_option options[] = {
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
+    {'m', "metric", "METRIC", "what ranks: mae (default), rmse, relmse, smape, ldr-flip, hdr-flip with parameters"},
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
     {0, "max-trials", "N", "images of each pattern at each size, 8 to 65536 (default: 4096)"},
     CLI_ROW_OPTIONS,
@@ -303,11 +319,13 @@ const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "rank patterns by the error that they leave in a scene",
     .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later|all] [--size WxH] [--one-size] "
-                "[--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--max-trials N] [--with COMMAND "
+                "[--integrator INTEGRATOR] [--filter FILTER] [--metric METRIC] [--time-limit S] [--max-trials N] "
+                "[--with COMMAND "
                 "[--reference PATTERN]] [--json]",
     .details =
-        "Renders the scene many times with every pattern and ranks the patterns by the mean absolute error of the\n"
-        "image. Patterns are compared as they are used, including random shifts.\n"
+        "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the mean\n"
+        "over the images of --metric, by default the mean absolute error in luminance. Patterns are compared as they "
+        "are used, including random shifts.\n"
         "\n"
         "The sequence of work depends on the command line, not on the machine: rounds of 8, 16, 32, ... trials\n"
         "until the best pattern is decided, and the best of those without bands; then the same for the first three\n"
@@ -327,6 +345,11 @@ const cli_command cli_command_rank = {
         "another pattern, which eyes notice more than noise of the same size. The advice is therefore the best\n"
         "pattern whose error is not coherent, with what a coherent one would save.\n"
         "\n"
+        "Where the 0.1 % of the pixels with the largest error carry half of it or more (top_share in --json), a "
+        "warning\n"
+        "says so: the order is that of few pixels. 'robust' is the error without them. FLIP takes 17 comparisons an\n"
+        "image, one for each part of the reference: for hdr-flip 0.7 s at 160 x 120 pixels, for mae a millisecond.\n"
+        "\n"
         "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other.\n"
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
         "thesis: the seven patterns of Shirley 1991. later: these and ten newer ones.\n"
@@ -344,6 +367,7 @@ const cli_command cli_command_rank = {
     .examples = "koksma rank ball --spp 16\n"
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"
                 "koksma rank cornell --integrator path --time-limit 300\n"
+                "koksma rank balls --spp 4 --size 32x24 --metric ldr-flip\n"
                 "koksma rank s.xml -p a,b --with './r {scene} {pattern} {spp} {seed} {out}'\n",
     .options = options,
     .run = run,

@@ -275,6 +275,23 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
     }
 }
 
+/* Where few pixels carry most of the error of some patterns. */
+static void warn_of_few_pixels(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n)
+{
+    size_t count = 0, most = 0;
+    for (size_t i = 0; i < n; i++) {
+        count += rows[i].top_share >= KOKSMA_FEW_PIXELS;
+        most = rows[i].top_share > rows[most].top_share ? i : most;
+    }
+    if (count) {
+        fprintf(
+            stderr,
+            "  warning: 0.1 %% of the pixels carry most of the error of %zu of %zu patterns (%s: %.0f %%), and this "
+            "order is theirs; a metric that weighs them less, such as smape, may have another\n",
+            count, n, name_of(options, rows[most].pattern), 100 * rows[most].top_share);
+    }
+}
+
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
 {
     fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", base_of(options->scene), options->spp,
@@ -285,10 +302,12 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
         advise_undecided(options, rows, ranking);
     }
     fprintf(stderr, ".\n  %lld trial%s (", ranking->trials, ranking->trials == 1 ? "" : "s");
+    char metric[KOKSMA_MAX_SPEC];
+    koksma_metric_text(options->metric, metric);
     if (options->render) {
-        fprintf(stderr, "by the command) in ");
+        fprintf(stderr, "by the command, error by %s) in ", metric);
     } else {
-        fprintf(stderr, "%s, %s filter) in ", options->integrator->name, options->filter->name);
+        fprintf(stderr, "%s, %s filter, error by %s) in ", options->integrator->name, options->filter->name, metric);
     }
     print_seconds(ranking->seconds);
     if (isfinite(ranking->reference_error)) {
@@ -298,6 +317,7 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
             ranking->complete    ? ""
             : ranking->cut_short ? "; the time was up before every pair was decided"
                                  : "; the trials were too few to decide every pair");
+    warn_of_few_pixels(options, rows, ranking->n);
     if (ranking->settled && ranking->n > 1 && !options->one_size && (!options->render || options->width)) {
         advise_sizes(options, rows, ranking);
     }

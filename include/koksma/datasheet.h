@@ -28,6 +28,7 @@ typedef struct koksma_datasheet_options {
     size_t n_beside;           /* with beside not NULL; may be 0 */
     const char *const *scenes; /* up to KOKSMA_MAX_SHEET_SCENES, as for koksma_scene_open; NULL: three that ship */
     size_t n_scenes;           /* with scenes not NULL; may be 0 */
+    const char *metric;        /* of images, as for koksma_metric_parse (image.h); NULL: mae */
     bool quick;                /* fewer sets, sizes and images */
 } koksma_datasheet_options;
 

@@ -257,6 +257,7 @@ typedef struct koksma_rank_options {
     int width, height;                   /* of the image; 0: the scene's, halved until it has at most 19,200 pixels */
     const koksma_integrator *integrator; /* NULL: distribution */
     const koksma_filter *filter;         /* NULL: box */
+    const koksma_metric_spec *metric;    /* of the error of an image, by which patterns are ranked; NULL: mae */
     double time_limit_s;         /* seconds; 0: none. It ends the sequence of work early and changes nothing else */
     long long max_trials;        /* for each pattern, 8 to KOKSMA_MAX_RANK_TRIALS; 0: 4096 */
     bool one_size;               /* leave out the checks at half and twice the size */
@@ -291,7 +292,9 @@ typedef struct koksma_rank_row {
     koksma_rank_state state;
     koksma_rank_decision decision;
     long long trials;
-    double mean, low, high; /* mean absolute error of the image, corrected for the error of the reference */
+    double mean, low, high; /* the mean over the trials of the metric, corrected for the error of the reference */
+    double robust;    /* the same without the 0.1 % of pixels of largest error (koksma_metric_value); not corrected */
+    double top_share; /* the share of the error that these carry, mean over the trials */
     double behind, behind_low, behind_high; /* relative difference to the mean of row 0 */
     koksma_coherence_values coherence;      /* of the errors of its first 8 trials; images is 0 with fewer trials, and
                                                without any error */
@@ -345,8 +348,8 @@ typedef struct koksma_ranking {
     size_t n_coherent;  /* ranked patterns whose error is coherent */
 } koksma_ranking;
 
-/* Renders the scene with every pattern, trial by trial, and ranks the patterns by the mean absolute error of the
-   image.
+/* Renders the scene with every pattern, trial by trial, and ranks the patterns by the error of the image: the
+   mean over the trials of options->metric, by default the mean absolute error in luminance.
 
    The sequence of work depends on the options, not on the machine. It is: rounds of 8, 16, 32, ... trials until the
    best pattern is decided; further rounds until the best of those whose error is not coherent (image.h) is decided;

@@ -14,8 +14,9 @@ try:
 except ModuleNotFoundError:
     raise ImportError("koksma needs NumPy: apt install python3-numpy, or pip install numpy") from None
 
-from ._compare import Comparison, compare
+from ._compare import Comparison, MetricValue, compare
 from ._datasheet import Datasheet, datasheet
+from ._display import load_ipython_extension, unload_ipython_extension
 from ._engine import Engine
 from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
@@ -33,7 +34,7 @@ from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
-    "Integrand", "Integration", "MalformedError", "Member", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
+    "Integrand", "Integration", "MalformedError", "Member", "MetricValue", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
     "Ranked", "Ranking", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
     "Witness", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "has_ranges", "integrand", "integrands", "integrate", "measure", "measures",
     "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence",

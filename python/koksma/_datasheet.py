@@ -58,7 +58,7 @@ class Datasheet:
 
 
 def datasheet(sampler: Union[str, "os.PathLike[str]"], beside: Optional[Sequence[str]] = None,
-              scenes: Optional[Sequence[str]] = None, quick: bool = False, threads: SupportsIndex = 0,
+              scenes: Optional[Sequence[str]] = None, metric: str = "mae", quick: bool = False, threads: SupportsIndex = 0,
               progress: Optional[Callable[[float], object]] = None) -> Datasheet:
     """Measures a sampler beside others: errors in scenes, all measures against n, errors of integration, spectra,
     properties, projections.
@@ -71,6 +71,8 @@ def datasheet(sampler: Union[str, "os.PathLike[str]"], beside: Optional[Sequence
         Up to 7 samplers to compare with; None: random, jittered and sobol:scramble=owen.
     scenes : sequence of str, optional
         Up to 16; None: ball, checker and cornell; empty: none.
+    metric : str
+        Of the errors in scenes, such as "relmse" or "ldr-flip:ppd=40".
     quick : bool
         Fewer sets, sizes and images.
     threads : int
@@ -89,7 +91,7 @@ def datasheet(sampler: Union[str, "os.PathLike[str]"], beside: Optional[Sequence
     >>> sheet.table("measures")[0]["best of the others"]
     'jittered'
     """
-    options = s.DatasheetOptions(sampler=text(os.fspath(sampler)), quick=quick)
+    options = s.DatasheetOptions(sampler=text(os.fspath(sampler)), metric=text(metric), quick=quick)
     if beside is not None:
         options.beside = (c_char_p * max(len(beside), 1))(*[text(name) for name in beside])
         options.n_beside = len(beside)

@@ -28,6 +28,11 @@ class Optimum:
     last_gain: int
     method: str
 
+    def _repr_svg_(self) -> str:
+        from ._plot import plot
+
+        return plot(self.points).svg
+
 
 def _optimum(best: s.Optimum) -> Optimum:
     points = shown(best.points.xs, best.points.n, best.points.dim).copy()

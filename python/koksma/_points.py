@@ -76,6 +76,21 @@ class Value:
             parts.append(repr(self.witness))
         return f"Value({', '.join(parts)})"
 
+    def _repr_html_(self) -> str:
+        from ._display import table
+
+        rows: List[Tuple[str, Any]] = [("value", self.value)]
+        if not self.exact and self.lower < self.upper:
+            rows += [("at least", self.lower), ("at most", self.upper)]
+        if self.standard_error > 0:
+            rows.append(("standard error", self.standard_error))
+        if self.witness:
+            w = self.witness
+            rows += [(f"witness: {'closed' if w.closed else 'open'} {w.kind}",
+                      f"{', '.join(f'{x:.6g}' for x in w.lo)} to {', '.join(f'{x:.6g}' for x in w.hi)}"),
+                     ("points in it", w.count), ("its volume", w.volume)]
+        return table(("", "exact" if self.exact else "not exact"), rows)
+
 
 @dataclass(frozen=True)
 class Modifier:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from ctypes import byref, c_char_p, memmove
+from ctypes import byref, c_char_p, memmove, pointer
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union
 
 import numpy.typing as npt
 
 from . import _structs as s
-from ._compare import _as_image
+from ._compare import _as_image, _metric
 from ._library import ArgumentError, call, lab, text, whole
 from ._points import canonical
 from ._render import _found
@@ -41,6 +41,8 @@ class Ranked:
     coherence_noise: float  #: 97.5 % of white-noise errors have less
     coherence_p: float
     coherent: bool  #: the error has bands or another pattern
+    robust: float  #: the error without the 0.1 % of the pixels with the largest
+    top_share: float  #: the share of the error that these carry; from 0.5 on the order is that of few pixels
 
 
 @dataclass(frozen=True)
@@ -81,11 +83,22 @@ class Ranking:
     checks: Tuple[SizeCheck, ...]
     seconds: float
     advised: Optional[str]  #: decided to leave the least of those whose error is not coherent; None: undecided, or no such
+    metric: str  #: what error is
 
     @property
     def best(self) -> Optional[str]:
         """The pattern with the least error, in bands or not; None while it is undecided. What to use is `advised`."""
         return self.rows[0].pattern if self.settled else None
+
+    def _repr_html_(self) -> str:
+        from ._display import number, table
+
+        advice = f"use {self.advised}" if self.advised else "undecided"
+        return table(("position", "pattern", f"error ({self.metric})", "interval", "behind the first", "images", "error is"),
+                     [(r.position if r.position else r.reason or r.state, r.pattern, r.error,
+                       " to ".join(map(number, r.interval)), "" if math.isnan(r.behind) else f"{100 * r.behind:.3g} %", r.trials,
+                       "bands" if r.coherent else "noise") for r in self.rows],
+                     f"{advice} ({self.size[0]} x {self.size[1]} pixels; intervals hold together with 95 %)")
 
 
 @dataclass(frozen=True)
@@ -128,10 +141,12 @@ class _Renderer:
 
 def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS, spp: SupportsIndex = 16, *,
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
-         filter: Optional[str] = None, time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
+         filter: Optional[str] = None, metric: str = "mae", time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
          one_size: bool = False, threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
          reference: Optional[str] = None) -> Ranking:
-    """Ranks patterns by the mean absolute error of the pictures that they make of a scene, as `koksma rank` does.
+    """Ranks patterns by the error of the pictures that they make of a scene, as `koksma rank` does.
+
+    metric: of the error; mae is the mean absolute error in luminance (`koksma list metrics`).
 
     size: (width, height); without it the scene's own, halved until it has 19,200 pixels at most. time_limit: seconds, None
     for none; it cuts the work short and changes nothing else, so that a longer one names the same best pattern, or one
@@ -152,13 +167,14 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     names = [canonical(pattern) if other is None else pattern for pattern in patterns]
     if not names or len(set(names)) < len(names):
         raise ArgumentError("patterns: it takes one or more, each once")
+    spec, metric = _metric(metric)
     array = (c_char_p * len(names))(*[text(name) for name in names])
     name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
     options = s.RankOptions(scene=text(name), patterns=array, n_patterns=len(names), one_size=one_size,
                             time_limit_s=time_limit or 0.0, spp=whole("spp", spp, 1, s.MAX_SPP),
                             max_trials=whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS),
                             integrator=_found("integrator", integrator or "distribution"),
-                            filter=_found("filter", filter or "box"))
+                            filter=_found("filter", filter or "box"), metric=pointer(spec))
     if size is not None:
         width, height = size
         options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
@@ -180,14 +196,14 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
                      (r.low, r.high), r.behind, (r.behind_low, r.behind_high),
                      reasons.get(names[r.pattern], r.reason.decode(errors="replace")),
                      r.coherence.coherence, (r.coherence.low, r.coherence.high), r.coherence.noise_high,
-                     r.coherence.p, r.coherence.coherent)
+                     r.coherence.p, r.coherence.coherent, r.robust, r.top_share)
               for r in rows],
         settled=out.settled, complete=out.complete, cut_short=out.cut_short, trials=out.trials,
         needed_trials=out.needed_trials or None if undecided else None,
         needed_seconds=out.needed_s or None if undecided else None, size=(out.width, out.height),
         reference_error=out.reference_error, seconds=out.seconds,
         advised=names[rows[out.advised_row].pattern] if out.advised else None,
-        checks=tuple(_check(c, names) for c in out.checks))
+        checks=tuple(_check(c, names) for c in out.checks), metric=metric)
 
 
 def _result(result: s.RankCheckResult, names: Sequence[str]) -> FirstPlace:

@@ -105,6 +105,11 @@ class Convergence:
         return (f"Convergence({self.pattern!r}, {self.measure!r}, n={self.sizes[0]}..{self.sizes[-1]}: "
                 f"slope {self.slope:.3f} +- {self.slope_error:.2g})")
 
+    def _repr_svg_(self) -> str:
+        from ._plot import plot_convergence
+
+        return plot_convergence(self).svg
+
 
 def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: SupportsIndex = 2, trials: SupportsIndex = 100,
            seed: SupportsIndex = 0, threads: SupportsIndex = 0) -> Trials:

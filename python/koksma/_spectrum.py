@@ -35,6 +35,12 @@ class Spectrum:
     oscillation: float
     sets: int
 
+    def _repr_svg_(self) -> str:
+        from ._display import chart
+
+        return chart("frequency", "power", [(f"{self.sets} set{'s' * (self.sets != 1)}", self.frequency, self.ring_power)], 1,
+                     "Mean power of rings").svg
+
 
 def _result(raw: s.Spectrum) -> Spectrum:
     half, width = raw.half, 2 * raw.half + 1
@@ -120,3 +126,8 @@ class PairCorrelation:
     distance: npt.NDArray[np.float64]
     density: npt.NDArray[np.float64]
     sets: int
+
+    def _repr_svg_(self) -> str:
+        from ._display import chart
+
+        return chart("distance", "pair correlation", [(f"{self.sets} set{'s' * (self.sets != 1)}", self.distance, self.density)], 1).svg

@@ -104,6 +104,14 @@ class ImageError(Structure):
     _fields_ = [("mean", c_double), ("sd", c_double), ("max", c_double), ("rmse", c_double)]
 
 
+class MetricSpec(Structure):
+    _fields_ = [("metric", c_void_p), ("params", c_double * MAX_PARAMS)]
+
+
+class MetricValue(Structure):
+    _fields_ = [("value", c_double), ("robust", c_double), ("top_share", c_double), ("top", c_size_t)]
+
+
 class Coherence(Structure):
     _fields_ = [("width", c_int), ("height", c_int), ("images", c_size_t), ("error", POINTER(c_double)),
                 ("power", POINTER(c_double)), ("squares", POINTER(c_double))]
@@ -246,19 +254,19 @@ RankRenderer = CFUNCTYPE(c_int, c_void_p, POINTER(RankPicture), POINTER(Run), PO
 class RankOptions(Structure):
     _fields_ = [("scene", c_char_p), ("patterns", POINTER(c_char_p)), ("n_patterns", c_size_t), ("spp", c_int),
                 ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p),
-                ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool), ("render", RankRenderer),
+                ("metric", POINTER(MetricSpec)), ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool), ("render", RankRenderer),
                 ("render_context", c_void_p), ("reference", c_char_p)]
 
 
 class DatasheetOptions(Structure):
     _fields_ = [("sampler", c_char_p), ("beside", POINTER(c_char_p)), ("n_beside", c_size_t),
-                ("scenes", POINTER(c_char_p)), ("n_scenes", c_size_t), ("quick", c_bool)]
+                ("scenes", POINTER(c_char_p)), ("n_scenes", c_size_t), ("metric", c_char_p), ("quick", c_bool)]
 
 
 class RankRow(Structure):
     _fields_ = [("pattern", c_size_t), ("position", c_size_t), ("state", c_int), ("decision", c_int),
                 ("trials", c_longlong), ("mean", c_double), ("low", c_double), ("high", c_double),
-                ("behind", c_double), ("behind_low", c_double), ("behind_high", c_double),
+                ("robust", c_double), ("top_share", c_double), ("behind", c_double), ("behind_low", c_double), ("behind_high", c_double),
                 ("coherence", CoherenceValues), ("reason", c_char * RANK_REASON)]
 
 
@@ -308,6 +316,7 @@ LAYOUTS = [
     ("spectrum.h", "koksma_spectrum_quality_values", SpectrumQuality),
     ("spectrum.h", "koksma_ring", Ring),
     ("image.h", "koksma_image", Image), ("image.h", "koksma_image_error", ImageError),
+    ("image.h", "koksma_metric_spec", MetricSpec), ("image.h", "koksma_metric_value", MetricValue),
     ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
     ("render.h", "koksma_use_group", UseGroup), ("render.h", "koksma_render_options", RenderOptions),
     ("series.h", "koksma_line", Line), ("plot.h", "koksma_scatter_options", ScatterOptions), ("plot.h", "koksma_panel", Panel),

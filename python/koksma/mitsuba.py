@@ -26,7 +26,8 @@ Needs Mitsuba 3.7 or later. Variants "llvm_..." take an LLVM library that Dr.Jit
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union
+import time
+from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -325,8 +326,8 @@ class Renderer:
 
 def rank(scene: Union[str, "os.PathLike[str]", Dict[str, Any]], patterns: Sequence[str], spp: SupportsIndex = 16, *,
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, time_limit: Optional[float] = 60,
-         max_trials: SupportsIndex = 4096, reference: str = "independent") -> Ranking:
-    """Ranks samplers by the mean absolute error that they leave in a scene of Mitsuba: koksma.rank, with its statistics,
+         max_trials: SupportsIndex = 4096, reference: str = "independent", metric: str = "mae") -> Ranking:
+    """Ranks samplers by the error (`metric`, by default the mean absolute one in luminance) that they leave in a scene of Mitsuba: koksma.rank, with its statistics,
     over pictures of Mitsuba.
 
     patterns: Mitsuba's own samplers ("independent", "multijitter" ...) and Koksma's patterns. Those of Koksma that cannot
@@ -335,22 +336,22 @@ def rank(scene: Union[str, "os.PathLike[str]", Dict[str, Any]], patterns: Sequen
     """
     name = os.fspath(scene) if not isinstance(scene, dict) else "a scene of Mitsuba"
     return _rank(name, patterns, spp, size=size, time_limit=time_limit, max_trials=max_trials, reference=reference,
-                 renderer=Renderer(scene))
+                 metric=metric, renderer=Renderer(scene))
 
 
 def times(scene: Union[str, "os.PathLike[str]", Dict[str, Any]], patterns: Sequence[str], spp: int = 16, *,
-          size: Optional[Tuple[int, int]] = None, repeats: int = 5) -> List[float]:
+          size: Optional[Tuple[int, int]] = None, repeats: int = 5,
+          clock: Callable[[], float] = time.perf_counter) -> List[float]:
     """The seconds of a picture by each sampler, the least of several after a first one, for rankings at equal time:
-    "NAME*F" in a ranking is a sampler with F times the samples."""
-    import time
-
+    "NAME*F" in a ranking is a sampler with F times the samples. clock: time.process_time counts those of all threads, where
+    other programs take turns with this one."""
     renderer, seconds = Renderer(scene), []
     for pattern in patterns:
         taken = []
         for seed in range(repeats + 1):
-            start = time.perf_counter()
+            start = clock()
             renderer(Asked("", pattern, spp, size, seed))
-            taken.append(time.perf_counter() - start)
+            taken.append(clock() - start)
         seconds.append(min(taken[1:]))
     return seconds
 

@@ -68,7 +68,10 @@ koksma_status koksma__image_check(const koksma_image *image, const char *name);
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out);
 
-/* Rec. 709's. */
+/* Rec. 709's, of linear red, green and blue in doubles. */
+#define KOKSMA__LUMINANCE(rgb) (0.2126 * (rgb)[0] + 0.7152 * (rgb)[1] + 0.0722 * (rgb)[2])
+
+/* Of a pixel. */
 double koksma__luminance(const koksma_image *image, size_t pixel);
 
 #endif

@@ -123,6 +123,9 @@ koksma_light_selection koksma__light_selection(const koksma_scene *scene, const 
 {
     const koksma__integrator_flags *flags = options->integrator->flags;
     const bool many = scene->n_lights > KOKSMA__FEW_LIGHTS && flags->followed & KOKSMA__LOBE_DIFFUSE;
+    if (flags->replace_scene) { /* its lights are none of the scene's */
+        return KOKSMA_LIGHTS_ALL;
+    }
     return options->lights != KOKSMA_LIGHTS_AUTO ? options->lights : many ? KOKSMA_LIGHTS_ONE : KOKSMA_LIGHTS_ALL;
 }
 
@@ -132,6 +135,9 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
     unsigned lobes = 0;
     for (size_t i = 0; i < scene->n_materials; i++) {
         lobes |= scene->materials[i].bsdf->lobes;
+    }
+    if (flags->replace_scene) {
+        lobes = KOKSMA__LOBE_DIFFUSE;
     }
     const bool one = koksma__light_selection(scene, options) != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
     const int lights = one ? 1 : (int)scene->n_lights;
@@ -218,6 +224,9 @@ void koksma__frame_close(koksma__frame *f)
     free(f->shading_materials);
     free(f->lane_materials.form);
     free(f->lane_materials.albedo[0][0]);
+    if (f->replaced) {
+        f->flags->release_scene(f->replaced);
+    }
 }
 
 static koksma_status check(const koksma_render_options *o)
@@ -252,5 +261,9 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     out->together = KOKSMA__BLOCK;
     out->channels = scene->grey ? 1 : 3;
     out->batch = koksma__batch();
+    if (out->flags->replace_scene) {
+        KOKSMA__TRY(out->flags->replace_scene(scene, &out->replaced));
+        out->scene = out->replaced;
+    }
     return make_frame(out, run);
 }

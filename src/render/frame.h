@@ -37,6 +37,7 @@ typedef struct koksma__frame {
     float background[3];
     koksma__filter_table *filter; /* NULL: box */
     void *cache;                  /* the integrator's own */
+    koksma_scene *replaced;       /* the integrator's own scene, which `scene` is then; or NULL */
 } koksma__frame;
 
 /* Pixels first .. first + count - 1, and their samples: pixel first + p has samples start[p] .. start[p + 1] - 1. The

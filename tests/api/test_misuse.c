@@ -392,6 +392,7 @@ static void *datasheet_options(void)
     snprintf(sampler, sizeof sampler, "%s", work_path("sheet.npy"));
     must(koksma_points_write(sampler, points, NULL, NULL));
     return COPY(koksma_datasheet_options, {.sampler = sampler,
+                                           .metric = "smape",
                                            .beside = a_copy(beside, sizeof beside),
                                            .n_beside = 1,
                                            .scenes = a_copy(scenes, sizeof scenes),

@@ -382,9 +382,14 @@ class Compare(unittest.TestCase):
             subprocess.run([PROGRAM, "render", "checker-45", "-q", "-p", "jittered", "-n", "256", "--size", "31x24", "-o",
                             names[3]], check=True, stdout=subprocess.DEVNULL)
             for count in (1, 3):
-                row = json.loads(subprocess.run([PROGRAM, "compare", *names[:count], names[3], "--json"], check=True,
-                                                capture_output=True).stdout)
-                ours = koksma.compare(iter(images[:count]), reference)
+                metrics = ["rmse", "relmse:epsilon=0.001", "hdr-flip"]
+                row = json.loads(subprocess.run([PROGRAM, "compare", *names[:count], names[3], "--json", "-m",
+                                                 ",".join(metrics)], check=True, capture_output=True).stdout)
+                ours = koksma.compare(iter(images[:count]), reference, metrics=metrics[1:])
+                self.assertEqual(list(ours.metrics), metrics)
+                for name, found in ours.metrics.items():
+                    self.assertEqual((found.robust, found.top_share), (row.pop(f"{name}_robust"), row.pop(f"{name}_top_share")))
+                    self.assertTrue(found.value == row.pop(name) if name != "rmse" else abs(found.value - ours.rmse) < 1e-15)
                 self.assertEqual({key: getattr(ours, key) for key in row if row[key] is not None},
                                  {key: row[key] for key in row if row[key] is not None})
                 self.assertEqual(ours.images, count)
@@ -400,6 +405,16 @@ class Compare(unittest.TestCase):
         self.assertTrue(seen.coherent and abs(seen.frequency_x - 5 / 37) < 1e-12 and seen.frequency_y == 0)
         none = koksma.compare(noise, noise)
         self.assertTrue(none.mean == 0 and np.isnan(none.coherence) and not none.coherent)
+
+    def test_fireflies(self):
+        image = np.full((40, 50), 1.25)
+        image[3, 4] = image[10, 10] = 1000
+        with self.assertWarnsRegex(RuntimeWarning, "0.1 % of the pixels carry 100 % .* without them rmse is 0.25$"):
+            seen = koksma.compare(image, np.ones((40, 50)), metrics=["smape"])
+        self.assertTrue(seen.metrics["rmse"].value > 20 and seen.metrics["smape"].top_share < 0.01)
+        for wrong in ("smape", ["smap"], ["smape:epsilon=x"], [3]):
+            with self.subTest(metrics=wrong), self.assertRaises((ValueError, TypeError)):
+                koksma.compare(image, image, metrics=wrong)
 
     def test_what_is_no_image(self):
         image = np.zeros((4, 5))

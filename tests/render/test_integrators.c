@@ -2,7 +2,8 @@
 /*
  * Every integrator and every pipeline of their tables, in furnaces: under a white sky of radiance 1 a surface that
  * absorbs nothing is as bright as the sky, and none is brighter. What an integrator leaves out is known from its
- * flags: without `areas` the sky has no centre to light from; with `ambient` the scene's ambient light is added.
+ * flags: without `areas` the sky has no centre to light from; with `ambient` the scene's ambient light is added; with
+ * a scene of its own (ambient occlusion) all surfaces are white, and the sky is 1. Then the two that leave most out.
  */
 #include "kinds.h"
 #include "render/materials/materials.h"
@@ -33,7 +34,8 @@ static void convex_bodies_reflect_the_sky(void **state)
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         double error;
         const double mean = picture(text, koksma_integrator_at(i), -1, 16, &error);
-        const double expected = 0.5 * ((flags->areas ? 1 : 0) + (flags->ambient ? 0.25 : 0));
+        const double expected =
+            flags->replace_scene ? 1 : 0.5 * ((flags->areas ? 1 : 0) + (flags->ambient ? 0.25 : 0));
         if (!(fabs(mean - expected) <= 5 * error + 1e-5)) {
             fail_msg("%s: %g +- %g, expected %g", koksma_integrator_at(i)->name, mean, error, expected);
         }
@@ -78,7 +80,9 @@ static void closed_balls_add_up_all_bounces(void **state)
         const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         double error;
         const double mean = picture(text, koksma_integrator_at(i), 64, 64, &error), direct = 0.8 / M_PI;
-        const double expected = flags->followed & KOKSMA__LOBE_DIFFUSE || flags->indirect ? 5 * direct : direct;
+        const double expected = flags->replace_scene                                        ? 0
+                                : flags->followed & KOKSMA__LOBE_DIFFUSE || flags->indirect ? 5 * direct
+                                                                                            : direct;
         const double bias = flags->is_biased ? 0.05 * expected : 1e-5;
         if (!(fabs(mean - expected) <= 5 * error + bias)) {
             fail_msg("%s: %g +- %g inside a ball, expected %g", koksma_integrator_at(i)->name, mean, error, expected);
@@ -102,7 +106,7 @@ static void specular_bodies_show_the_sky(void **state)
                      "\"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [2, 2], \"material\": \"m\"}]," SKY "}",
                      materials[m]);
             const double mean = picture(text, koksma_integrator_at(i), 40, 16, &error);
-            const double expected = flags->followed & KOKSMA__LOBE_SPECULAR ? 1 : 0;
+            const double expected = flags->followed & KOKSMA__LOBE_SPECULAR || flags->replace_scene ? 1 : 0;
             if (!(fabs(mean - expected) <= 5 * error + 1e-3)) { /* whitted cuts branches below 1/1000 */
                 fail_msg("%s: %g +- %g with %s", koksma_integrator_at(i)->name, mean, error, materials[m]);
             }
@@ -157,6 +161,58 @@ static size_t compare(const koksma_scene *scene, const koksma_integrator *in, co
     }
     koksma__frame_close(&frame);
     return compared;
+}
+
+/* The middle of a floor of albedo 0.5, seen from the side, below a disk of radius 0.75 at height 1, whose form factor is
+   r^2 / (r^2 + 1) = 0.36; a wall beyond the floor's edge, which the floor would light, adds nothing. */
+#define FLOOR                                                                                                        \
+    "{\"camera\": {\"eye\": [0, 0.5, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.02}, \"ambient\": 3, \"materials\": " \
+    "[{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\": [{\"kind\": \"rectangle\", "           \
+    "\"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"half\": [5, 5], \"material\": \"m\"}"
+#define WALL                                                                                                         \
+    ", {\"kind\": \"rectangle\", \"centre\": [0, 0, -5], \"normal\": [0, 0, 1], \"half\": [5, 5], \"material\": "    \
+    "\"m\"}"
+#define DISK "\"kind\": \"disk\", \"centre\": [0, 1, 0], \"radius\": 0.75, "
+#define LIT "], \"lights\": [{" DISK "\"normal\": [0, -1, 0], \"radiance\": 2, \"visible\": true}]"
+
+static double floor_by(const char *rest, const char *integrator, int depth, double *error)
+{
+    char text[2048];
+    snprintf(text, sizeof text, "%s%s}", FLOOR, rest);
+    return picture(text, koksma_integrator_find(integrator), depth, 1024, error);
+}
+
+static void direct_light_is_the_form_factor(void **state)
+{
+    (void)state;
+    double error;
+    for (int depth = -1; depth <= 20; depth += 7) { /* no diffuse bounce, whatever the depth */
+        const double alone = floor_by(LIT, "direct", depth, &error);
+        assert_mean(alone, error, 0.5 * 2 * 0.36);
+        const double beside_wall = floor_by(WALL LIT, "direct", depth, &error);
+        assert_mean(beside_wall, error, 0.5 * 2 * 0.36);
+    }
+}
+
+/* The sky but for the disk, which is a surface or a light; lights, the sky's radiance, ambient light and materials count
+   for nothing. At the edge of a wall without end half the sky is left. */
+static void ambient_occlusion_is_the_rest_of_the_sky(void **state)
+{
+    (void)state;
+    static const char *const disks[] = {
+        LIT, ", {" DISK "\"normal\": [0, -1, 0], \"material\": \"m\"}]",
+        ", {" DISK "\"normal\": [0, 1, 0], \"material\": \"m\"}], \"lights\": [{\"kind\": \"environment\", "
+        "\"radiance\": 7, \"visible\": true}, {\"kind\": \"point\", \"centre\": [1, 1, 1], \"intensity\": 3}]"};
+    double error;
+    for (size_t i = 0; i < sizeof disks / sizeof *disks; i++) {
+        const double seen = floor_by(disks[i], "ambient-occlusion", -1, &error);
+        assert_mean(seen, error, 1 - 0.36);
+    }
+    const double wall = floor_by(", {\"kind\": \"plane\", \"centre\": [0, 0, -0.01], \"normal\": [0, 0, 1], "
+                                 "\"material\": \"m\"}]",
+                                 "ambient-occlusion", -1, &error);
+    assert_near(wall, 0.5, 4 * error + 0.005);
+    assert_true(floor_by("]", "ambient-occlusion", 0, &error) == 0); /* no ray looks at the sky */
 }
 
 /* A disk of the material, under a rectangle that no ray sees: grey and still, through a lens, in colour, or moving.
@@ -225,6 +281,8 @@ int main(void)
         cmocka_unit_test(closed_furnaces_are_white),
         cmocka_unit_test(closed_balls_add_up_all_bounces),
         cmocka_unit_test(specular_bodies_show_the_sky),
+        cmocka_unit_test(direct_light_is_the_form_factor),
+        cmocka_unit_test(ambient_occlusion_is_the_rest_of_the_sky),
         cmocka_unit_test(pipelines_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

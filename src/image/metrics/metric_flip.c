@@ -31,12 +31,13 @@
 
 #include "core/elementary.h"
 #include "core/status.h"
+#include "image/formats.h"
 #include "image/metrics/metrics.h"
 
 #define PPD 67.02064327658225 /* 0.7 (3840 / 0.7) pi / 180 */
 #define LN2 0.693147180559945309417
 
-enum { MOST_RADIUS = 512, MOST_EXPOSURES = 64 };
+enum { MOST_RADIUS = 160, MOST_EXPOSURES = 64 };
 
 /* ---- Colours --------------------------------------------------------------------------------------------- */
 
@@ -161,28 +162,33 @@ static void gaussian(filter *f, int radius, double step, double s, int derivativ
     }
 }
 
-/* One direction, of n lines of `length` values `step` apart; pixels beyond the ends repeat the last ones. */
-static void filter_line(const filter *f, const double *in, double *out, int length, size_t step)
-{
-    for (int i = 0; i < length; i++) {
-        double sum = 0;
-        for (int k = -f->radius; k <= f->radius; k++) {
-            const int at = i + k < 0 ? 0 : i + k < length ? i + k : length - 1;
-            sum += f->w[k + f->radius] * in[(size_t)at * step];
-        }
-        out[(size_t)i * step] = sum;
-    }
-}
-
-/* out = in filtered along x by f and along y by g; scratch is as large. */
+/* out = in filtered along x by f and along y by g. A line or a column at a time, tap by tap, so that the inner loops are
+   over neighbours. scratch: as large, and a line with the radius at both ends. */
 static void filter_image(const filter *f, const filter *g, const double *in, int width, int height, double *scratch,
                          double *out)
 {
-    for (int y = 0; y < height; y++) {
-        filter_line(f, in + (size_t)y * (size_t)width, scratch + (size_t)y * (size_t)width, width, 1);
+    const size_t w = (size_t)width, radius = (size_t)f->radius;
+    double *const line = scratch + w * (size_t)height;
+    for (size_t row = 0; row < w * (size_t)height; row += w) {
+        for (size_t x = 0; x < w + 2 * radius; x++) {
+            line[x] = in[row + (x < radius ? 0 : x - radius < w ? x - radius : w - 1)];
+        }
+        memset(scratch + row, 0, w * sizeof *scratch);
+        for (size_t k = 0; k <= 2 * radius; k++) {
+            for (size_t x = 0; x < w; x++) {
+                scratch[row + x] += f->w[k] * line[x + k];
+            }
+        }
     }
-    for (int x = 0; x < width; x++) {
-        filter_line(g, scratch + x, out + x, height, (size_t)width);
+    memset(out, 0, w * (size_t)height * sizeof *out);
+    for (int y = 0; y < height; y++) {
+        for (int k = -g->radius; k <= g->radius; k++) {
+            const int at = y + k < 0 ? 0 : y + k < height ? y + k : height - 1;
+            const double weight = g->w[k + g->radius];
+            for (size_t x = 0; x < w; x++) {
+                out[(size_t)y * w + x] += weight * scratch[(size_t)at * w + x];
+            }
+        }
     }
 }
 
@@ -236,11 +242,12 @@ static koksma_status flip_init(flip *f, double ppd, int width, int height)
     f->width = width;
     f->height = height;
     f->n = (size_t)width * (size_t)height;
-    f->memory = malloc(16 * f->n * sizeof *f->memory);
-    KOKSMA__REQUIRE_MEMORY(f->memory, 16 * f->n * sizeof *f->memory);
+    const size_t size = (16 * f->n + (size_t)width + 2 * MOST_RADIUS) * sizeof *f->memory;
+    f->memory = malloc(size);
+    KOKSMA__REQUIRE_MEMORY(f->memory, size);
     double *at = f->memory;
-    double **const parts[] = {&f->planes, &f->lab[0],   &f->lab[1],   &f->scratch,   &f->filtered,
-                              &f->sum,    &f->edges[0], &f->edges[1], &f->points[0], &f->points[1]};
+    double **const parts[] = {&f->planes,   &f->lab[0],   &f->lab[1],    &f->filtered,  &f->sum,
+                              &f->edges[0], &f->edges[1], &f->points[0], &f->points[1], &f->scratch};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         *parts[i] = at;
         at += i < 3 ? 3 * f->n : f->n;
@@ -360,11 +367,6 @@ static double invert_tone(const curve *t, double y)
     return a == 0 ? -c / b : (-b + (a < 0 ? -1 : 1) * sqrt(b * b - 4 * a * c)) / (2 * a);
 }
 
-static double luminance(const double *rgb)
-{
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 static int by_size(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -376,7 +378,7 @@ static void find_exposures(const double *reference, size_t n, const curve *t, do
                            double *last)
 {
     for (size_t p = 0; p < n; p++) {
-        scratch[p] = luminance(reference + 3 * p);
+        scratch[p] = KOKSMA__LUMINANCE(reference + 3 * p);
     }
     qsort(scratch, n, sizeof *scratch, by_size);
     size_t dark = 0;
@@ -391,7 +393,7 @@ static void find_exposures(const double *reference, size_t n, const curve *t, do
 static void expose(const double *in, size_t n, double scale, int tone_mapper, const curve *t, double *out)
 {
     for (size_t p = 0; p < 3 * n; p += 3) {
-        const double rgb[3] = {scale * in[p], scale * in[p + 1], scale * in[p + 2]}, y = luminance(rgb);
+        const double rgb[3] = {scale * in[p], scale * in[p + 1], scale * in[p + 2]}, y = KOKSMA__LUMINANCE(rgb);
         for (int c = 0; c < 3; c++) {
             out[p + (size_t)c] = clamp(tone_mapper == REINHARD ? rgb[c] / (1 + y) : map_tone(t, rgb[c]));
         }

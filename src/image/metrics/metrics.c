@@ -47,6 +47,12 @@ koksma_status koksma_metric_parse(const char *text, koksma_metric_spec *spec)
     return koksma__params_parse(name, spec->metric->params, rest, spec->params);
 }
 
+koksma_status koksma__metric_spec_check(const koksma_metric_spec *spec)
+{
+    KOKSMA__FAIL_IF(!spec->metric, KOKSMA_ARGUMENT, "a spec without a metric: koksma_metric_parse makes one");
+    return koksma__params_check(spec->metric->name, spec->metric->params, spec->params);
+}
+
 void koksma_metric_text(const koksma_metric_spec *spec, char *text)
 {
     KOKSMA__REQUIRE_OR(, spec, text);
@@ -134,8 +140,7 @@ koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, const koksm
                                      const koksma_image *reference, koksma_metric_value *out)
 {
     KOKSMA__REQUIRE(spec, image, reference, out);
-    KOKSMA__FAIL_IF(!spec->metric, KOKSMA_ARGUMENT, "a spec without a metric: koksma_metric_parse makes one");
-    KOKSMA__TRY(koksma__params_check(spec->metric->name, spec->metric->params, spec->params));
+    KOKSMA__TRY(koksma__metric_spec_check(spec));
     KOKSMA__TRY(koksma__image_check_sizes(image, reference));
     const size_t n = (size_t)image->width * (size_t)image->height, values = n * (size_t)spec->metric->channels;
     double *buffer = malloc((2 * values + n) * sizeof *buffer);

@@ -10,6 +10,9 @@ static inline size_t koksma__metric_pixels(const koksma_metric_input *in)
     return (size_t)in->width * (size_t)in->height;
 }
 
+/* Whether there is a metric, with parameters that it takes. Errors: ARGUMENT. */
+koksma_status koksma__metric_spec_check(const koksma_metric_spec *spec);
+
 /* The pixels as the metric takes them: metric->channels doubles a pixel. */
 void koksma__metric_values(const koksma_metric *metric, const koksma_image *image, double *out);
 

@@ -20,6 +20,10 @@ typedef struct koksma__integrator_flags {
     koksma_status (*open)(struct koksma__frame *frame, const koksma_run *run);
     void (*close)(struct koksma__frame *frame);
     koksma_status (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float time, float out[3]);
+    /* NULL, or: the scene that is rendered in place of the one that the caller has, of diffuse surfaces and without
+       light from lights; release is called on what it made, also where it failed. */
+    koksma_status (*replace_scene)(const koksma_scene *scene, koksma_scene **out);
+    void (*release_scene)(koksma_scene *scene);
 } koksma__integrator_flags;
 
 #endif

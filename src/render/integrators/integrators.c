@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "render/integrators/ambient_occlusion.h"
 #include "render/integrators/irradiance_cache.h"
 
 /*
@@ -49,6 +50,30 @@ static const koksma__integrator_flags distribution = {
     .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY, .areas = true, .shadows = true, .ambient = true};
 
 /*
+ * direct: what lights give straight to surfaces, positions on lights sampled; mirrors and glass are followed. As
+ * distribution, without ambient light, and with the light that glossy surfaces reflect of lights alone: the integral
+ * that studies of soft shadows are about, of two dimensions for each light.
+ *
+ *     L(x, out) = E(x, out) + sum over lights of f E_l cos cos' V A / d^2 + weight L(y, w), w mirrored or refracted
+ *
+ * Source: Shirley, Wang & Zimmerman 1996.
+ */
+static const koksma__integrator_flags direct = {.followed = KOKSMA__LOBE_SPECULAR, .areas = true, .shadows = true};
+
+/*
+ * ambient-occlusion: how much of a white sky a surface sees, weighed by the cosine,
+ *
+ *     A(x) = 1 / pi  integral over the hemisphere of V(x, w) cos(w) dw,   and 1 where the eye sees no surface:
+ *
+ * V is 1 where nothing is met at any distance. An integral of two dimensions that depends on shapes alone: all
+ * materials and lights are as white surfaces, and shapes of lights are black. More bounces than one (--depth) add what
+ * white surfaces reflect. Source: Zhukov, Iones & Kronin 1998.
+ */
+static const koksma__integrator_flags ambient_occlusion = {.followed = KOKSMA__LOBE_DIFFUSE,
+                                                           .replace_scene = koksma__ambient_occlusion_scene,
+                                                           .release_scene = koksma__ambient_occlusion_release};
+
+/*
  * path: all light paths (Kajiya 1986), one direction on from each vertex. Lights are sampled at each vertex and
  * met by reflected rays, the two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a
  * path whose weight is below 1 goes on with that probability, which keeps the mean. Unbiased with two exceptions: paths
@@ -76,6 +101,8 @@ static const koksma_integrator rows[] = {
     {"distribution", "soft shadows, lens, motion, glossy reflection", "cook1984 shirley1991", 6, &distribution},
     {"path", "path tracing with next-event estimation; caustics of visible lights only", "kajiya1986 veach1997", 16,
      &path},
+    {"direct", "soft shadows of lights alone; mirrors and glass", "shirley1996", 6, &direct},
+    {"ambient-occlusion", "how much of a white sky surfaces see; shapes only", "zhukov1998", 1, &ambient_occlusion},
     {"irradiance-cache", "diffuse light between surfaces, interpolated", "ward1988", 6, &irradiance_cache},
 };
 

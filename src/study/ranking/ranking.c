@@ -261,7 +261,8 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
 {
     const koksma__rank_table *table = &c->table;
     const koksma__rank_errors e = koksma__contest_errors(c, i), best = koksma__contest_errors(c, first);
-    *row = (koksma_rank_row){.pattern = c->contestants[i].pattern, .mean = NAN, .low = NAN, .high = NAN};
+    *row = (koksma_rank_row){
+        .pattern = c->contestants[i].pattern, .mean = NAN, .low = NAN, .high = NAN, .robust = NAN, .top_share = NAN};
     row->behind = row->behind_low = row->behind_high = NAN;
     row->coherence = c->contestants[i].coherence;
     row->trials = (long long)e.n;
@@ -286,6 +287,8 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
         row->mean = mean.value;
         row->low = mean.low;
         row->high = mean.high;
+        row->robust = e.robust;
+        row->top_share = e.top_share;
     }
     if (e.n && best.n) {
         const koksma__estimate q = i == first      ? (koksma__estimate){1, 1, 1}
@@ -460,6 +463,9 @@ static koksma_status check(const koksma_rank_options *options)
                     "spp = %d: samples a pixel are 1 to %d", options->spp, KOKSMA_MAX_SPP);
     if (!status && options->width) {
         status = koksma__image_check_shape(options->width, options->height, 1);
+    }
+    if (!status && options->metric) {
+        status = koksma__metric_spec_check(options->metric);
     }
     KOKSMA__FAIL_IF(!status && !(options->time_limit_s >= 0), KOKSMA_ARGUMENT,
                     "time_limit_s = %g: it is 0, for none, or a number of seconds", options->time_limit_s);

@@ -136,9 +136,9 @@ static koksma_status render_trial(koksma__contest *c, koksma__contestant *p, siz
                                                               c->scene.height, trial)};
     koksma_status status = koksma__study_render(&c->scene, &picture, run, &image);
     if (!status) {
-        koksma__rank_reference_compare(&c->reference, &image, errors);
-        status = isfinite(errors[0])
-                     ? KOKSMA_OK
+        status = koksma__rank_reference_compare(&c->reference, &image, errors);
+        status = status || isfinite(errors[0])
+                     ? status
                      : koksma__fail(KOKSMA_IMPOSSIBLE, "pixels of trial %zu are not finite numbers", trial);
         status = status || trial >= FIRST ? status : measure_coherence(c, p, trial, &image);
         koksma_image_fini(&image);
@@ -173,6 +173,8 @@ static void add_trial(koksma__contestant *p, const double errors[ERRORS])
     p->n++;
     p->mean += off / (double)p->n;
     p->squares += off * (errors[0] - p->mean);
+    p->robust += errors[KOKSMA__RANK_ROBUST];
+    p->top_share += errors[KOKSMA__RANK_TOP_SHARE];
     for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
         p->without[r] += errors[1 + r];
     }
@@ -181,6 +183,8 @@ static void add_trial(koksma__contestant *p, const double errors[ERRORS])
 static koksma__rank_errors summary(const koksma__contestant *p)
 {
     koksma__rank_errors e = {.n = p->n, .mean = p->mean};
+    e.robust = p->n ? p->robust / (double)p->n : (double)NAN;
+    e.top_share = p->n ? p->top_share / (double)p->n : (double)NAN;
     e.variance = p->n > 1 ? p->squares / (double)(p->n - 1) : (double)NAN;
     for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
         e.without[r] = p->n ? p->without[r] / (double)p->n : (double)NAN;
@@ -316,8 +320,9 @@ koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
     size_t *active = malloc(c->n * sizeof *active), n_active;
     KOKSMA__REQUIRE_MEMORY(active, c->n * sizeof *active);
     if (!c->reference.pixels) {
-        status = koksma__rank_reference_init(&c->reference, &c->scene, reference_pattern(c->options), c->variant,
-                                             c->options->spp, &c->control->run);
+        status =
+            koksma__rank_reference_init(&c->reference, c->options->metric, &c->scene, reference_pattern(c->options),
+                                        c->variant, c->options->spp, &c->control->run);
         set_share(c, 1);
     }
     while (!status && !koksma__rank_reached(&c->table, goal)) {

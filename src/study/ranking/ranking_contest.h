@@ -12,8 +12,6 @@
 #include "study/ranking/ranking_reference.h"
 #include "study/run/run_control.h"
 
-enum { KOKSMA__RANK_ERRORS = 1 + KOKSMA__RANK_REPLICATES };
-
 typedef struct koksma__contestant {
     size_t pattern;        /* index into the options' patterns */
     atomic_bool late;      /* put off: its first round takes more than its share of the time */
@@ -24,8 +22,8 @@ typedef struct koksma__contestant {
     double first[KOKSMA__RANK_FIRST_ROUND][KOKSMA__RANK_ERRORS]; /* errors of the trials of round 0 */
     atomic_bool done[KOKSMA__RANK_FIRST_ROUND];                  /* those that are there */
     size_t n;                                                    /* trials in what follows, added in their order */
-    double mean, squares, without[KOKSMA__RANK_REPLICATES];      /* sums: without */
-    pthread_mutex_t lock;                                        /* guards what follows until round 0 is complete */
+    double mean, squares, robust, top_share, without[KOKSMA__RANK_REPLICATES]; /* sums from robust on */
+    pthread_mutex_t lock;                      /* guards what follows until round 0 is complete */
     double *waiting[KOKSMA__RANK_FIRST_ROUND]; /* errors of the pixels of trials whose turn to be added is not yet */
     size_t added;                              /* trials that were added to */
     koksma_coherence sums;

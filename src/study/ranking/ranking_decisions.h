@@ -28,6 +28,7 @@ typedef struct koksma__rank_errors {
     size_t n;
     double mean, variance;                   /* against the whole reference; of the trials, with n - 1 */
     double without[KOKSMA__RANK_REPLICATES]; /* means against the reference without replicate r */
+    double robust, top_share;                /* means: koksma_metric_value. Nothing is decided by them */
 } koksma__rank_errors;
 
 typedef enum koksma__rank_verdict {

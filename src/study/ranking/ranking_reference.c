@@ -24,17 +24,28 @@ long long koksma__rank_reference_spp(int spp)
     return side * side;
 }
 
-/* Deviations are updated replicate by replicate (Welford 1962). */
+/* The luminance of pixel p of the mean so far. */
+static double luminance(const koksma__rank_reference *reference, size_t p)
+{
+    const double *v = reference->mean + p * (size_t)reference->metric.metric->channels;
+    return reference->metric.metric->channels == 1 ? v[0] : KOKSMA__LUMINANCE(v);
+}
+
+/* Deviations are updated replicate by replicate (Welford 1962): `squares` are those of the luminance. */
 static bool add_replicate(koksma__rank_reference *reference, const koksma_image *image, double *squares)
 {
     bool finite = true;
     const int r = reference->made++;
+    const size_t channels = (size_t)reference->metric.metric->channels;
+    double *const values = reference->without + (size_t)r * reference->values;
+    koksma__metric_values(reference->metric.metric, image, values);
     for (size_t p = 0; p < reference->pixels; p++) {
-        const double y = koksma__luminance(image, p), off = y - reference->mean[p];
-        reference->without[p * REPLICATES + (size_t)r] = y;
-        reference->mean[p] += off / (r + 1);
-        squares[p] += off * (y - reference->mean[p]);
-        finite &= (bool)isfinite(y);
+        const double y = koksma__luminance(image, p), off = y - luminance(reference, p);
+        for (size_t v = p * channels; v < (p + 1) * channels; v++) {
+            reference->mean[v] += (values[v] - reference->mean[v]) / (r + 1);
+            finite &= (bool)isfinite(values[v]);
+        }
+        squares[p] += off * (y - luminance(reference, p));
     }
     return finite;
 }
@@ -45,25 +56,31 @@ static void finish(koksma__rank_reference *reference, const double *squares)
     double total = 0;
     for (size_t p = 0; p < reference->pixels; p++) {
         total += sqrt(2 / M_PI * squares[p] / (REPLICATES - 1) / REPLICATES);
-        for (int r = 0; r < REPLICATES; r++) {
-            double *at = &reference->without[p * REPLICATES + (size_t)r];
-            *at = reference->mean[p] - (*at - reference->mean[p]) / (REPLICATES - 1);
-        }
+    }
+    for (size_t i = 0; i < REPLICATES * reference->values; i++) {
+        const double mean = reference->mean[i % reference->values];
+        reference->without[i] = mean - (reference->without[i] - mean) / (REPLICATES - 1);
     }
     reference->error = total / (double)reference->pixels;
 }
 
-koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, const koksma__study_scene *scene,
-                                          const char *pattern, const char *variant, int spp, const koksma_run *run)
+koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, const koksma_metric_spec *metric,
+                                          const koksma__study_scene *scene, const char *pattern, const char *variant,
+                                          int spp, const koksma_run *run)
 {
     const size_t pixels = (size_t)scene->width * (size_t)scene->height;
+    *reference = (koksma__rank_reference){.metric = metric ? *metric : (koksma_metric_spec){&koksma__metric_mae, {0}},
+                                          .width = scene->width,
+                                          .height = scene->height,
+                                          .pixels = pixels};
+    reference->values = pixels * (size_t)reference->metric.metric->channels;
+    reference->mean = calloc(reference->values, sizeof *reference->mean);
+    reference->without = calloc(reference->values, REPLICATES * sizeof *reference->without);
     double *squares = calloc(pixels, sizeof *squares);
-    *reference = (koksma__rank_reference){.pixels = pixels,
-                                          .mean = calloc(pixels, sizeof *reference->mean),
-                                          .without = calloc(pixels, REPLICATES * sizeof *reference->without)};
-    koksma_status status = squares && reference->mean && reference->without
-                               ? KOKSMA_OK
-                               : koksma__fail_memory(pixels * (REPLICATES + 2) * sizeof *squares);
+    koksma_status status =
+        squares && reference->mean && reference->without
+            ? KOKSMA_OK
+            : koksma__fail_memory((reference->values * (REPLICATES + 1) + pixels) * sizeof *squares);
     while (!status && reference->made < REPLICATES) {
         koksma_image image;
         const koksma__picture picture = {.pattern = pattern,
@@ -103,27 +120,37 @@ void koksma__rank_reference_fini(koksma__rank_reference *reference)
     *reference = (koksma__rank_reference){0};
 }
 
-void koksma__rank_reference_compare(const koksma__rank_reference *reference, const koksma_image *image,
-                                    double errors[1 + KOKSMA__RANK_REPLICATES])
+koksma_status koksma__rank_reference_compare(const koksma__rank_reference *reference, const koksma_image *image,
+                                             double errors[KOKSMA__RANK_ERRORS])
 {
-    double sums[REPLICATES] = {0}, sum = 0;
-    for (size_t p = 0; p < reference->pixels; p++) {
-        const double y = koksma__luminance(image, p), *without = reference->without + p * REPLICATES;
-        sum += fabs(y - reference->mean[p]);
-        for (int r = 0; r < REPLICATES; r++) {
-            sums[r] += fabs(y - without[r]);
-        }
+    const koksma_metric_spec *spec = &reference->metric;
+    const size_t size = (reference->values + reference->pixels) * sizeof(double);
+    double *const values = malloc(size);
+    KOKSMA__REQUIRE_MEMORY(values, size);
+    double *const map = values + reference->values;
+    koksma__metric_values(spec->metric, image, values);
+    koksma_status status = KOKSMA_OK;
+    for (int r = REPLICATES; !status && r >= 0;
+         r--) { /* the whole reference last: its errors are put in another order */
+        const koksma_metric_input in = {spec->params, reference->width, reference->height, values,
+                                        r ? reference->without + (size_t)(r - 1) * reference->values
+                                          : reference->mean};
+        status = spec->metric->errors(&in, map);
+        errors[r] = status ? 0 : koksma__metric_mean(spec->metric, map, reference->pixels);
     }
-    errors[0] = sum / (double)reference->pixels;
-    for (int r = 0; r < REPLICATES; r++) {
-        errors[1 + r] = sums[r] / (double)reference->pixels;
+    if (!status) {
+        const koksma_metric_value value = koksma__metric_pool(spec->metric, map, reference->pixels);
+        errors[KOKSMA__RANK_ROBUST] = value.robust;
+        errors[KOKSMA__RANK_TOP_SHARE] = value.top_share;
     }
+    free(values);
+    return status;
 }
 
 void koksma__rank_reference_subtract(const koksma__rank_reference *reference, const koksma_image *image,
                                      double *errors)
 {
     for (size_t p = 0; p < reference->pixels; p++) {
-        errors[p] = koksma__luminance(image, p) - reference->mean[p];
+        errors[p] = koksma__luminance(image, p) - luminance(reference, p);
     }
 }

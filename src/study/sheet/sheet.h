@@ -69,9 +69,11 @@ typedef struct koksma__sheet {
     size_t sizes[KOKSMA__SHEET_SIZES], n_sizes;
     int spp[KOKSMA__SHEET_SPP];
     size_t n_spp;
-    int max_dim;       /* of samplers[0] */
-    size_t trials;     /* sets of each size */
-    size_t max_trials; /* images of each sampler in a scene */
+    int max_dim;               /* of samplers[0] */
+    size_t trials;             /* sets of each size */
+    size_t max_trials;         /* images of each sampler in a scene */
+    koksma_metric_spec metric; /* of their errors */
+    char metric_text[KOKSMA_MAX_SPEC];
     const char *const *scenes;
     size_t n_scenes;
     char *commands[KOKSMA__SHEET_COMMANDS];

@@ -308,7 +308,9 @@ koksma_status koksma__sheet_choose(koksma__sheet *sheet)
     sheet->max_trials = o->quick ? 8 : 64;
     sheet->scenes = o->scenes ? o->scenes : scenes;
     sheet->n_scenes = o->scenes ? o->n_scenes : sizeof scenes / sizeof *scenes;
-    koksma_status status = add_sampler(sheet, o->sampler, false);
+    koksma_status status = koksma_metric_parse(o->metric ? o->metric : "mae", &sheet->metric);
+    koksma_metric_text(&sheet->metric, sheet->metric_text);
+    status = status ? status : add_sampler(sheet, o->sampler, false);
     status = status ? status : find_dimensions(sheet);
     const size_t n = o->beside ? o->n_beside : sizeof beside_by_default / sizeof *beside_by_default;
     for (size_t i = 0; !status && i < n; i++) {

@@ -59,6 +59,7 @@ koksma_status koksma__sheet_rank(koksma__sheet *sheet)
                                        .patterns = patterns,
                                        .n_patterns = sheet->n_samplers,
                                        .spp = r->spp,
+                                       .metric = &sheet->metric,
                                        .max_trials = (long long)sheet->max_trials,
                                        .one_size = true};
         status = choose_size(sheet, r->scene, &options.width, &options.height);
@@ -124,7 +125,7 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
 {
     char title[128];
     snprintf(title, sizeof title, "Error in %s", sheet->scenes[scene]);
-    koksma__doc_chart_begin(d, &(koksma__chart){title, "samples a pixel", "mean absolute error", true, true});
+    koksma__doc_chart_begin(d, &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_series_begin(d, sheet->samplers[s]->text, KOKSMA__SERIES_LINE);
         for (size_t k = 0; k < sheet->n_spp; k++) {
@@ -155,9 +156,10 @@ static void put_command(koksma__sheet *sheet, size_t scene, koksma__document *d)
         snprintf(spp + used, sizeof spp - used, "%s%d", used ? "," : "", sheet->spp[k]);
     }
     koksma__sheet_command(
-        sheet, "rank %s --spp %s --size %dx%d -p %s%s%s --max-trials %zu --one-size --time-limit 1000000000",
+        sheet, "rank %s --spp %s --size %dx%d -p %s%s%s%s%s --max-trials %zu --one-size --time-limit 1000000000",
         sheet->scenes[scene], spp, ranking->width, ranking->height, quoted ? "'" : "", patterns, quoted ? "'" : "",
-        sheet->max_trials);
+        strcmp(sheet->metric_text, "mae") ? " --metric " : "",
+        strcmp(sheet->metric_text, "mae") ? sheet->metric_text : "", sheet->max_trials);
     koksma__sheet_put_commands(sheet, d);
 }
 
@@ -171,12 +173,14 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_paragraph(d, "No scene was rendered: no set has 4, 16, 64 or another number of up to 256 points, "
                                  "one for each sample of a pixel.");
     } else {
-        koksma__doc_paragraph(d, "Mean absolute error of an image's luminance, samplers as a renderer uses them: a "
-                                 "set for each pixel and use. "
-                                 "Behind: relative difference to the first. Bands: the error has a pattern, which "
-                                 "eyes notice more than noise. "
-                                 "Intervals and decisions of a scene hold together with 95 %%; coherence and "
-                                 "decisions are in the CSV files.");
+        koksma__doc_paragraph(d,
+                              "Error of an image: %s (%s). Samplers as a renderer uses them: a set for each pixel "
+                              "and use. "
+                              "Behind: relative difference to the first. Bands: the error has a pattern, which "
+                              "eyes notice more than noise. "
+                              "Intervals and decisions of a scene hold together with 95 %%; coherence and "
+                              "decisions are in the CSV files.",
+                              sheet->metric_text, sheet->metric.metric->title);
     }
     if (sheet->samplers[0]->sets != SIZE_MAX && sheet->n_spp) {
         koksma__doc_paragraph(

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Metrics of images on a command line. */
-#ifndef CLI_METRICS_H
-#define CLI_METRICS_H
+#ifndef CLI_METRIC_OPTION_H
+#define CLI_METRIC_OPTION_H
 
 #include <koksma/image.h>
 

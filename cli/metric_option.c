@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The option --metric of compare, and the warning that compare and rank share. */
-#include "metrics.h"
+#include "metric_option.h"
 
 #include <string.h>
 

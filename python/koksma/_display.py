@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a notebook shows of Koksma's results: tables as HTML, curves and points as the library's own SVG, images as PNG.
+
+Results have `_repr_html_` or `_repr_svg_`, which notebooks call by themselves. Points and images are plain arrays of NumPy,
+whose display belongs to NumPy: `%load_ext koksma` in a notebook adds pictures for the arrays that look like either.
+"""
+from __future__ import annotations
+
+import ctypes
+import html
+import math
+from ctypes import POINTER, byref, c_double, c_size_t, c_ubyte
+from typing import Any, Iterable, List, Optional, Sequence, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _structs as s
+from ._compare import _as_image, _view
+from ._library import check, lab
+from ._plot import Picture, _figure, _free, plot
+
+MOST_POINTS = 1 << 16  # of an array that is shown as points
+MOST_PIXELS = 1 << 22  # of one that is shown as an image
+
+
+def number(x: Any, digits: int = 5) -> str:
+    """A number as it stands in tables: five digits, nothing for NaN."""
+    return "" if x is None or (isinstance(x, float) and math.isnan(x)) else f"{x:.{digits}g}" if isinstance(x, float) else str(x)
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "") -> str:
+    """An HTML table; every text in it is escaped."""
+    def line(cells: Iterable[Any], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(number(c))}</{tag}>" for c in cells) + "</tr>"
+
+    title = f"<caption>{html.escape(caption)}</caption>" if caption else ""
+    return f"<table>{title}<thead>{line(head, 'th')}</thead><tbody>{''.join(line(r, 'td') for r in rows)}</tbody></table>"
+
+
+def chart(x_label: str, y_label: str, curves: Sequence[Tuple[str, npt.ArrayLike, npt.ArrayLike]], level: Optional[float] = None,
+          title: Optional[str] = None) -> Picture:
+    """A chart of curves (label, xs, ys) on linear axes; level: a dashed line."""
+    kept: List[Any] = []
+    drawn = (s.Curve * len(curves))()
+    for i, (label, xs, ys) in enumerate(curves):
+        columns = [np.ascontiguousarray(c, np.float64) for c in (xs, ys)]
+        kept.append(columns)
+        pointers = [c.ctypes.data_as(POINTER(c_double)) for c in columns]
+        drawn[i] = s.Curve(label.encode(), len(columns[0]), *pointers, None, False, False, i)
+    kept.append(drawn)
+    return _figure([[s.Chart(x_label.encode(), y_label.encode(), False, False, drawn, len(curves), level is not None,
+                             level or 0.0)]], title, 0, "light", kept)
+
+
+def png(image: npt.ArrayLike) -> bytes:
+    """An image of linear light as the bytes of a PNG file, encoded as sRGB."""
+    view, data, size = _view(_as_image(image)), POINTER(c_ubyte)(), c_size_t()
+    check(lab().koksma_image_png_bytes(byref(view), byref(data), byref(size)))
+    try:
+        return ctypes.string_at(data, size.value)
+    finally:
+        _free(data)
+
+
+def looks_like_points(array: Any) -> bool:
+    """Float64 in [0,1], of shape (n, d) with 2 <= d <= 16 and no more columns than rows."""
+    return (isinstance(array, np.ndarray) and array.dtype == np.float64 and array.ndim == 2 and 2 <= array.shape[1] <= 16
+            and array.shape[1] <= len(array) <= MOST_POINTS and bool(((array >= 0) & (array <= 1)).all()))
+
+
+def looks_like_an_image(array: Any) -> bool:
+    """Float32, as koksma.render makes it: of shape (height, width, 3), finite."""
+    return (isinstance(array, np.ndarray) and array.dtype == np.float32 and array.ndim == 3 and array.shape[2] in (1, 3)
+            and 0 < array.size <= MOST_PIXELS and bool(np.isfinite(array).all()))
+
+
+def load_ipython_extension(shell: Any) -> None:
+    """`%load_ext koksma`: arrays that look like points are shown as SVG, those that look like images as PNG."""
+    formatters = shell.display_formatter.formatters
+    formatters["image/svg+xml"].for_type(np.ndarray, lambda a: plot(a).svg if looks_like_points(a) else None)
+    formatters["image/png"].for_type(np.ndarray, lambda a: png(a) if looks_like_an_image(a) else None)
+
+
+def unload_ipython_extension(shell: Any) -> None:
+    """`%unload_ext koksma`: as NumPy shows them."""
+    for kind in ("image/svg+xml", "image/png"):
+        shell.display_formatter.formatters[kind].pop(np.ndarray, None)

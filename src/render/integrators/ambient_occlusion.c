@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The scene that ambient occlusion is the picture of: all surfaces are white and diffuse, no light gives light, and what
+ * a ray sees that hits nothing is 1. One bounce from a surface, with the density cos / pi, is then 1 where it leaves the
+ * scene, and 0 where it meets anything. Shapes, camera and the cache of the geometry are those of the scene itself.
+ */
+#include "render/integrators/ambient_occlusion.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "render/materials/materials.h"
+
+koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_scene **out)
+{
+    koksma_scene *copy = malloc(sizeof *copy);
+    *out = copy;
+    KOKSMA__REQUIRE_MEMORY(copy, sizeof *copy);
+    *copy = *scene;
+    copy->materials = calloc(scene->n_materials + 1, sizeof *copy->materials);
+    copy->lights = calloc(scene->n_lights + 1, sizeof *copy->lights);
+    if (!copy->materials || !copy->lights) {
+        return koksma__fail_memory(scene->n_materials * sizeof *copy->materials +
+                                   scene->n_lights * sizeof *copy->lights);
+    }
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        koksma__material *m = &copy->materials[i];
+        m->bsdf = &koksma__bsdf_lambert;
+        m->albedo[0][0] = m->albedo[0][1] = m->albedo[0][2] = 1;
+    }
+    for (size_t i = 0; i < scene->n_lights; i++) { /* their shapes stay, and hide what is behind */
+        koksma__light *l = &copy->lights[i];
+        *l = scene->lights[i];
+        memset(l->radiance, 0, sizeof l->radiance);
+        l->visible = false;
+    }
+    for (int k = 0; k < 3; k++) {
+        copy->background[k] = 1;
+        copy->ambient[k] = 0;
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__ambient_occlusion_release(koksma_scene *scene)
+{
+    free(scene->materials);
+    free(scene->lights);
+    free(scene);
+}

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""mitsuba_table.py [--spp N] [--side PIXELS] [--trials N] [--time-limit S] [--metric METRIC]: the tables of docs/renderers.md,
+as Markdown: Mitsuba's Cornell box with its own samplers and six of our patterns, at equal samples and at equal time.
+
+Run it in the environment that scripts/try_mitsuba makes (PYTHONPATH=python, DRJIT_LIBLLVM_PATH). In the second table a sampler
+has the samples that fit into the time of `independent`, at least one. The time is processor time of all threads, which other
+programs on the machine change little, the least of several pictures of 256 x 256 pixels: what Dr.Jit takes to trace a sampler
+in Python before any sample is made, some 0.1 s, is small there, and is not in pictures of 64 x 64.
+"""
+import argparse
+import time
+
+import mitsuba as mi
+
+mi.set_variant("llvm_ad_rgb")
+import koksma.mitsuba  # noqa: E402
+
+OURS = ("random", "jittered", "n-rooks", "correlated-multi-jittered", "pmj02:shuffle=1", koksma.mitsuba.OWEN_SOBOL)
+
+
+def percent(x):
+    return f"{100 * x:.0f} %" if abs(x) < 0.995 else f"{1 + x:.1f} times"
+
+
+def show(ranking, names, notes):
+    """A row for each sampler; notes: the text of its last column."""
+    print("| place | sampler | error x 1000 | interval | behind the first | interval | images | " + notes[0] + " |")
+    print("|---|---|---|---|---|---|---|---|")
+    for row in ranking.rows:
+        low, high = (f"{1000 * x:.3f}" for x in row.interval)
+        behind = "" if not row.behind else percent(row.behind)
+        between = "" if not row.behind else " to ".join(map(percent, row.behind_interval))
+        print(f"| {row.position or row.reason} | `{names[row.pattern]}` | {1000 * row.error:.3f} | {low} to {high} | {behind} | "
+              f"{between} | {row.trials} | {notes[1][row.pattern]} |")
+    print(f"\n{ranking.seconds:.0f} s. Best: {f'`{names[ranking.best]}`' if ranking.best else 'undecided'}; error is {ranking.metric}, {ranking.size[0]} x {ranking.size[1]} "
+          f"pixels; the reference's own error is {1000 * ranking.reference_error:.3f}.\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--spp", type=int, default=16)
+    parser.add_argument("--side", type=int, default=64)
+    parser.add_argument("--trials", type=int, default=64)
+    parser.add_argument("--time-limit", type=float, default=600)
+    parser.add_argument("--metric", default="mae")
+    a = parser.parse_args()
+    scene, samplers = mi.cornell_box(), [*koksma.mitsuba.OWN, *OURS]
+    samplers.remove("orthogonal")  # it takes squares of primes only, and rounds other numbers up
+    options = dict(size=(a.side, a.side), time_limit=a.time_limit, max_trials=a.trials, metric=a.metric)
+    print(f"Mitsuba {mi.__version__}, its Cornell box, {a.spp} samples a pixel:\n")
+    equal = koksma.mitsuba.rank(scene, samplers, a.spp, **options)
+    bands = {r.pattern: f"{r.coherence:.1f}{' bands' if r.coherent else ''}" for r in equal.rows}
+    show(equal, {s: s for s in samplers}, ("coherence", bands))
+    seconds = dict(zip(samplers, koksma.mitsuba.times(scene, samplers, a.spp, size=(256, 256), repeats=2, clock=time.process_time)))
+    # A factor of 1 is a name, too: no sampler stands twice, and the reference is the plain one.
+    factors = {s: seconds["independent"] / seconds[s] for s in samplers}
+    names = {f"{s}*{factors[s]:.2f}": s for s in samplers}
+    print(f"At the time of `independent` with {a.spp} samples:\n")
+    show(koksma.mitsuba.rank(scene, list(names), a.spp, reference="independent", **options), names,
+         ("samples (seconds of a large picture)", {n: f"{max(1, round(a.spp * float(n.partition('*')[2])))} ({seconds[s]:.2f})"
+                                        for n, s in names.items()}))
+
+
+if __name__ == "__main__":
+    main()
