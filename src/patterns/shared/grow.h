@@ -10,6 +10,8 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 /* partners[32 k + l] for coordinate k < dim and level l. */
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                            koksma_points *out);
@@ -20,7 +22,7 @@ koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t
 
 /* The partners of pmj02: its two coordinates are the matrices of the Stirling numbers of the first kind modulo 2, and the
    same shifted by a row and a column. */
-extern const uint32_t koksma__pmj02_partners[2 * 32];
+extern KOKSMA__LAB const uint32_t koksma__pmj02_partners[2 * 32];
 
 /* Computes coordinate 0 of the first n points as 32-bit fractions: v[i] is 2^32 times that of point i. partners has the
    partner of each of the 32 levels. */

@@ -15,13 +15,13 @@
  */
 #include "render/samples/float_sets.h"
 
-#include <koksma/sampler.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
 #include "patterns/shared/cells.h"
+#include "patterns/shared/grow.h"
 #include "patterns/shared/sobol_table.h"
 
 static const float nowhere[2] = {0, 0};
@@ -177,9 +177,8 @@ static void init_net(koksma__float_set *set)
 static koksma_status init_pmj02(const koksma_spec *spec, int dim, koksma__float_set *set)
 {
     (void)dim;
-    for (uint32_t level = 0; level < 32; level++) {
-        set->partners[0][level] = koksma_pmj02_partner(0, level);
-        set->partners[1][level] = koksma_pmj02_partner(1, level);
+    for (int k = 0; k < 2; k++) {
+        memcpy(set->partners[k], koksma__pmj02_partners + 32 * k, 32 * sizeof *koksma__pmj02_partners);
     }
     if (spec->params[0] == 0) { /* not shuffled */
         init_net(set);
