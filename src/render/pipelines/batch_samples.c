@@ -126,6 +126,21 @@ void BATCH_NAME(gather)(const float *from, const uint16_t *order, size_t n, floa
     }
 }
 
+void BATCH_NAME(gather_both)(const float *from, const uint16_t *xs, const uint16_t *ys, size_t n, float *to)
+{
+    typedef float four __attribute__((vector_size(16)));
+    size_t i = 0;
+    for (; i + 2 <= n; i += 2) {
+        const four pairs = {from[2 * (size_t)xs[i]], from[2 * (size_t)ys[i] + 1], from[2 * (size_t)xs[i + 1]],
+                            from[2 * (size_t)ys[i + 1] + 1]};
+        memcpy(to + 2 * i, &pairs, sizeof pairs);
+    }
+    if (i < n) {
+        to[2 * i] = from[2 * (size_t)xs[i]];
+        to[2 * i + 1] = from[2 * (size_t)ys[i] + 1];
+    }
+}
+
 void BATCH_NAME(move)(const float *xs, const float offset[2], size_t n, float *to)
 {
     const float ox = offset[0], oy = offset[1];
