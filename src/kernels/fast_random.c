@@ -39,7 +39,7 @@ static const uint32_t multiplier[2] = {0xD2511F53u, 0xCD9E8D57u}, weyl[2] = {0x9
 
 /* Not inlined: compilers would make the vectors anew in each round. */
 static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpose, uint32_t high, uint32_t lane,
-                                                  stream *out)
+                                                  int rounds, stream *out)
 {
     uint32_t k0 = (uint32_t)seed, k1 = (uint32_t)(seed >> 32);
     const uint64_t p1 = (uint64_t)lane * multiplier[1];
@@ -51,7 +51,7 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
     out->w0_of_1 = lanes64_splat(w1 ^ k0);
     out->w2_of_1 = lanes64_splat((uint32_t)(p0 >> 32) ^ k1);
     out->w3_of_1 = lanes64_splat((uint32_t)p0);
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < rounds; round++) {
         out->keys[round][0] = lanes64_splat(k0 += weyl[0]);
         out->keys[round][1] = lanes64_splat(k1 += weyl[1]);
     }
@@ -177,7 +177,7 @@ void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint3
     while (count) {
         const size_t some = share(first, count);
         stream s;
-        make_stream(seed, purpose, (uint32_t)(first >> 32), lane, &s);
+        make_stream(seed, purpose, (uint32_t)(first >> 32), lane, ROUNDS, &s);
         uniform(&s, first, some, out);
         first += some;
         count -= some;
@@ -191,7 +191,8 @@ INLINE void quads(const stream *s, uint64_t first, int chains, int rounds, uint3
     store_words(&b, chains, out);
 }
 
-INLINE void some_words(const stream *s, uint64_t first, size_t count, int rounds, uint32_t *out)
+/* room: whole vectors may be written. */
+INLINE void some_words(const stream *s, uint64_t first, size_t count, int rounds, bool room, uint32_t *out)
 {
     size_t done = 0;
     for (; done + LANES <= count; done += LANES) {
@@ -204,7 +205,9 @@ INLINE void some_words(const stream *s, uint64_t first, size_t count, int rounds
     for (; done + LANES64 <= count; done += LANES64) {
         quads(s, first + done, 1, rounds, out + 4 * done);
     }
-    if (done < count) {
+    if (done < count && room) {
+        quads(s, first + done, 1, rounds, out + 4 * done);
+    } else if (done < count) {
         uint32_t last[4 * LANES64];
         quads(s, first + done, 1, rounds, last);
         memcpy(out + 4 * done, last, 4 * (count - done) * sizeof *out);
@@ -217,8 +220,8 @@ INLINE void all_words(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t 
     while (count) {
         const size_t some = share(first, count);
         stream s;
-        make_stream(seed, purpose, (uint32_t)(first >> 32), lane, &s);
-        some_words(&s, first, some, rounds, out);
+        make_stream(seed, purpose, (uint32_t)(first >> 32), lane, rounds, &s);
+        some_words(&s, first, some, rounds, rounds == DRAW_ROUNDS, out);
         first += some;
         count -= some;
         out += 4 * some;
@@ -271,7 +274,7 @@ void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t
     enum { WORDS = 4 * LANES, SHARE = WORDS / ROUNDS };
     uint32_t at[WORDS];
     stream s;
-    make_stream(seed, KOKSMA__PURPOSE_SHUFFLE, 0, lane, &s);
+    make_stream(seed, KOKSMA__PURPOSE_SHUFFLE, 0, lane, ROUNDS, &s);
     block b = philox(&s, 0, CHAINS);
     uint32_t first = 0;
     for (; n - first > WORDS; first += WORDS) {
@@ -332,7 +335,7 @@ void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, si
 {
     enum { SOME = 2 * LANES };
     stream s;
-    make_stream(seed, KOKSMA__PURPOSE_POINT, 0, 0, &s);
+    make_stream(seed, KOKSMA__PURPOSE_POINT, 0, 0, ROUNDS, &s);
     size_t i = 0;
     if (n <= (size_t)1 << 20) {
         i = (n & (n - 1)) == 0 ? place_rooks(&s, rows, first, count, (double)n, true, xs)

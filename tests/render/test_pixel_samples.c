@@ -367,7 +367,7 @@ static void words_are_random(void **state)
 {
     (void)state;
     enum { COUNT = 1 << 16 };
-    static uint32_t words[COUNT + 4];
+    static uint32_t words[COUNT + 32];
     for (uint32_t lane = 0; lane < 6; lane++) {
         draw_words(lane, 1 << lane, COUNT, words);
         for (size_t step = 1; step <= 4; step += 3) { /* within a counter, and of the next */
@@ -400,9 +400,9 @@ static void every_instruction_set_gives_the_same_bits(void **state)
     }
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const size_t n = sizes[s];
-        uint32_t words[2 * MOST];
+        uint32_t words[2 * MOST + 32];
         uint16_t orders[4][MOST + 64];
-        float placed[4][2 * MOST], gathered[4][2 * MOST], nets[4][2][2 * MOST], moved[4][2 * MOST];
+        float placed[4][2 * MOST], gathered[4][2 * MOST], both[4][2 * MOST], nets[4][2][2 * MOST], moved[4][2 * MOST];
         draw_words(s, 99, 2 * MOST, words);
         for (size_t isa = 0; isa < 4; isa++) {
             const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
@@ -416,12 +416,14 @@ static void every_instruction_set_gives_the_same_bits(void **state)
             batch->order(words, n, orders[isa]);
             batch->jitter(placed[isa], words, scale, offset, n, placed[isa]);
             batch->gather(placed[isa], orders[isa], n, gathered[isa]);
+            batch->gather_both(placed[isa], orders[isa], orders[0], n, both[isa]);
             batch->net(words, (const uint32_t(*)[32])partners, 2, offset, n, fractions, nets[isa][0]);
             batch->net(words, (const uint32_t(*)[32])partners, 1, offset, n, fractions, nets[isa][1]);
             batch->move(placed[isa], offset, n, moved[isa]);
             assert_memory_equal(orders[isa], orders[0], n * sizeof **orders);
             assert_memory_equal(placed[isa], placed[0], 2 * n * sizeof **placed);
             assert_memory_equal(gathered[isa], gathered[0], 2 * n * sizeof **gathered);
+            assert_memory_equal(both[isa], both[0], 2 * n * sizeof **both);
             assert_memory_equal(moved[isa], moved[0], 2 * n * sizeof **moved);
             for (int dim = 0; dim < 2; dim++) {
                 assert_memory_equal(nets[isa][dim], nets[0][dim], 2 * n * sizeof ***nets);

@@ -29,6 +29,7 @@ enum { BYTES = 16 };
 #endif
 
 typedef uint16_t shorts __attribute__((vector_size(BYTES)));
+typedef uint64_t longs __attribute__((vector_size(BYTES))); /* on which gcc joins logical operations */
 
 /* Random words come 32 bytes at a time at least, from which a load of more would have to wait. */
 typedef uint32_t octet __attribute__((vector_size(32)));
@@ -48,17 +49,19 @@ static void shuffle_few(const uint32_t *words, uint32_t n, uint16_t *out)
     }
 }
 
-/* A few vectors at once: the steps of one wait for each other. */
+/* A few vectors at once: the steps of one wait for each other. Bits from k on are only taken off what moves down. */
 INLINE void walk(const uint32_t *words, int bits, int vectors, shorts *x)
 {
-    const uint16_t turn = (uint16_t)((bits + 1) / 2), back = (uint16_t)(bits - turn);
-    const shorts mask = (uint16_t)((1u << bits) - 1) - (shorts){0};
+    const uint16_t turn = (uint16_t)((bits + 1) / 2), back = (uint16_t)(bits - turn),
+                   most = (uint16_t)((1u << bits) - 1);
+    const shorts mask = most - (shorts){0}, quarter = mask >> 2, turned = mask >> turn;
     for (int r = 0; r < ROUNDS; r++) {
         const shorts factor = (uint16_t)(words[r] | 1) - (shorts){0}, add = (uint16_t)(words[r] >> 16) - (shorts){0};
         for (int v = 0; v < vectors; v++) {
-            x[v] = (x[v] * factor + add) & mask;
-            x[v] ^= x[v] >> 2;
-            x[v] = (x[v] >> turn | x[v] << back) & mask;
+            const shorts y = x[v] * factor + add;
+            const longs z = (longs)y ^ ((longs)(y >> 2) & (longs)quarter);
+            const longs low = (longs)((shorts)z >> turn), high = (longs)((shorts)z << back) & (longs)mask;
+            x[v] = (shorts)((low & (longs)turned) | high);
         }
     }
 }
@@ -123,6 +126,21 @@ void BATCH_NAME(gather)(const float *from, const uint16_t *order, size_t n, floa
     }
     if (i < n) {
         memcpy(to + 2 * i, from + 2 * (size_t)order[i], 2 * sizeof *to);
+    }
+}
+
+void BATCH_NAME(gather_both)(const float *from, const uint16_t *xs, const uint16_t *ys, size_t n, float *to)
+{
+    typedef float four __attribute__((vector_size(16)));
+    size_t i = 0;
+    for (; i + 2 <= n; i += 2) {
+        const four pairs = {from[2 * (size_t)xs[i]], from[2 * (size_t)ys[i] + 1], from[2 * (size_t)xs[i + 1]],
+                            from[2 * (size_t)ys[i + 1] + 1]};
+        memcpy(to + 2 * i, &pairs, sizeof pairs);
+    }
+    if (i < n) {
+        to[2 * i] = from[2 * (size_t)xs[i]];
+        to[2 * i + 1] = from[2 * (size_t)ys[i] + 1];
     }
 }
 

@@ -150,7 +150,9 @@ double BATCH_NAME(mean)(const float *x, size_t n)
             lanes[k] += __builtin_convertvector(some, doubles);
         }
     }
-    memcpy(p, lanes, sizeof p);
+    for (int k = 0; k < 4; k++) {
+        p[k] = (two){lanes[2 * k / DOUBLES][2 * k % DOUBLES], lanes[2 * k / DOUBLES][2 * k % DOUBLES + 1]};
+    }
     for (size_t i = whole; i < n; i++) {
         p[i % 8 / 2][i % 2] += (double)x[i];
     }

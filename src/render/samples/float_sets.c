@@ -107,8 +107,12 @@ static void draw_rooks(const koksma__float_set *set, const koksma__batch_table *
     const float *strata = scratch->pairs;
     batch->order(words, n, scratch->order);
     batch->jitter(set->corners, words + koksma__order_words(n), set->scale, offset, n, scratch->pairs);
+    if (order) {
+        batch->gather_both(strata, order, scratch->order, n, pairs);
+        return;
+    }
     for (size_t i = 0; i < n; i++) {
-        pairs[2 * i] = strata[2 * (order ? order[i] : i)];
+        pairs[2 * i] = strata[2 * i];
         pairs[2 * i + 1] = strata[2 * (size_t)scratch->order[i] + 1];
     }
 }

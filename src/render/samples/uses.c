@@ -140,13 +140,13 @@ int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
 koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler)
 {
     static const koksma_run alone = {.threads = 1};
-    const size_t n = sampler->most, words = 2 * n + 4 * KOKSMA__SHUFFLED;
+    const size_t n = sampler->most, words = (2 * n + 6 * KOKSMA__SHUFFLED) / 16 * 16;
     const size_t orders = 2 * ((n < KOKSMA__ORDERED ? n : KOKSMA__ORDERED) + 64);
     const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
     *room = (koksma__sample_scratch){
         .xs = malloc((2 * n + 8) * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
-        .words = malloc(words * sizeof *room->words),
+        .words = aligned_alloc(64, words * sizeof *room->words), /* vectors are written, and parts of them read */
         .order = malloc(orders * sizeof *room->order),
         .kept = malloc((kept + 1) * sizeof *room->kept),
         .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),
