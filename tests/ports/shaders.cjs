@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// node shaders.cjs PORTS glsl|wgsl: runs the shader port in Chromium (WebGL 2, or WebGPU by a software adapter) for the draws of
+// node shaders.cjs PORTS glsl|wgsl FOLDER: runs the shader port in Chromium (WebGL 2, or WebGPU by a software adapter) for the draws of
 // tests/ports/vectors.c and compares hashes with PORTS/vectors.txt. Exit code 77: Chromium, playwright-core or the interface is
-// not there. KOKSMA_NODE is the folder that has playwright-core.
+// not there. FOLDER has playwright-core.
 const fs = require("fs");
+const [ports, language, modules] = process.argv.slice(2);
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
 let playwright;
-try { playwright = require(require.resolve("playwright-core", { paths: [process.env.KOKSMA_NODE || ".", "."] })); } catch { playwright = null; }
+try { playwright = require(require.resolve("playwright-core", { paths: [modules] })); } catch { playwright = null; }
 const skip = why => { console.log("skipped: " + why); process.exit(77); };
 if (!chromium || !playwright) skip((chromium ? "playwright-core" : "Chromium") + " is not installed (scripts/setup browser)");
-const [ports, language] = process.argv.slice(2);
 const source = fs.readFileSync(`${ports}/${language}/koksma_sampler.${language}`, "utf8");
 
 const fragment = `#version 300 es
