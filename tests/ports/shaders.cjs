@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// node shaders.cjs PORTS glsl|wgsl FOLDER: runs the shader port in Chromium (WebGL 2, or WebGPU by a software adapter) for the draws of
+// tests/ports/vectors.c and compares hashes with PORTS/vectors.txt. Exit code 77: Chromium, playwright-core or the interface is
+// not there. FOLDER has playwright-core.
+const fs = require("fs");
+const [ports, language, modules] = process.argv.slice(2);
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
+let playwright;
+try { playwright = require(require.resolve("playwright-core", { paths: [modules] })); } catch { playwright = null; }
+const skip = why => { console.log("skipped: " + why); process.exit(77); };
+if (!chromium || !playwright) skip((chromium ? "playwright-core" : "Chromium") + " is not installed (scripts/setup browser)");
+const source = fs.readFileSync(`${ports}/${language}/koksma_sampler.${language}`, "utf8");
+
+const fragment = `#version 300 es
+precision highp float;
+precision highp int;
+${source}
+layout(location = 0) out uvec4 first;
+layout(location = 1) out uvec4 second;
+layout(location = 2) out uvec4 third;
+void main()
+{
+    uint k = uint(gl_FragCoord.y) * 1024u + uint(gl_FragCoord.x);
+    uvec2 seed = koksma_seed_of_frame(uvec2(0x89abcdefu ^ k >> 18, 0x01234567u), k >> 16 & 3u);
+    uvec2 use = koksma_domain_of_use(koksma_domain_of_pixel(seed, k & 255u, k >> 8 & 255u), k % 5u);
+    uvec2 domain = koksma_domain_of_sample(use, k % 3u);
+    uint index = k * 2654435761u >> (k % 25u);
+    first = uvec4(domain, koksma_pmj02(domain, index));
+    second = koksma_sobol(domain, index);
+    third = koksma_white(domain, index);
+}`;
+
+const compute = `${source}
+@group(0) @binding(0) var<storage, read_write> words: array<vec4u>;
+@group(0) @binding(1) var<uniform> first: vec4u;
+@compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u)
+{
+    let k = first.x + id.x;
+    let seed = koksma_seed_of_frame(vec2u(0x89abcdefu ^ (k >> 18u), 0x01234567u), (k >> 16u) & 3u);
+    let used = koksma_domain_of_use(koksma_domain_of_pixel(seed, k & 255u, (k >> 8u) & 255u), k % 5u);
+    let domain = koksma_domain_of_sample(used, k % 3u);
+    let index = (k * 2654435761u) >> (k % 25u);
+    words[3u * id.x] = vec4u(domain, koksma_pmj02(domain, index));
+    words[3u * id.x + 1u] = koksma_sobol(domain, index);
+    words[3u * id.x + 2u] = koksma_white(domain, index);
+}`;
+
+// In the page: all draws by WebGL, as [Uint32Array x 3], or a reason.
+function byWebGL(text) {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) return { missing: "no WebGL 2" };
+  const program = gl.createProgram();
+  const vertex = "#version 300 es\nvoid main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }";
+  for (const [kind, of] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, text]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, of);
+    gl.compileShader(shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) return { wrong: gl.getShaderInfoLog(shader) };
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return { wrong: gl.getProgramInfoLog(program) };
+  gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+  const targets = [0, 1, 2].map(k => gl.COLOR_ATTACHMENT0 + k);
+  for (const target of targets) {
+    const texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32UI, 1024, 1024);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, target, gl.TEXTURE_2D, texture, 0);
+  }
+  gl.drawBuffers(targets);
+  gl.viewport(0, 0, 1024, 1024);
+  gl.useProgram(program);
+  gl.drawArrays(gl.TRIANGLES, 0, 3);
+  const words = targets.map(target => {
+    const read = new Uint32Array(4 << 20);
+    gl.readBuffer(target);
+    gl.readPixels(0, 0, 1024, 1024, gl.RGBA_INTEGER, gl.UNSIGNED_INT, read);
+    return read;
+  });
+  return { hashes: hashesOf((k, w) => words[w >> 2][4 * k + (w & 3)]) };
+}
+
+async function byWebGPU(text) {
+  const adapter = navigator.gpu && await navigator.gpu.requestAdapter();
+  if (!adapter) return { missing: "no WebGPU" };
+  const device = await adapter.requestDevice();
+  const shader = device.createShaderModule({ code: text });
+  const { messages } = await shader.getCompilationInfo();
+  if (messages.some(m => m.type === "error")) return { wrong: messages.map(m => `${m.lineNum}: ${m.message}`).join("\n") };
+  const size = 3 * 16 << 14, usage = GPUBufferUsage;
+  const buffer = device.createBuffer({ size, usage: usage.STORAGE | usage.COPY_SRC });
+  const pipeline = device.createComputePipeline({ layout: "auto", compute: { module: shader, entryPoint: "main" } });
+  const words = new Uint32Array(12 << 20), mask = (1 << 14) - 1;
+  const constants = device.createBuffer({ size: 256 * 64, usage: usage.UNIFORM | usage.COPY_DST });
+  device.queue.writeBuffer(constants, 0, Uint32Array.from({ length: 64 * 64 }, (_, k) => k % 64 ? 0 : k / 64 << 14));
+  for (let block = 0; block < 64; block++) {
+    const group = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries: [
+      { binding: 0, resource: { buffer } }, { binding: 1, resource: { buffer: constants, offset: 256 * block, size: 16 } }] });
+    const read = device.createBuffer({ size, usage: usage.COPY_DST | usage.MAP_READ });
+    const encoder = device.createCommandEncoder(), pass = encoder.beginComputePass();
+    pass.setPipeline(pipeline);
+    pass.setBindGroup(0, group);
+    pass.dispatchWorkgroups(mask + 1 >> 6);
+    pass.end();
+    encoder.copyBufferToBuffer(buffer, 0, read, 0, size);
+    device.queue.submit([encoder.finish()]);
+    await read.mapAsync(GPUMapMode.READ);
+    words.set(new Uint32Array(read.getMappedRange()), 12 * (block << 14));
+    read.destroy();
+  }
+  return { hashes: hashesOf((k, w) => words[12 * k + w]) };
+}
+
+// In the page: for each block the hashes of domain, sobol, pmj02 and white. word(k, w) is word w of draw k.
+function hashesOf(word) {
+  const rows = [];
+  for (let block = 0; block < 64; block++) {
+    const h = [[0, 1], [4, 5, 6, 7], [2, 3], [8, 9, 10, 11]].map(of => {
+      let hash = 2166136261;
+      for (let k = block << 14; k < block + 1 << 14; k++) for (const w of of) hash = Math.imul(hash ^ word(k, w), 16777619);
+      return (hash >>> 0).toString(16).padStart(8, "0");
+    });
+    rows.push([block, ...h].join(" "));
+  }
+  return rows;
+}
+
+(async () => {
+  const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader",
+    "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan"] });
+  const page = await browser.newPage();
+  await page.route("https://koksma.invalid/", route => route.fulfill({ contentType: "text/html", body: "" })); /* WebGPU asks for https */
+  await page.goto("https://koksma.invalid/");
+  await page.addScriptTag({ content: hashesOf.toString() });
+  const result = await page.evaluate(language === "glsl" ? `(${byWebGL})(${JSON.stringify(fragment)})` : `(${byWebGPU})(${JSON.stringify(compute)})`);
+  await browser.close();
+  if (result.missing) skip(result.missing);
+  if (result.wrong) { console.log(result.wrong); process.exit(1); }
+  const expected = fs.readFileSync(`${ports}/vectors.txt`, "utf8").split("\n").filter(line => line && line[0] !== "#");
+  const different = expected.filter((line, k) => line !== result.hashes[k]);
+  console.log(`${different.length} of ${expected.length} blocks differ${different.length ? ", first: " + different[0] : ""}`);
+  process.exit(different.length || expected.length !== 64 ? 1 : 0);
+})();

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of tests/ports/vectors.c by the Rust port: rust.sh compares it with ports/vectors.txt.
+#[path = "../../ports/rust/koksma_sampler.rs"]
+#[allow(dead_code)]
+mod koksma_sampler;
+use koksma_sampler::{seed_of_frame, to_float, Domain};
+
+fn hashed(h: u32, words: &[u32]) -> u32 {
+    words.iter().fold(h, |h, word| (h ^ word).wrapping_mul(16777619))
+}
+
+fn words(xs: &[f64]) -> Vec<u32> {
+    xs.iter().map(|x| (x * 4294967296.0) as u32).collect()
+}
+
+fn main() {
+    assert!(to_float(1.0 - 1e-12) < 1.0);
+    println!("# Made by tests/ports/vectors.c, which says of what. block domain sobol pmj02 white");
+    for block in 0..64u32 {
+        let mut h = [2166136261u32; 4];
+        for k in block << 14..(block + 1) << 14 {
+            let seed = seed_of_frame(0x0123456789abcdef ^ (k >> 18) as u64, k >> 16 & 3);
+            let domain = Domain::of_pixel(seed, k & 255, k >> 8 & 255).of_use(k % 5).of_sample(k % 3);
+            let index = k.wrapping_mul(2654435761) >> (k % 25);
+            let sobol = domain.sobol::<4>(index);
+            assert_eq!(sobol[..2], domain.sobol::<2>(index));
+            h[0] = hashed(h[0], &[domain.key as u32, (domain.key >> 32) as u32]);
+            h[1] = hashed(h[1], &words(&sobol));
+            h[2] = hashed(h[2], &words(&domain.pmj02(index)));
+            h[3] = hashed(h[3], &words(&domain.white(index)));
+        }
+        println!("{} {:08x} {:08x} {:08x} {:08x}", block, h[0], h[1], h[2], h[3]);
+    }
+}
