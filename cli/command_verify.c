@@ -88,8 +88,8 @@ static bool disappoints(const char *list, const char *source, const koksma_point
     return false;
 }
 
-/* --record: the exact value of the points beside that of the set that the pattern `record` has; *is_record: it is lower, or
-   there is none of so many points. */
+/* --record: prints the exact value of the points beside that of the set of the pattern `record`. *is_record: the points have
+   the lower value, or `record` has no set of so many points. */
 static int put_record(const cli_arguments *arguments, cli_rows *rows, const char *source, const koksma_points *points,
                       const koksma_run *run, bool *is_record)
 {

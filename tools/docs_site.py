@@ -94,7 +94,7 @@ def table(head, rows):
     """A table of HTML cells; cells after the first are numbers where they begin with a digit."""
     def cell(c):
         return f"<td class='number'>{c}</td>" if re.match(r"[\d.-]+(\s|$)", c) else f"<td>{c}</td>"
-    lines = ["<tr>" + "".join(f"<th>{h}</th>" for h in head) + "</tr>"] if head else []
+    lines = ["<thead><tr>" + "".join(f"<th>{h}</th>" for h in head) + "</tr></thead>"] if head else []
     return "<table>" + "".join(lines + ["<tr>" + "".join(cell(c) for c in r) + "</tr>" for r in rows]) + "</table>"
 
 

@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-/* What the search may not give up. */
+/* What the search must keep of the first set. */
 typedef enum koksma_keep {
     KOKSMA_KEEP_NONE,
     KOKSMA_KEEP_LATIN, /* along each axis the coordinates stay those of the first set, in another order */

@@ -2,8 +2,8 @@
 /*
  * PFM: "Pf" or "PF", width, height, a scale whose sign is the byte order (negative: little-endian), one blank, then
  * floats, the bottom row first. The scale's size has no agreed meaning and is not applied. Some writers end the
- * header with blanks and CR LF. The floats may begin with a byte that is a blank, so where they begin is told by the
- * end of the file: they are its last bytes.
+ * header with blanks and CR LF. The first byte of the floats may look like a blank, so their start is
+ * counted back from the end of the file.
  */
 #include <math.h>
 #include <stdio.h>

@@ -56,7 +56,7 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
 LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t cell_x, uint32_t cell_y,
                                  uint32_t *out)
 {
-    /* Moved so that points are in the first 8 cells of y, of 16, and the places of empty cells are not. */
+    /* Shifts y so that points fall into the first 8 of 16 cells, and the marks of empty cells into the others. */
     lanes8_pairs start;
     size_t count = 0;
     lanes8_splat((4 * cell_y - 17) << (KOKSMA__PLACE_BITS + 14), &start);

@@ -41,7 +41,7 @@ koksma_status koksma__mesh_check(koksma__mesh *mesh);
 /* Normals from the triangles around each vertex, weighted by their areas, where the file has none. Errors: MEMORY. */
 koksma_status koksma__mesh_smooth(koksma__mesh *mesh);
 
-/* 64 bits of its content. */
+/* 64-bit hash of its content. */
 uint64_t koksma__mesh_hash(const koksma__mesh *mesh);
 
 /* The box around the mesh as it is placed. */

@@ -4,7 +4,7 @@
 
 #include "plot/backend.h"
 
-/* The backend of SVG; it has no library. */
+/* The backend of SVG; it needs no library. */
 extern const koksma__canvas_functions koksma__svg_functions;
 
 #endif

@@ -47,7 +47,7 @@ koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points,
 koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                         koksma_value *out);
 
-/* The ways by themselves; tests compare them. Sorting: one or two dimensions, n < 2^28, and in multiples of 1/16 the
+/* Each of the algorithms alone, for tests that compare them. Sorting: one or two dimensions, n < 2^28, and in multiples of 1/16 the
    coefficients of a24 and g but the first, and r; it is summing pairs where the compiler has no integers of 128 bits.
  */
 koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,

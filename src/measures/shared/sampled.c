@@ -9,7 +9,7 @@
 
 #include "core/sum.h"
 
-/* Two passes: sums of squares of what is left when the mean is taken off lose no digits. */
+/* Two passes, the mean first: the sum of squared differences from it loses no digits. */
 void koksma__sampled_root(const double *squares, size_t count, koksma_value *out)
 {
     koksma__sum sum = {0}, spread = {0};

@@ -334,7 +334,7 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, c
         memset(on.corners, 0, sizeof on.corners);
     }
     for (int i = 0; i < n; i++) {
-        const int32_t number = on.primitive[i]; /* of the part, until set_lane */
+        const int32_t number = on.primitive[i]; /* a part's number, which set_lane replaces */
         if (number >= 0) {
             count += hits->primitive[i] < 0;
             fine |= e->parts[number].smooth || e->parts[number].mesh->uvs;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Uses: what samples are spent on. Their table by number, the group and the dimensions of a pattern that each one
- * takes, and the scratch memory of drawing.
+ * Uses: what sample dimensions are spent on. The table of uses, the group that each is in and the dimensions of a pattern
+ * that it takes, and the scratch memory for drawing samples.
  */
 #include <stdlib.h>
 

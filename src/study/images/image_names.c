@@ -38,7 +38,8 @@ typedef struct trial_fit {
     size_t lengths[MAX_PLACES]; /* of the texts at the places */
 } trial_fit;
 
-/* Whether the path fits from `at` on, the longest text for the first place first. Depth: the number of places. */
+/* Whether the rest of the path, from `at` on, fits the rest of the template; longest texts for the first place are tried
+   first. The depth of recursion is the number of places. */
 static bool fit_from(trial_fit *t, const char *places, int place, size_t at)
 {
     while (*places && *places != '{') {

@@ -9,7 +9,7 @@
 
 #include "study/report/questions/topic.h"
 
-/* The bootstrap's time goes with the square of the patterns. */
+/* The time of the bootstrap grows with the square of the number of patterns. */
 enum { KOKSMA__CASE_PATTERNS = 256 };
 
 /* A measure of points of dim dimensions: one in three is another than the one in two. */

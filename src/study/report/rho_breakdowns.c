@@ -85,7 +85,8 @@ static koksma_status add_table(koksma__document *d, const koksma__rho_means *s, 
     return status;
 }
 
-/* Sets parts by scene, by group and by number of samples, with `masks` for their scenes. */
+/* Fills in the parts that correlations are broken down into: one for each scene, group and number of samples; `masks` are
+   the scenes of each. */
 static void set_parts(const koksma__topic *topic, const koksma__rho_means *s, part *parts, bool *masks)
 {
     part *at = parts;

@@ -108,7 +108,7 @@ static void say_trials(koksma__document *d, const koksma__slopes *of, size_t a, 
     }
 }
 
-/* Those that are not told apart from the best, the best known first, no more than NAMED by name. */
+/* The patterns whose intervals do not exclude that they fall fastest, narrow intervals first; at most NAMED by name. */
 static void say_tied(koksma__document *d, const koksma__slopes *of, const standing *s)
 {
     size_t named = 0, at = of->n, first = of->n, second = of->n;

@@ -227,11 +227,13 @@ async function byKeyboard(page) {
       const cut = await page.evaluate(() => {
         dispatchEvent(new Event("beforeprint"));
         const found = [document.querySelectorAll("#evidence details:not([open], .choice)").length,
-          [...document.querySelectorAll("#evidence table.many, #evidence .stage")].filter(e => e.getBoundingClientRect().right > innerWidth + 1).length];
+          [...document.querySelectorAll("#evidence table.many, #evidence .stage")].filter(e => e.getBoundingClientRect().right > innerWidth + 1).length,
+          [...document.querySelectorAll("#evidence thead th")].filter(th => th.textContent && (th.firstElementChild?.checkVisibility() || // a button is printed once
+            (th.firstElementChild ? getComputedStyle(th, "::before").content !== JSON.stringify(th.textContent) : false))).length];
         dispatchEvent(new Event("afterprint"));
         return found;
       });
-      check(cut[0] === 0 && cut[1] === 0, `printed, ${cut[0]} parts are folded and ${cut[1]} are cut off`);
+      check(cut[0] === 0 && cut[1] === 0 && cut[2] === 0, `printed, ${cut[0]} parts are folded, ${cut[1]} are cut off, and ${cut[2]} heads of columns are not repeated`);
       await page.emulateMedia({ media: "screen" });
     }
     if (screenshots && colorScheme === "light") await page.pdf({ path: `${screenshots}/print.pdf` });

@@ -165,7 +165,8 @@ export function table(block) {
   const body = element("tbody", {}), state = element("output", {}), field = element("input", { type: "search", size: 16 });
   const moves = rows.length > 2 && !visible.some(column => column.merged);
   let order = block.sort ? { ...block.sort, c: block.columns.findIndex(column => column.name === block.sort.column) } : null, wanted = "";
-  const heads = visible.map(column => element("th", { scope: "col", class: column.type === "text" ? "name" : null },
+  // Chromium repeats the head of a table on each page of paper, without the buttons in it: data-head is printed.
+  const heads = visible.map(column => element("th", { scope: "col", class: column.type === "text" ? "name" : null, "data-head": moves ? column.title ?? column.name : null },
     moves ? element("button", { type: "button" }, column.title ?? column.name) : column.title ?? column.name));
   const show = () => {
     const has = [wanted, field.value.trim().toLowerCase()], shown = (order ? sorted(rows, order) : rows).filter(r => has.every(text => r.text.includes(text)));
