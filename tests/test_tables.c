@@ -10,8 +10,8 @@
 #include <koksma/warp.h>
 
 #include "image/formats.h"
-#include "integrands/integrands.h"
 #include "image/metrics/metrics.h"
+#include "integrands/integrands.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "optimise/methods.h"

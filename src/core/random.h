@@ -29,7 +29,7 @@ typedef enum koksma__purpose {
     KOKSMA__PURPOSE_AXES,
     KOKSMA__PURPOSE_MIRROR,
     KOKSMA__PURPOSE_PIXEL, /* the samples of a pixel: koksma__random_draw */
-    KOKSMA__PURPOSE_BASE /* the modifier owen-base */
+    KOKSMA__PURPOSE_BASE   /* the modifier owen-base */
 } koksma__purpose;
 
 typedef struct koksma__words {
