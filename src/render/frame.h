@@ -99,9 +99,6 @@ void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, ko
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
                                  koksma__sample_scratch *scratch, float *pairs);
 
-/* The samples of the largest group, in whole lanes, if a pixel has `most`. */
-size_t koksma__group_capacity(const koksma__frame *frame, size_t most);
-
 /* What a task needs to draw its samples and to know what they come to. */
 typedef struct koksma__task_scratch {
     const koksma__pipeline *pipeline;
@@ -120,6 +117,12 @@ void koksma__task_scratch_fini(koksma__task_scratch *scratch);
 static inline size_t koksma__whole_lanes(size_t samples)
 {
     return (samples + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
+}
+
+/* The samples of the largest group, in whole lanes, if a pixel has `most`. */
+static inline size_t koksma__group_capacity(const koksma__frame *frame, size_t most)
+{
+    return koksma__whole_lanes(most < frame->together ? frame->together : most);
 }
 
 #endif

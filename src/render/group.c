@@ -28,11 +28,6 @@ void koksma__group_fill(const koksma__frame *f, size_t first, size_t end, koksma
     }
 }
 
-size_t koksma__group_capacity(const koksma__frame *f, size_t most)
-{
-    return koksma__whole_lanes(most < f->together ? f->together : most);
-}
-
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
                                  koksma__sample_scratch *scratch, float *pairs)
 {

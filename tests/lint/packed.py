@@ -25,6 +25,12 @@ REASONS = {
     "batch_shade": NO_BLEND,
     "batch_land": NO_BLEND + "; clang 14 gives up on it everywhere",
     "batch_step_off": NO_BLEND,
+    "batch_beams": NO_BLEND,
+    "batch_reflect": NO_BLEND,
+    "batch_scatter": NO_BLEND,
+    "batch_surfaces": NO_BLEND,
+    "batch_background": NO_BLEND,
+    "batch_collect": NO_BLEND,
     "kernel_far_corners": "the loop over corners is packed; what is scalar is the largest of its lanes, once for each block of 128, "
                           "and the unrolled rest",
     "batch_closest": "the loops over lanes are packed; what is the same for all rays of a shape is computed before them, once for each "

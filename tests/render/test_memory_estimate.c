@@ -13,10 +13,12 @@
 #include "render/frame.h"
 
 void *__real_malloc(size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
 void *__real_calloc(size_t n, size_t size);
 void *__real_realloc(void *at, size_t size);
 void __real_free(void *at);
 void *__wrap_malloc(size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
 void *__wrap_calloc(size_t n, size_t size);
 void *__wrap_realloc(void *at, size_t size);
 void __wrap_free(void *at);
@@ -41,6 +43,11 @@ static void give(void *at)
 void *__wrap_malloc(size_t size)
 {
     return take(__real_malloc(size));
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    return take(__real_aligned_alloc(alignment, size));
 }
 
 void *__wrap_calloc(size_t n, size_t size)

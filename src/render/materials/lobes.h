@@ -54,7 +54,8 @@ KOKSMA__INLINE float koksma__lobe_pdf(koksma__v3 n, koksma__v3 out, float expone
     const float cosine = koksma__v3_dot(koksma__v3_mirror(out, n), w), above = koksma__v3_dot(n, w);
     const float least = cosine > 0 ? cosine : 0, inside = least < 1 ? least : 1;
     const float pdf = (exponent + 1) * (0.5f / KOKSMA__PI_F) * koksma__power(inside, exponent);
-    return (cosine > 0) & (above > 0) ? pdf : 0;
+    const int seen = (cosine > 0) & (above > 0);
+    return seen ? pdf : 0;
 }
 
 KOKSMA__INLINE koksma__v3 koksma__lobe_direction(koksma__v3 n, koksma__v3 out, float exponent, float u, float v)

@@ -41,7 +41,8 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
         s->out[0][i] = out.x;
         s->out[1][i] = out.y;
         s->out[2][i] = out.z;
-        at[i] = (h->primitive[i] >= 0) & (i < lanes) ? h->material[i] + 1 : 0;
+        const int there = (h->primitive[i] >= 0) & (i < lanes);
+        at[i] = there ? h->material[i] + 1 : 0;
         odd[i] = 0;
     }
     for (int i = 0; i < STEP(n); i++) {

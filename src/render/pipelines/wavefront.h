@@ -3,6 +3,7 @@
 #ifndef KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
 #define KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
 
+#include "core/status.h"
 #include "render/frame.h"
 #include "render/pipelines/vertices.h"
 
@@ -55,10 +56,30 @@ typedef struct koksma__trace {
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out);
 void koksma__wavefront_close(void *opened);
 
-koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path);
-
 /* Makes room for a block of paths more. Errors: MEMORY. */
 koksma_status koksma__wavefront_reserve(koksma__queue *queue);
+
+static inline koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path)
+{
+    KOKSMA__TRY(koksma__wavefront_reserve(queue));
+    koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
+    const size_t i = queue->n++ % KOKSMA__BLOCK;
+    to->rays.ox[i] = path->o[0];
+    to->rays.oy[i] = path->o[1];
+    to->rays.oz[i] = path->o[2];
+    to->rays.dx[i] = path->d[0];
+    to->rays.dy[i] = path->d[1];
+    to->rays.dz[i] = path->d[2];
+    to->rays.time[i] = path->time;
+    for (int k = 0; k < 3; k++) {
+        to->beta[k][i] = path->beta[k];
+        to->n[k][i] = path->n[k];
+    }
+    to->pdf[i] = path->pdf;
+    to->from[i] = path->from;
+    to->sample[i] = path->sample;
+    return KOKSMA_OK;
+}
 
 /* The pairs of a use: pair i is sample i's. They are drawn when a path first needs the use, in the pixels that have a
    path at this bounce. Errors: the sampler's, ARGUMENT (too many), MEMORY. */
