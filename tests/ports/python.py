@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""python.py PORTS: the NumPy port has the bits of ports/vectors.txt, and its domains are independent."""
+"""python.py PORTS: the NumPy port has the bits of ports/vectors.txt, its domains are independent, its example prints
+ports/example.txt."""
+import subprocess
 import sys
 
 try:
@@ -9,6 +11,7 @@ except ModuleNotFoundError:
     print("no NumPy")
     sys.exit(77)
 
+sys.dont_write_bytecode = True  # `make install` takes the whole folder
 sys.path.insert(0, sys.argv[1] + "/python")
 import koksma_sampler as ks  # pylint: disable=wrong-import-position,import-error
 
@@ -60,4 +63,9 @@ for name, f in (("sobol", ks.sobol), ("pmj02", ks.pmj02), ("white", ks.white)):
                 if abs(chi - 255) > 6 * 510 ** .5:
                     print(f"{name}, {relation}, coordinates {a} and {b}: chi-square {chi:.0f} instead of 255")
                     failed = True
+
+example = subprocess.run([sys.executable, "-B", sys.argv[1] + "/python/example.py"], capture_output=True, text=True, check=False)
+if example.stdout != open(sys.argv[1] + "/example.txt").read():
+    print("the example prints", example.stdout, example.stderr)
+    failed = True
 sys.exit(failed)

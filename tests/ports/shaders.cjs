@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // node shaders.cjs PORTS glsl|wgsl FOLDER: runs the shader port in Chromium (WebGL 2, or WebGPU by a software adapter) for the draws of
-// tests/ports/vectors.c and compares hashes with PORTS/vectors.txt. Exit code 77: Chromium, playwright-core or the interface is
+// tests/ports/vectors.c and compares hashes with PORTS/vectors.txt; then its example, which prints what all examples do. Exit code 77: Chromium, playwright-core or the interface is
 // not there. FOLDER has playwright-core.
 const fs = require("fs");
 const [ports, language, modules] = process.argv.slice(2);
@@ -134,11 +134,20 @@ function hashesOf(word) {
   await page.goto("https://koksma.invalid/");
   await page.addScriptTag({ content: hashesOf.toString() });
   const result = await page.evaluate(language === "glsl" ? `(${byWebGL})(${JSON.stringify(fragment)})` : `(${byWebGPU})(${JSON.stringify(compute)})`);
+  let shown = "";
+  if (result.hashes) {
+    await page.route("https://koksma.invalid/*", route => route.fulfill({
+      contentType: "text/html", body: fs.readFileSync(`${ports}/${language}/${new URL(route.request().url()).pathname}`, "utf8") }));
+    await page.goto("https://koksma.invalid/example.html");
+    await page.waitForSelector("[data-done]", { timeout: 60000 });
+    shown = await page.textContent("#result");
+  }
   await browser.close();
   if (result.missing) skip(result.missing);
   if (result.wrong) { console.log(result.wrong); process.exit(1); }
   const expected = fs.readFileSync(`${ports}/vectors.txt`, "utf8").split("\n").filter(line => line && line[0] !== "#");
   const different = expected.filter((line, k) => line !== result.hashes[k]);
   console.log(`${different.length} of ${expected.length} blocks differ${different.length ? ", first: " + different[0] : ""}`);
+  if (shown !== fs.readFileSync(`${ports}/example.txt`, "utf8")) { console.log("the example prints " + shown); process.exit(1); }
   process.exit(different.length || expected.length !== 64 ? 1 : 0);
 })();
