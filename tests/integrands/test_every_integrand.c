@@ -337,6 +337,52 @@ static void components_add_up(void **state)
     walk(look_at_components);
 }
 
+/* At every point the components add up to the function less its integral, and their variances to its variance. */
+static void look_at_component_values(const char *spec, koksma_integral *f)
+{
+    const koksma_points points = test_points("random", 40, f->dim, 3);
+    double added[40] = {0}, values[40], variance = 0;
+    koksma_integral *component;
+    for (unsigned bits = 1; bits < 1u << f->axes; bits++) {
+        int some[3];
+        size_t n = 0;
+        for (int k = 0; k < f->axes; k++) {
+            if (bits >> k & 1) {
+                some[n++] = k;
+            }
+        }
+        const koksma_status status = koksma_integral_component(f, some, n, &component);
+        if (!f->factors) {
+            assert_int_equal(status, KOKSMA_UNSUPPORTED);
+            koksma_points_fini((koksma_points *)&points);
+            return;
+        }
+        assert_ok(status);
+        assert_ok(koksma_integral_values(component, &points, NULL, values));
+        for (size_t i = 0; i < points.n; i++) {
+            added[i] += values[i];
+        }
+        assert_true(component->value == 0 && component->variance >= 0);
+        variance += component->variance;
+        koksma_integral_close(component);
+    }
+    assert_ok(koksma_integral_values(f, &points, NULL, values));
+    for (size_t i = 0; i < points.n; i++) {
+        if (!(fabs(added[i] - (values[i] - f->value)) <= 1e-12 * (1 + fabs(values[i])))) {
+            fail_msg("%s in %d dimensions: components add up to %.17g, not %.17g", spec, f->dim, added[i],
+                     values[i] - f->value);
+        }
+    }
+    assert_near(variance / f->variance, 1, 1e-9);
+    koksma_points_fini((koksma_points *)&points);
+}
+
+static void components_of_products_add_up(void **state)
+{
+    (void)state;
+    walk(look_at_component_values);
+}
+
 /* Of estimates' 95 % intervals about a twentieth miss. */
 static size_t n_shares, n_missed;
 
@@ -556,6 +602,7 @@ int main(void)
         cmocka_unit_test(genz_parameters_are_scaled),
         cmocka_unit_test(integrals_variances_and_shares_hold),
         cmocka_unit_test(components_add_up),
+        cmocka_unit_test(components_of_products_add_up),
         cmocka_unit_test(estimated_shares_hold_the_exact_ones),
         cmocka_unit_test(known_numbers),
         cmocka_unit_test(many_dimensions_hold),
