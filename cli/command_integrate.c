@@ -214,6 +214,70 @@ static int put_share(job *j, const koksma_integral *integral, const char *name, 
     return CLI_YES;
 }
 
+/* The error of integrating the component of these coordinates over the largest sets of a series, and its part of the mean
+   squared error. The components of others than products are not known: nothing. */
+static int put_component(job *j, const koksma_integral *integral, const char *name, series *s, double square,
+                         const int *axes, size_t n_axes)
+{
+    koksma_integral *component;
+    koksma_integration result;
+    char text[32], json[40];
+    koksma_status status = koksma_integral_component(integral, axes, n_axes, &component);
+    if (status) {
+        return status == KOKSMA_UNSUPPORTED ? CLI_YES : cli_fail(j->arguments, status);
+    }
+    status = errors_of(j, component, s, &result);
+    koksma_integral_close(component);
+    if (status) {
+        return cli_fail(j->arguments, status);
+    }
+    const koksma_integration_row *row = &result.rows[0];
+    snprintf(text, sizeof text, n_axes == 1 ? "%d" : "%d,%d", axes[0], axes[n_axes - 1]);
+    snprintf(json, sizeof json, "[%s]", text);
+    cli_row_text(j->rows, "error_of", name);
+    cli_row_json(j->rows, "axes", json, text);
+    cli_row_text(j->rows, "source", s->text);
+    cli_row_whole(j->rows, "n", row->n);
+    cli_row_whole(j->rows, "trials", row->trials);
+    cli_row_number(j->rows, "rmse", row->rmse);
+    cli_row_number(j->rows, "low", row->low);
+    cli_row_number(j->rows, "high", row->high);
+    cli_row_number(j->rows, "part", row->rmse * row->rmse / square);
+    cli_row_end(j->rows);
+    return CLI_YES;
+}
+
+/* Those of all coordinates and pairs. */
+static int put_components(job *j, const koksma_integral *integral, const series *all)
+{
+    series *s = malloc(sizeof *s);
+    koksma_integration result;
+    koksma_integral_facts facts;
+    if (!s) {
+        return cli_no_memory();
+    }
+    *s = *all;
+    for (size_t i = 0; i < all->options.n_sizes; i++) {
+        s->options.sizes[0] =
+            all->options.sizes[i] > s->options.sizes[0] ? all->options.sizes[i] : s->options.sizes[0];
+    }
+    s->options.n_sizes = 1;
+    koksma_integral_about(integral, &facts);
+    const koksma_status status = errors_of(j, integral, s, &result);
+    int code = status ? cli_fail(j->arguments, status) : CLI_YES;
+    const double square = code ? 0 : result.rows[0].rmse * result.rows[0].rmse;
+    for (int a = 0; a < facts.axes && !code; a++) {
+        code = put_component(j, integral, facts.text, s, square, &a, 1);
+    }
+    for (int a = 0; facts.axes <= MOST_PAIRED_AXES && a < facts.axes; a++) {
+        for (int b = a + 1; b < facts.axes && !code; b++) {
+            code = put_component(j, integral, facts.text, s, square, (int[]){a, b}, 2);
+        }
+    }
+    free(s);
+    return code;
+}
+
 static int put_variance(job *j, const koksma_integral *integral, uint64_t samples)
 {
     koksma_integral_facts facts;
@@ -264,40 +328,45 @@ static int open_series(job *j, const char *operand)
     return code;
 }
 
-static int run_series(job *j, series *s)
+/* Calls f for every integrand in so many dimensions. */
+static int run_each(job *j, int dim, int (*f)(job *j, const koksma_integral *integral, void *context), void *context)
 {
-    int code = CLI_YES;
-    bool end = false;
-    for (size_t i = 0; !code && !end; i++) {
-        koksma_integral *integral;
-        code = open_integrand(j, i, s->dim, &end, &integral);
-        if (!code && integral) {
-            slope *more = realloc(j->slopes, (j->n_slopes + 1) * sizeof *more);
-            j->slopes = more ? more : j->slopes;
-            code = more ? integrate(j, integral, s) : cli_no_memory();
-        }
-        koksma_integral_close(integral);
-    }
-    return code;
-}
-
-static int run_variance(job *j, int dim)
-{
-    uint64_t samples;
-    if (!cli_whole(j->arguments, "samples", 0, 1, 1 << 20, &samples)) {
-        return CLI_USAGE;
-    }
     int code = CLI_YES;
     bool end = false;
     for (size_t i = 0; !code && !end; i++) {
         koksma_integral *integral;
         code = open_integrand(j, i, dim, &end, &integral);
         if (!code && integral) {
-            code = put_variance(j, integral, samples);
+            code = f(j, integral, context);
         }
         koksma_integral_close(integral);
     }
     return code;
+}
+
+static int errors_of_series(job *j, const koksma_integral *integral, void *s)
+{
+    slope *more = realloc(j->slopes, (j->n_slopes + 1) * sizeof *more);
+    j->slopes = more ? more : j->slopes;
+    return more ? integrate(j, integral, s) : cli_no_memory();
+}
+
+static int components_of_series(job *j, const koksma_integral *integral, void *s)
+{
+    return put_components(j, integral, s);
+}
+
+static int shares_of_variance(job *j, const koksma_integral *integral, void *samples)
+{
+    return put_variance(j, integral, *(const uint64_t *)samples);
+}
+
+static int run_variance(job *j, int dim)
+{
+    uint64_t samples;
+    return cli_whole(j->arguments, "samples", 0, 1, 1 << 20, &samples)
+               ? run_each(j, dim, shares_of_variance, &samples)
+               : CLI_USAGE;
 }
 
 static int run_all(job *j)
@@ -314,13 +383,16 @@ static int run_all(job *j)
     j->rows = code ? NULL : cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < j->n_series && !code; i++) {
         cli_work_part(&j->work, i, j->n_series);
-        code = run_series(j, &j->series[i]);
+        code = run_each(j, j->series[i].dim, errors_of_series, &j->series[i]);
     }
     for (size_t i = 0; i < j->n_slopes; i++) {
         put_slope(j, &j->slopes[i]);
     }
     if (!code && cli_flag(arguments, "anova")) {
         code = run_variance(j, j->n_series ? j->series[0].dim : (int)dim);
+        for (size_t i = 0; i < j->n_series && !code; i++) {
+            code = run_each(j, j->series[i].dim, components_of_series, &j->series[i]);
+        }
     }
     cli_work_end();
     const int rows_code = j->rows ? cli_rows_close(j->rows) : CLI_YES;
@@ -376,25 +448,21 @@ const cli_command cli_command_integrate = {
     .summary = "integrate functions with known integrals, errors against n",
     .synopsis =
         "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]",
-    .details = "rmse is the root mean square of estimate minus integral over the trials, with its 95 % interval; of "
-               "one set,\n"
-               "and of deterministic patterns, the absolute error. gain is the variance of as many random points "
-               "divided by\n"
-               "the mean squared error: so many times more random points give this error. Three sizes or more give "
-               "the slope\n"
-               "of log rmse against log n with its interval.\n"
-               "\n"
-               "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], a "
-               "function of a\n"
-               "shared library that exports koksma_function_at (koksma/integrate.h). Where its integral is not "
-               "known, rmse is\n"
-               "the standard deviation over the trials.\n"
-               "\n"
-               "--anova prints Sobol' indices, coordinates numbered from 0: share is that of the component of "
-               "exactly these\n"
-               "coordinates, total that of all components with any of them; pairs up to 16 dimensions. Without a "
-               "closed form\n"
-               "they are estimated, with 95 % intervals.\n",
+    .details =
+        "rmse is the root mean square of estimate minus integral over the trials, with its 95 % interval; of\n"
+        "one set, and of deterministic patterns, the absolute error. gain is the variance of as many random\n"
+        "points divided by the mean squared error: so many times more random points give this error. Three\n"
+        "sizes or more give the slope of log rmse against log n with its interval.\n"
+        "\n"
+        "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], a\n"
+        "function of a shared library that exports koksma_function_at (koksma/integrate.h). Where its\n"
+        "integral is not known, rmse is the standard deviation over the trials.\n"
+        "\n"
+        "--anova prints Sobol' indices, coordinates numbered from 0: share is that of the component of\n"
+        "exactly these coordinates, total that of all components with any of them; pairs up to 16 dimensions.\n"
+        "Without a closed form they are estimated, with 95 % intervals. With patterns, too, products of\n"
+        "functions of one coordinate have the errors of their components at the largest n: those of all\n"
+        "components add up to the error, and part is a component's mean square over that of the error.\n",
     .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,halton -n 16,64,256\n"
                 "koksma integrate genz-gaussian:difficulty=3 -d 5 -p halton -n 64,256,1024\n"
                 "koksma integrate asian:path=bridge -d 4 --anova\n"

@@ -171,6 +171,14 @@ KOKSMA_API koksma_status koksma_integral_sensitivity(const koksma_integral *inte
                                                      size_t samples, uint64_t seed, const koksma_run *run,
                                                      koksma_sensitivity *out);
 
+/* Opens the ANOVA component of the coordinates axes[0] .. axes[n_axes - 1] as an integral of its own, 0; allocates out. The
+   errors of all components add up to that of the integrand, so that koksma_integration_errors of them shows which
+   projections of a pattern make it.
+     n_axes  1 to KOKSMA_MAX_ANOVA_AXES different ones, below the axes of the integrand
+   Errors: ARGUMENT (axes), UNSUPPORTED (the integrand is no product of functions of one coordinate), MEMORY. */
+KOKSMA_API koksma_status koksma_integral_component(const koksma_integral *integral, const int *axes, size_t n_axes,
+                                                   koksma_integral **out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -55,9 +55,12 @@ static koksma_status draw(koksma_integral *f)
 
 typedef koksma__factor factor_of(double a, double u, bool cut);
 
-static koksma_status prepare_product(koksma_integral *f, factor_of *factor)
+typedef double factor_at(const koksma_integral *f, int axis, double x);
+
+static koksma_status prepare_product(koksma_integral *f, factor_of *factor, factor_at *at)
 {
     koksma_status status = draw(f);
+    f->factor = at;
     status = status ? status : koksma__integral_factors(f);
     for (int i = 0; !status && i < f->axes; i++) {
         f->factors[i] = factor(f->a[i], f->b[i], i < 2);
@@ -71,7 +74,12 @@ static koksma_status prepare_product(koksma_integral *f, factor_of *factor)
 /* A peak of height top at u with g(0) and g(1) at the ends. */
 static koksma__factor peak(double mean, double square, double top, double at_0, double at_1)
 {
-    return (koksma__factor){mean, square, (top - at_0) + (top - at_1), at_1, fmin(at_0, at_1), top};
+    return (koksma__factor){.mean = mean,
+                            .square = square,
+                            .variation = (top - at_0) + (top - at_1),
+                            .end = at_1,
+                            .lowest = fmin(at_0, at_1),
+                            .highest = top};
 }
 
 /* The integral of 1 / (1 + s^2)^2 from 0 to t. */
@@ -116,32 +124,53 @@ static koksma__factor discontinuous(double a, double u, bool cut)
                             .highest = exp(to)};
 }
 
+static double product_peak_factor(const koksma_integral *f, int axis, double x)
+{
+    const double t = f->a[axis] * (x - f->b[axis]);
+    return f->a[axis] * f->a[axis] / (1 + t * t);
+}
+
+static double gaussian_factor(const koksma_integral *f, int axis, double x)
+{
+    const double t = f->a[axis] * (x - f->b[axis]);
+    return exp(-t * t);
+}
+
+static double continuous_factor(const koksma_integral *f, int axis, double x)
+{
+    return exp(-f->a[axis] * fabs(x - f->b[axis]));
+}
+
+static double discontinuous_factor(const koksma_integral *f, int axis, double x)
+{
+    return axis < 2 && x > f->b[axis] ? 0 : exp(f->a[axis] * x);
+}
+
 static koksma_status prepare_product_peak(koksma_integral *f)
 {
-    return prepare_product(f, product_peak);
+    return prepare_product(f, product_peak, product_peak_factor);
 }
 
 static koksma_status prepare_gaussian(koksma_integral *f)
 {
-    return prepare_product(f, gaussian);
+    return prepare_product(f, gaussian, gaussian_factor);
 }
 
 static koksma_status prepare_continuous(koksma_integral *f)
 {
-    return prepare_product(f, continuous);
+    return prepare_product(f, continuous, continuous_factor);
 }
 
 static koksma_status prepare_discontinuous(koksma_integral *f)
 {
-    return prepare_product(f, discontinuous);
+    return prepare_product(f, discontinuous, discontinuous_factor);
 }
 
 static double product_peak_at(const koksma_integral *f, const double *x)
 {
     double product = 1;
     for (int i = 0; i < f->dim; i++) {
-        const double t = f->a[i] * (x[i] - f->b[i]);
-        product *= f->a[i] * f->a[i] / (1 + t * t);
+        product *= product_peak_factor(f, i, x[i]);
     }
     return product;
 }

@@ -89,6 +89,8 @@ void koksma_integral_close(koksma_integral *integral)
         free((char *)integral->function.name);
         free(integral->factors);
         free(integral->a);
+        free(integral->chosen);
+        koksma_integral_close(integral->whole);
         free(integral);
     }
 }

@@ -13,6 +13,7 @@
    range. */
 typedef struct koksma__factor {
     double mean, square, variation, end, lowest, highest;
+    double (*at)(double x); /* g; NULL: the member's factor() has it */
 } koksma__factor;
 
 struct koksma_integral {
@@ -25,8 +26,12 @@ struct koksma_integral {
     double (*explained)(const koksma_integral *f, const bool *held);
     /* offset + scale * the product of the factors' functions, one factor for each axis */
     double offset, scale;
-    koksma__factor *factors; /* NULL: it is no product */
-    double *a, *b;           /* two numbers for each axis, of the member */
+    koksma__factor *factors;                                        /* NULL: it is no product */
+    double (*factor)(const koksma_integral *f, int axis, double x); /* g of an axis; NULL: factors[axis].at has it */
+    double *a, *b;                                                  /* two numbers for each axis, of the member */
+    /* Of an ANOVA component: the product, and whether each axis is in it (component.c). */
+    koksma_integral *whole;
+    bool *chosen;
 };
 
 #endif

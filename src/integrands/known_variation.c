@@ -104,23 +104,74 @@ static double turned_checkerboard(const koksma_integral *f, const double *x)
     return (int)(floor(4 * (x[0] + x[1])) + floor(4 * (x[0] - x[1])) + 8) % 2;
 }
 
-MEMBER(x, "x", "x", 1, linear, KOKSMA__ROWS({1.0 / 2, 1.0 / 3, 1, 1, 0, 1}));
-MEMBER(x2, "x2", "x^2", 1, square, KOKSMA__ROWS({1.0 / 3, 1.0 / 5, 1, 1, 0, 1}));
-MEMBER(wave, "wave", "sin 2 pi x", 1, wave, KOKSMA__ROWS({0, 1.0 / 2, 4, 0, -1, 1}));
-MEMBER(step, "step", "1 for x < 1/3, else 0", 1, below_third, KOKSMA__ROWS({1.0 / 3, 1.0 / 3, 1, 0, 0, 1}));
+/* The factors of the products: (x, y) -> g(x) h(y). */
+static double identity(double x)
+{
+    return x;
+}
+
+static double squared(double x)
+{
+    return x * x;
+}
+
+static double sine(double x)
+{
+    return sin(2 * M_PI * x);
+}
+
+static double third(double x)
+{
+    return x < 1.0 / 3 ? 1 : 0;
+}
+
+static double less_half(double x)
+{
+    return x - 0.5;
+}
+
+static double below_6(double x)
+{
+    return x < 0.6 ? 1 : 0;
+}
+
+static double below_7(double x)
+{
+    return x < 0.7 ? 1 : 0;
+}
+
+static double from_2_to_7(double x)
+{
+    return x >= 0.2 && x < 0.7 ? 1 : 0;
+}
+
+static double from_3_to_9(double x)
+{
+    return x >= 0.3 && x < 0.9 ? 1 : 0;
+}
+
+static double sign_of_cell(double x)
+{
+    return cell(x) % 2 ? -1 : 1;
+}
+
+MEMBER(x, "x", "x", 1, linear, KOKSMA__ROWS({1.0 / 2, 1.0 / 3, 1, 1, 0, 1, identity}));
+MEMBER(x2, "x2", "x^2", 1, square, KOKSMA__ROWS({1.0 / 3, 1.0 / 5, 1, 1, 0, 1, squared}));
+MEMBER(wave, "wave", "sin 2 pi x", 1, wave, KOKSMA__ROWS({0, 1.0 / 2, 4, 0, -1, 1, sine}));
+MEMBER(step, "step", "1 for x < 1/3, else 0", 1, below_third, KOKSMA__ROWS({1.0 / 3, 1.0 / 3, 1, 0, 0, 1, third}));
 MEMBER(saddle, "saddle", "(x - 1/2)(y - 1/2)", 2, saddle,
-       KOKSMA__ROWS({0, 1.0 / 12, 1, 0.5, -0.5, 0.5}, {0, 1.0 / 12, 1, 0.5, -0.5, 0.5}));
+       KOKSMA__ROWS({0, 1.0 / 12, 1, 0.5, -0.5, 0.5, less_half}, {0, 1.0 / 12, 1, 0.5, -0.5, 0.5, less_half}));
 #define EXP                                                                                                          \
     {                                                                                                                \
-        M_E - 1, (M_E * M_E - 1) / 2, M_E - 1, M_E, 1, M_E                                                           \
+        M_E - 1, (M_E * M_E - 1) / 2, M_E - 1, M_E, 1, M_E, exp                                                      \
     }
 MEMBER(exp, "exp", "exp(x + y)", 2, exponential, KOKSMA__ROWS(EXP, EXP));
 MEMBER(corner, "corner", "1 in the box [0, .6) x [0, .7)", 2, corner_box,
-       KOKSMA__ROWS({0.6, 0.6, 1, 0, 0, 1}, {0.7, 0.7, 1, 0, 0, 1}));
+       KOKSMA__ROWS({0.6, 0.6, 1, 0, 0, 1, below_6}, {0.7, 0.7, 1, 0, 0, 1, below_7}));
 MEMBER(box, "box", "1 in the box [.2, .7) x [.3, .9)", 2, inner_box,
-       KOKSMA__ROWS({0.5, 0.5, 2, 0, 0, 1}, {0.6, 0.6, 2, 0, 0, 1}));
+       KOKSMA__ROWS({0.5, 0.5, 2, 0, 0, 1, from_2_to_7}, {0.6, 0.6, 2, 0, 0, 1, from_3_to_9}));
 MEMBER(checker, "checker", "a checkerboard of 8 x 8 squares", 2, checkerboard, .prepare = prepare_checkerboard,
-       .constants = (const koksma__factor[]){{0, 1, 14, 1, -1, 1}, {0, 1, 14, 1, -1, 1}});
+       .constants = (const koksma__factor[]){{0, 1, 14, 1, -1, 1, sign_of_cell}, {0, 1, 14, 1, -1, 1, sign_of_cell}});
 MEMBER(edge, "edge", "1 below the line y = .2 + x/2", 2, slanted_edge,
        KOKSMA__PLANE(0.45, 0.45, 0.04 + 0.1 + 0.25 / 3, 0.2 + 0.5 / 3));
 MEMBER(disk, "disk", "1 in the disk of radius .4", 2, disk,

@@ -36,6 +36,21 @@ static double quarter_gaussian(const koksma_integral *f, const double *x)
     return exp(-(x[0] * x[0] + x[1] * x[1]));
 }
 
+static double gaussian(double x)
+{
+    return exp(-x * x);
+}
+
+static double identity(double x)
+{
+    return x;
+}
+
+static double below(double x)
+{
+    return x < M_1_PI ? 1 : 0;
+}
+
 /* exp(-x^2): its mean is sqrt(pi) erf(1) / 2, that of its square sqrt(pi / 2) erf(sqrt 2) / 2. */
 static koksma_status prepare_gaussian(koksma_integral *f)
 {
@@ -46,7 +61,8 @@ static koksma_status prepare_gaussian(koksma_integral *f)
                                          .variation = 1 - 1 / M_E,
                                          .end = 1 / M_E,
                                          .lowest = 1 / M_E,
-                                         .highest = 1};
+                                         .highest = 1,
+                                         .at = gaussian};
     }
     if (!status) {
         koksma__integral_of_product(f);
@@ -66,7 +82,7 @@ static double bilinear(const koksma_integral *f, const double *x)
 MEMBER(quarter_disk, "quarter-disk", "1 for x^2 + y^2 < 2/pi, else 0", 2, quarter_disk,
        KOKSMA__PLANE(0.5, 0.5, R_CUBED * 2 / 3, R_CUBED * 2 / 3));
 MEMBER(triangle, "triangle", "1 for y > x, else 0", 2, triangle, KOKSMA__PLANE(0.5, 0.5, 1.0 / 3, 1.0 / 3));
-MEMBER(step_pi, "step-pi", "1 for x < 1/pi, else 0", 1, step_pi, KOKSMA__ROWS({M_1_PI, M_1_PI, 1, 0, 0, 1}));
+MEMBER(step_pi, "step-pi", "1 for x < 1/pi, else 0", 1, step_pi, KOKSMA__ROWS({M_1_PI, M_1_PI, 1, 0, 0, 1, below}));
 MEMBER(quarter_gaussian, "quarter-gaussian", "exp(-x^2 - y^2)", 2, quarter_gaussian, .prepare = prepare_gaussian);
 MEMBER(bilinear, "bilinear", "x y", 2, bilinear,
-       KOKSMA__ROWS({1.0 / 2, 1.0 / 3, 1, 1, 0, 1}, {1.0 / 2, 1.0 / 3, 1, 1, 0, 1}));
+       KOKSMA__ROWS({1.0 / 2, 1.0 / 3, 1, 1, 0, 1, identity}, {1.0 / 2, 1.0 / 3, 1, 1, 0, 1, identity}));

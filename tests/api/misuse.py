@@ -98,7 +98,7 @@ VALID = {
     "koksma_integration_options *": "integration_options()", "koksma_integration *": "a_buffer(sizeof(koksma_integration))",
     "koksma_sensitivity *": "a_buffer(sizeof(koksma_sensitivity))", "const int *": "two_axes()",
     "koksma_integrand_find.name": "\"disk\"", "koksma_integral_open.text": "\"disk\"", "koksma_integral_open.dim": "2",
-    "koksma_integral_of_function.dim": "2", "koksma_integral_sensitivity.n_axes": "2", "koksma_integral_sensitivity.samples": "16",
+    "koksma_integral_of_function.dim": "2", "koksma_integral_sensitivity.n_axes": "2", "koksma_integral_component.n_axes": "2", "koksma_integral_sensitivity.samples": "16",
     "koksma_integration_errors.pattern": "a_pattern(\"gaussian-jittered:sigma=0.2\")",
     "koksma_audit_options *": "audit_options()", "koksma_audit *": "a_buffer(sizeof(koksma_audit))",
     "koksma_rank_picture *": "a_rank_picture()",

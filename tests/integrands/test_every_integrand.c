@@ -2,7 +2,7 @@
 /*
  * Walks the table of integrands, with each choice of a parameter and some of its numbers, in 1 to 3 dimensions: values
  * against the definitions below, integral, variance and Sobol' indices against sums over fine grids, estimated indices
- * against exact ones, threads, and what a pattern's errors must be.
+ * against exact ones, and components that add up.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -337,6 +337,52 @@ static void components_add_up(void **state)
     walk(look_at_components);
 }
 
+/* At every point the components add up to the function less its integral, and their variances to its variance. */
+static void look_at_component_values(const char *spec, koksma_integral *f)
+{
+    const koksma_points points = test_points("random", 40, f->dim, 3);
+    double added[40] = {0}, values[40], variance = 0;
+    koksma_integral *component;
+    for (unsigned bits = 1; bits < 1u << f->axes; bits++) {
+        int some[3];
+        size_t n = 0;
+        for (int k = 0; k < f->axes; k++) {
+            if (bits >> k & 1) {
+                some[n++] = k;
+            }
+        }
+        const koksma_status status = koksma_integral_component(f, some, n, &component);
+        if (!f->factors) {
+            assert_int_equal(status, KOKSMA_UNSUPPORTED);
+            koksma_points_fini((koksma_points *)&points);
+            return;
+        }
+        assert_ok(status);
+        assert_ok(koksma_integral_values(component, &points, NULL, values));
+        for (size_t i = 0; i < points.n; i++) {
+            added[i] += values[i];
+        }
+        assert_true(component->value == 0 && component->variance >= 0);
+        variance += component->variance;
+        koksma_integral_close(component);
+    }
+    assert_ok(koksma_integral_values(f, &points, NULL, values));
+    for (size_t i = 0; i < points.n; i++) {
+        if (!(fabs(added[i] - (values[i] - f->value)) <= 1e-12 * (1 + fabs(values[i])))) {
+            fail_msg("%s in %d dimensions: components add up to %.17g, not %.17g", spec, f->dim, added[i],
+                     values[i] - f->value);
+        }
+    }
+    assert_near(variance / f->variance, 1, 1e-9);
+    koksma_points_fini((koksma_points *)&points);
+}
+
+static void components_of_products_add_up(void **state)
+{
+    (void)state;
+    walk(look_at_component_values);
+}
+
 /* Of estimates' 95 % intervals about a twentieth miss. */
 static size_t n_shares, n_missed;
 
@@ -442,113 +488,6 @@ static void paths_of_asian_options_agree(void **state)
     }
 }
 
-/* ---- Errors over trials ------------------------------------------------------------------------------------------ */
-
-/* Random points: E of the squared error is variance / n, the slope -1/2. */
-static void random_points_have_gain_one(void **state)
-{
-    (void)state;
-    koksma_integral *f;
-    koksma_spec pattern;
-    koksma_integration one, three;
-    const koksma_integration_options options = {.sizes = {16, 64, 256, 1024}, .n_sizes = 4, .seed = 9, .trials = 400};
-    assert_ok(koksma_integral_open("quarter-gaussian", 2, &f));
-    assert_ok(koksma_pattern_spec("random", &pattern));
-    const koksma_run threads[] = {{.threads = 1}, {.threads = 3}};
-    assert_ok(koksma_integration_errors(f, &pattern, &options, &threads[0], &one));
-    assert_ok(koksma_integration_errors(f, &pattern, &options, &threads[1], &three));
-    assert_memory_equal(one.rows, three.rows, 4 * sizeof *one.rows);
-    assert_memory_equal(&one.slope, &three.slope, sizeof one.slope);
-    for (int i = 0; i < 4; i++) {
-        assert_near(one.rows[i].gain, 1, 0.3);
-        assert_true(one.rows[i].low < sqrt(f->variance / (double)one.rows[i].n) * 1.1);
-        assert_true(one.rows[i].low < one.rows[i].rmse && one.rows[i].rmse < one.rows[i].high);
-    }
-    assert_true(one.slope.low < -0.5 && one.slope.high > -0.5 && one.slope.high - one.slope.low < 0.1);
-    koksma_integral_close(f);
-}
-
-/* Rows of estimates that are made up: mean, deviation and RMSE by hand; an unknown integral; rounding. */
-static void summaries_are_those_of_the_estimates(void **state)
-{
-    (void)state;
-    koksma_integration out;
-    const koksma_integration_options options = {.sizes = {10, 100, 1000}, .n_sizes = 3, .trials = 2};
-    const double estimates[] = {1.3, 0.99, 1.001, 0.9, 1.01, 0.999};
-    assert_ok(koksma_integration_summary(1, 2, &options, estimates, &out));
-    assert_near(out.rows[0].rmse, sqrt((0.09 + 0.01) / 2), 1e-14);
-    assert_near(out.rows[0].mean, 1.1, 1e-14);
-    assert_near(out.rows[0].sd, 0.2 * sqrt(2), 1e-14);
-    assert_near(out.rows[0].gain, 2.0 / 10 / 0.05, 1e-11);
-    assert_near(out.rows[1].rmse, 0.01, 1e-14);
-    assert_near(out.slope.value, log(0.001 / sqrt(0.05)) / log(100), 1e-12); /* the middle has no weight */
-    assert_ok(koksma_integration_summary(NAN, NAN, &options, estimates, &out));
-    assert_near(out.rows[0].rmse, out.rows[0].sd, 1e-14);
-    assert_true(isnan(out.rows[0].gain));
-    const double rounding[] = {1.3, 1.01, 1 + 1e-15, 0.9, 0.99, 1 - 1e-15};
-    assert_ok(koksma_integration_summary(1, 2, &options, rounding, &out));
-    assert_int_equal(out.slope.count, 0);
-    assert_true(isnan(out.slope.value));
-}
-
-/* ---- Functions of a caller, and what is refused ------------------------------------------------------------------ */
-
-static double corner(const double *x, int dim, void *context)
-{
-    return x[0] * x[dim - 1] * *(const double *)context;
-}
-
-static void functions_of_a_caller(void **state)
-{
-    (void)state;
-    double factor = 4, mean, expected;
-    koksma_integral *f, *g;
-    koksma_integral_facts facts;
-    const koksma_function function = {"mine", 2, 2, corner, &factor, NAN}, nameless = {"", 1, 1, corner, NULL, 0};
-    assert_ok(koksma_integral_of_function(&function, 2, &f));
-    koksma_integral_about(f, &facts);
-    assert_string_equal(facts.text, "mine");
-    assert_true(isnan(facts.value) && facts.axes == 2);
-    koksma_points points = test_points("sobol", 4096, 2, 0);
-    assert_ok(koksma_integral_open("bilinear", 2, &g));
-    assert_ok(koksma_integrate(f, &points, NULL, &mean));
-    assert_ok(koksma_integrate(g, &points, NULL, &expected));
-    assert_near(mean, 4 * expected, 1e-13);
-    koksma_sensitivity mine, exact;
-    assert_ok(koksma_integral_sensitivity(f, (int[]){1}, 1, 0, 0, NULL, &mine));
-    assert_ok(koksma_integral_sensitivity(g, (int[]){1}, 1, 0, 0, NULL, &exact));
-    assert_near(mine.total.value, exact.total.value, 5e-3);
-    assert_false(mine.exact);
-    koksma_points_fini(&points);
-    koksma_integral_close(f);
-    koksma_integral_close(g);
-    assert_int_equal(koksma_integral_of_function(&function, 3, &f), KOKSMA_DIM);
-    assert_int_equal(koksma_integral_of_function(&nameless, 1, &f), KOKSMA_ARGUMENT);
-}
-
-static void wrong_arguments_are_refused(void **state)
-{
-    (void)state;
-    koksma_integral *f;
-    koksma_sensitivity s;
-    double mean;
-    assert_int_equal(koksma_integral_open("dsik", 2, &f), KOKSMA_UNKNOWN);
-    assert_non_null(strstr(koksma_error_text(), "did you mean 'disk'"));
-    assert_int_equal(koksma_integral_open("disk", 1, &f), KOKSMA_DIM);
-    assert_non_null(strstr(koksma_error_text(), "2 to 4096"));
-    assert_int_equal(koksma_integral_open("bernoulli:r=9", 1, &f), KOKSMA_ARGUMENT);
-    assert_int_equal(koksma_integral_open("bernoulli:s=2", 1, &f), KOKSMA_ARGUMENT);
-    assert_null(f);
-    assert_ok(koksma_integral_open("disk", 3, &f));
-    koksma_points points = test_points("random", 4, 2, 0);
-    assert_int_equal(koksma_integrate(f, &points, NULL, &mean), KOKSMA_DIM);
-    koksma_points_fini(&points);
-    assert_int_equal(koksma_integral_sensitivity(f, (int[]){0, 0}, 2, 0, 0, NULL, &s), KOKSMA_ARGUMENT);
-    assert_int_equal(koksma_integral_sensitivity(f, (int[]){3}, 1, 0, 0, NULL, &s), KOKSMA_ARGUMENT);
-    koksma_integral_close(f);
-    koksma_integral_close(NULL);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -556,14 +495,11 @@ int main(void)
         cmocka_unit_test(genz_parameters_are_scaled),
         cmocka_unit_test(integrals_variances_and_shares_hold),
         cmocka_unit_test(components_add_up),
+        cmocka_unit_test(components_of_products_add_up),
         cmocka_unit_test(estimated_shares_hold_the_exact_ones),
         cmocka_unit_test(known_numbers),
         cmocka_unit_test(many_dimensions_hold),
         cmocka_unit_test(paths_of_asian_options_agree),
-        cmocka_unit_test(random_points_have_gain_one),
-        cmocka_unit_test(summaries_are_those_of_the_estimates),
-        cmocka_unit_test(functions_of_a_caller),
-        cmocka_unit_test(wrong_arguments_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
