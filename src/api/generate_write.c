@@ -53,6 +53,9 @@ koksma_status koksma_generate_write(const koksma_spec *spec, uint64_t seed, uint
                     KOKSMA_MAX_DIM);
     KOKSMA__FAIL_IF(!spec->pattern || n == 0, KOKSMA_ARGUMENT, "%s: it takes the spec of a pattern, and n from 1",
                     __func__);
+    KOKSMA__FAIL_IF(n > KOKSMA_MAX_INDEX + 1 || first > KOKSMA_MAX_INDEX + 1 - n, KOKSMA_N,
+                    "%s: n = %llu from first = %llu: no point has a number above %llu", spec->pattern->name,
+                    (unsigned long long)n, (unsigned long long)first, (unsigned long long)KOKSMA_MAX_INDEX);
     KOKSMA__FAIL_IF(first && !(j.ranges && spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE), KOKSMA_UNSUPPORTED,
                     "%s: first = %llu is for sequences that have ranges, such as sobol, halton and r-sequence",
                     spec->pattern->name, (unsigned long long)first);
