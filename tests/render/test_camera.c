@@ -40,8 +40,9 @@ static void lens_blurs_to_a_disk(void **state)
                 }
             }
         }
-        /* All of its light, as through a pinhole: the lamp is 0.05 x 8 pixels in radius. */
-        assert_near(total / (100 * M_PI * pow(0.05 * 8, 2)), 1, 0.05);
+        /* All of its light, as through a pinhole: the lamp is 0.05 x 8 pixels in radius. 24 seeds have a deviation of
+           0.02, that of 2059 hits. */
+        assert_near(total / (100 * M_PI * pow(0.05 * 8, 2)), 1, 5 * 0.022);
         assert_true(inside > 0.2 * total);
         koksma_image_fini(&image);
         koksma_scene_close(scene);
