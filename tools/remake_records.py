@@ -3,7 +3,7 @@
 """Writes src/patterns/shared/records_made.inc: remake_records.py PROGRAM FOLDER
 
 FOLDER has sets that `koksma optimise MEASURE -n N --seed S --steps K -o FOLDER/ANY.txt` wrote, of measures with a pair kernel or of
-star in 3 dimensions. Of each measure, dim and n the best is kept, with the command that makes it. Coordinates are rounded to multiples of 10^-12, and the
+star in 3 dimensions. Of each measure, dim and n the best is kept, with the command that made it. Coordinates are rounded to multiples of 10^-12, and the
 values are those that PROGRAM measures of the rounded sets. A set that is there already stays if it is not worse.
 """
 import glob
@@ -56,7 +56,7 @@ def main():
     with open(OUT, "w", encoding="utf-8") as out:
         out.write("""/* SPDX-License-Identifier: Apache-2.0 */
 /* Made by tools/remake_records.py. A line RECORD(measure, dim, n, value, published, source) for each set, in order of
-   measure, dim and n, with the command that makes it; 0: no published value was at hand. Then the coordinates of all sets, in
+   measure, dim and n, with the command that made it; 0: no published value was at hand. Then the coordinates of all sets, in
    that order, point by point, in units of 10^-12. */
 #ifdef RECORD
 """)

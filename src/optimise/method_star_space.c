@@ -38,7 +38,7 @@ typedef struct job {
     size_t n, stride; /* of rows of counts */
     double target;
     uint32_t *order, *found; /* order: of each axis, then ranks by each axis */
-    double *x;               /* coordinates in order of each axis, then 1 */
+    double *low, *x;         /* coordinates in order of each axis, then 1 */
     float *z;                /* those of the third axis, then 0 */
     int16_t *open, *closed;  /* points before x_i, and up to it, with ranks below (j, k) */
     corner *corners, *kept;  /* kept: those of the walk's set */
@@ -49,13 +49,14 @@ typedef struct job {
 static koksma_status job_init(job *j, size_t n)
 {
     const size_t stride = (n + 1 + LANES - 1) / LANES * LANES + LANES, matrix = (n + 2) * stride;
-    const size_t bytes = 3 * (n + 1) * sizeof(double) + 2 * CAPACITY * sizeof(corner) + stride * sizeof(float) +
+    const size_t bytes = 3 * (2 * n + 1) * sizeof(double) + 2 * CAPACITY * sizeof(corner) + stride * sizeof(float) +
                          (6 * n + stride + 1) * sizeof(uint32_t) + 2 * matrix * sizeof(int16_t);
     *j = (job){.n = n, .stride = stride, .memory = calloc(1, bytes)};
     if (!j->memory) {
         return koksma__fail_memory(bytes);
     }
-    j->x = j->memory;
+    j->low = j->memory;
+    j->x = j->low + 3 * n;
     j->z = (float *)(j->x + 3 * (n + 1));
     j->order = (uint32_t *)(j->z + stride);
     j->found = j->order + 6 * n;
@@ -253,26 +254,45 @@ static koksma_status start(job *j, koksma__descent *d, const koksma_points *poin
     return status;
 }
 
-/* Descends at targets below the value; `lowest` and best have what was least. Ends early where that stays above cut. */
+/* A descent in which no coordinate moves by more than the target is below the value: corners that are not listed, which are
+   twice as far below it, rise above the target only if all three of their coordinates do so and more. */
+static koksma_status descend_near(job *j, koksma__descent *d, double value)
+{
+    const double length = d->length, reach = fmin(value - j->target, length / 2);
+    for (size_t c = 0; c < d->count; c++) {
+        j->low[c] = d->low[c];
+        d->low[c] = fmin(fmax(d->points.xs[c] - reach, d->low[c]), d->low[c] + length - 2 * reach);
+    }
+    d->length = 2 * reach;
+    double left;
+    const koksma_status status = koksma__descend(d, ITERATIONS, &left);
+    memcpy(d->low, j->low, d->count * sizeof(double));
+    d->length = length;
+    return status;
+}
+
+/* Descends at targets below the value, from far below it (cut is infinite: a start) or from a little (after a kick), as long as
+   that helps; `lowest` and best have what was least. Ends early where that stays above cut. */
 static koksma_status follow(job *j, koksma__descent *d, double cut, double *best, double *lowest)
 {
-    static const double shares[] = {0.95, 0.98, 0.99, 0.995, 0.998};
-    enum { SHARES = sizeof shares / sizeof *shares };
+    static const double shares[] = {0.7, 0.85, 0.95, 0.98, 0.99, 0.995, 0.998};
+    const size_t n_shares = sizeof shares / sizeof *shares, first = cut < HUGE_VAL ? 2 : 0;
     double value;
-    koksma_status status = list(j, d, fmin(*lowest, cut) * 0.9, &value);
+    koksma_status status = list(j, d, fmin(*lowest, cut) * (2 * shares[first] - 1), &value);
     *lowest = value;
     memcpy(best, d->points.xs, d->count * sizeof(double));
-    for (int failures = 0;
-         !status && failures < SHARES && (failures < 2 || *lowest <= cut * 1.002) && d->work < d->budget;) {
-        double left;
-        j->target = fmin(*lowest, cut) * shares[failures];
-        status = koksma__descend(d, ITERATIONS, &left);
-        status = status ? status : list(j, d, fmin(*lowest, cut) * (2 * shares[failures] - 1), &value);
-        const bool falls = !status && value < *lowest * (1 - 1e-4);
-        failures = !falls ? failures + 1 : failures > 1 ? failures - 1 : 0;
+    for (size_t k = first;
+         !status && k < n_shares && (k < first + 2 || *lowest <= cut * 1.002) && d->work < d->budget;) {
+        j->target = fmin(*lowest, cut) * shares[k];
+        status = descend_near(j, d, fmin(*lowest, cut));
+        status = status ? status : list(j, d, fmin(*lowest, cut) * (2 * shares[k] - 1), &value);
+        k = value >= *lowest * (1 - 1e-4) ? k + 1 : k > first + 1 ? k - 1 : first;
         if (!status && value < *lowest) {
             *lowest = value;
             memcpy(best, d->points.xs, d->count * sizeof(double));
+        } else if (!status && value > 1.05 * *lowest && k < n_shares) {
+            memcpy(d->points.xs, best, d->count * sizeof(double));
+            status = list(j, d, fmin(*lowest, cut) * (2 * shares[k] - 1), &value);
         }
     }
     return status;
