@@ -4,7 +4,7 @@
 
 #include "cli.h"
 
-/* Whether a bound stands where an exact value was to be. */
+/* Whether the result is a bound where an exact value was asked for. */
 bool cli_is_cut_short(const koksma_spec *measure, const koksma_value *value);
 
 /* A line on stderr that says of how many values of `what` it is so; none of 0, and with --quiet. */

@@ -20,7 +20,7 @@
 /* A plan to begin with. `comment` is allowed in every object and means nothing. */
 static const char example[] =
     "{\n"
-    "  \"comment\": \"A plan of koksma study; 'comment' may stand in every object. studies/README.md has all "
+    "  \"comment\": \"A plan of koksma study; every object may have a 'comment'. studies/README.md has all "
     "fields.\",\n"
     "  \"name\": \"%s\",\n"
     "  \"title\": \"Which pattern for 16 samples a pixel?\",\n"

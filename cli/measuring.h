@@ -9,7 +9,7 @@
 
 enum { MAX_MEASURES = 64, MAX_PREFIXES = KOKSMA_MAX_SIZES, MAX_WARPS = 16, MAX_PAIRED_TRIALS = 1000000 };
 
-/* What `measure` is told, and where it is. */
+/* The options of `measure`, and its progress. */
 typedef struct measuring {
     const cli_arguments *arguments;
     koksma_spec measures[MAX_MEASURES];

@@ -89,7 +89,7 @@ export class SetView {
     for (const node of this.takeaways) node.disabled = !this.current;
   }
 
-  // What the program has to be told; file: what has to be saved before, or "".
+  // The command lines; file: the file of points that has to be saved before, or "".
   showCommands(text, file) {
     this.linesTitle.textContent = `The same from the program${file ? `, where the points are saved as ${file}` : ""}`;
     this.lines.textContent = text;

@@ -16,7 +16,7 @@ static double mean_of(const koksma__rho_sums *of)
     return of->total / (double)of->all;
 }
 
-/* "a", "a and b", "a, b and c": what stands before item i of n. */
+/* "a", "a and b", "a, b and c": the text before item i of n. */
 static const char *between(size_t i, size_t n)
 {
     return i == 0 ? "" : i + 1 < n ? ", " : " and ";

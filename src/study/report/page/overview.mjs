@@ -34,7 +34,7 @@ function verdict(answers) {
     if (mine.length > mostAnswers) list.append(element("dd", {}, element("a", { href: `#${question.anchor}` }, `${mine.length - mostAnswers} more`)));
   }
   const decided = answers.filter(a => a.block.answer === "decided").length;
-  const sure = `The data decide ${decided} of ${answers.length} answers; intervals, and what is told apart, are at 95 %.`;
+  const sure = `The data decide ${decided} of ${answers.length} answers. Intervals and decisions have 95 % confidence.`;
   return element("section", { id: "verdict", "aria-label": "What came out" }, element("h2", {}, "What came out"), list, element("p", {}, sure));
 }
 

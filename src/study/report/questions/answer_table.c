@@ -93,7 +93,7 @@ static double half_of(const koksma__summary *a, const koksma__summary *b, size_t
                     : half;
 }
 
-/* Whether place i of the order is not told apart from the first. */
+/* Whether the interval of the difference between pattern i of the order and the first contains 0. */
 static bool is_tied(const standing *s, size_t i)
 {
     const koksma__summary *first = &s->means[s->by[0]], *other = &s->means[s->by[i]];
