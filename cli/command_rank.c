@@ -256,14 +256,7 @@ static int run(const cli_arguments *arguments)
     if (!cli_real(arguments, "time-limit", 60, 0.1, 1e9, &time_limit_s) ||
         !cli_integrator_and_filter(arguments, &integrator, &filter) || !cli_size(arguments, &width, &height) ||
         !cli_whole(arguments, "max-trials", 4096, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
-        !cli_metrics_parse(arguments, &metric)) {
-        return CLI_USAGE;
-    }
-    if (metric.n > 1) {
-        return cli_usage_error(arguments, "--metric: one metric ranks; 'koksma compare -m' prints several");
-    }
-    metric.specs[0].metric = metric.n ? metric.specs[0].metric : koksma_metric_find("mae");
-    if (!cli_work_begin(arguments, "ranking", &work)) {
+        !cli_one_metric(arguments, &metric) || !cli_work_begin(arguments, "ranking", &work)) {
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));

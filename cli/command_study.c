@@ -15,6 +15,7 @@
 #include <koksma/study.h>
 
 #include "cli.h"
+#include "metric_option.h"
 #include "study_quick.h"
 
 /* A plan to begin with. `comment` is allowed in every object and means nothing. */
@@ -384,8 +385,10 @@ static int audit(const cli_arguments *arguments)
 
 /* ---- images -------------------------------------------------------------------------------------------- */
 
-static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t n)
+static void put_image_rows(cli_rows *out, const koksma_metric_spec *metric, const koksma_images_row *rows, size_t n)
 {
+    char name[KOKSMA_MAX_SPEC];
+    koksma_metric_text(metric, name);
     for (size_t i = 0; i < n; i++) {
         cli_row_text(out, "images", rows[i].group[0] ? rows[i].group : "-");
         cli_row_whole(out, "spp", (uint64_t)rows[i].spp);
@@ -400,6 +403,9 @@ static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t 
         cli_row_number(out, "sd", rows[i].sd);
         cli_row_number(out, "max", rows[i].max);
         cli_row_number(out, "rmse", rows[i].rmse);
+        cli_row_text(out, "metric", name);
+        cli_row_number(out, "robust", rows[i].robust);
+        cli_row_number(out, "top_share", rows[i].top_share);
         cli_row_number(out, "slope", rows[i].slope);
         cli_row_number(out, "slope_low", rows[i].slope_low);
         cli_row_number(out, "slope_high", rows[i].slope_high);
@@ -407,6 +413,8 @@ static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t 
         cli_row_number(out, "noise_high", rows[i].coherence.noise_high);
         cli_row_flag(out, "coherent", rows[i].coherence.coherent);
         cli_row_end(out);
+        cli_warn_of_few_pixels("study", rows[i].group[0] ? rows[i].group : "images", name,
+                               &(koksma_metric_value){.robust = rows[i].robust, .top_share = rows[i].top_share});
     }
 }
 
@@ -420,10 +428,11 @@ static int images(const cli_arguments *arguments)
         return cli_usage_error(arguments, "images takes a path with places and a reference, as in "
                                           "images 'out_{spp}_{trial}.exr' --reference ref.exr");
     }
-    if (!cli_work_begin(arguments, "comparing", &work)) {
+    cli_metrics metric = {.n = 0};
+    if (!cli_one_metric(arguments, &metric) || !cli_work_begin(arguments, "comparing", &work)) {
         return CLI_USAGE;
     }
-    const koksma_status status = koksma_study_images(arguments->operands[1], reference,
+    const koksma_status status = koksma_study_images(arguments->operands[1], reference, metric.specs,
                                                      cli_text(arguments, "output", NULL), &work.run, &rows, &n);
     cli_work_end();
     if (status) {
@@ -434,7 +443,7 @@ static int images(const cli_arguments *arguments)
                 arguments->operands[1]);
     }
     cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
-    put_image_rows(out, rows, n);
+    put_image_rows(out, metric.specs, rows, n);
     free(rows);
     return cli_rows_close(out);
 }
@@ -471,7 +480,7 @@ static int run(const cli_arguments *arguments)
         {"export", export_rows, " output format "},
         {"report", report, " "},
         {"audit", audit, " rows seed json digits long "},
-        {"images", images, " output reference json digits long "}};
+        {"images", images, " output reference metric json digits long "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
@@ -495,6 +504,7 @@ static const cli_option options[] = {
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: of the draw (default: 1)"},
     {0, "reference", "FILE", "images: the reference image"},
+    {0, "metric", "METRIC", "images: of the error: mae (default), relmse, hdr-flip, ..."},
     {0, "format", "csv|json|npy|sha256", "export (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,

@@ -44,6 +44,17 @@ bool cli_metrics_parse(const cli_arguments *arguments, cli_metrics *metrics)
     return good;
 }
 
+bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics)
+{
+    const bool good = cli_metrics_parse(arguments, metrics);
+    if (metrics->n > 1) {
+        cli_usage_error(arguments, "--metric: one metric ranks; 'koksma compare -m' prints several");
+    } else if (good && !metrics->n) {
+        metrics->specs[metrics->n++].metric = koksma_metric_find("mae");
+    }
+    return good && metrics->n == 1;
+}
+
 void cli_warn_of_few_pixels(const char *command, const char *subject, const char *metric,
                             const koksma_metric_value *value)
 {

@@ -17,6 +17,9 @@ typedef struct cli_metrics {
 /* Adds the metrics of --metric, each once: METRIC,.. or all; without the option nothing. false after a message. */
 bool cli_metrics_parse(const cli_arguments *arguments, cli_metrics *metrics);
 
+/* The one metric of --metric, or mae. false after a message. */
+bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics);
+
 /* Warns when few pixels carry most of the error; subject: of what, such as the pattern. */
 void cli_warn_of_few_pixels(const char *command, const char *subject, const char *metric,
                             const koksma_metric_value *value);

@@ -5,8 +5,8 @@ as Markdown: Mitsuba's Cornell box with its own samplers and six of our patterns
 
 Run it in the environment that scripts/try_mitsuba makes (PYTHONPATH=python, DRJIT_LIBLLVM_PATH). In the second table a sampler
 has the samples that fit into the time of `independent`, at least one. The time is processor time of all threads, which other
-programs on the machine change little, the least of several pictures of 256 x 256 pixels: what Dr.Jit takes to trace a sampler
-in Python before any sample is made, some 0.1 s, is small there, and is not in pictures of 64 x 64.
+programs on the machine change little, the least of several pictures of 256 x 256 pixels. In each some 0.25 s are Dr.Jit's
+tracing of a sampler in Python; in pictures of 64 x 64 they would be most of the time.
 """
 import argparse
 import time
@@ -31,7 +31,7 @@ def show(ranking, names, notes):
         low, high = (f"{1000 * x:.3f}" for x in row.interval)
         behind = "" if not row.behind else percent(row.behind)
         between = "" if not row.behind else " to ".join(map(percent, row.behind_interval))
-        print(f"| {row.position or row.reason} | `{names[row.pattern]}` | {1000 * row.error:.3f} | {low} to {high} | {behind} | "
+        print(f"| {row.position or '-'} | `{names[row.pattern]}` | {1000 * row.error:.3f} | {low} to {high} | {behind} | "
               f"{between} | {row.trials} | {notes[1][row.pattern]} |")
     print(f"\n{ranking.seconds:.0f} s. Best: {f'`{names[ranking.best]}`' if ranking.best else 'undecided'}; error is {ranking.metric}, {ranking.size[0]} x {ranking.size[1]} "
           f"pixels; the reference's own error is {1000 * ranking.reference_error:.3f}.\n")

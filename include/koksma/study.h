@@ -199,9 +199,9 @@ typedef struct koksma_images_row {
     char group[KOKSMA_IMAGES_GROUP]; /* the other names in {} with their texts: "pattern=halton scene=ball" */
     long long spp;                   /* number at {spp}; 0 without it */
     size_t trials;
-    double mean, low,
-        high;             /* mean over the trials of the mean absolute error, and its 95 % interval (NaN with one) */
-    double sd, max, rmse; /* means over the trials */
+    double mean, low, high;   /* mean over the trials of the metric, and its 95 % interval (NaN with one) */
+    double robust, top_share; /* means over the trials of what koksma_metric_value has beside */
+    double sd, max, rmse;     /* means over the trials, of the absolute error whatever the metric */
     double slope, slope_low, slope_high;    /* log-log slope of the group's mean over {spp}; NaN with one number */
     koksma_coherence_values coherence;      /* of the errors of all trials, in their order */
     size_t position;                        /* among the groups with this spp, by the mean: 1 has the least */
@@ -214,12 +214,14 @@ typedef struct koksma_images_row {
      places     the template, such as "out_{spp}_{trial}.exr": {spp} and {trial} match digits, other names any text
                 without '/'
      reference  path of the reference image
+     metric     of the error; NULL: mae
      folder     gets report.json and report.html, a page with all numbers (docs/report-format.md); NULL: neither
      rows, n    receive the rows, sorted by group and spp; the caller frees *rows with free()
    Each image is read twice: for its error and for the coherence of its row.
    Errors: ARGUMENT (a brace that is not closed), MISSING (no file matches), MALFORMED (a pixel that is not a finite
    number), those of koksma_image_read, MEMORY, INTERRUPTED. */
-KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference, const char *folder,
+KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference,
+                                             const koksma_metric_spec *metric, const char *folder,
                                              const koksma_run *run, koksma_images_row **rows, size_t *n);
 
 /* ---- Ranking patterns for a scene ------------------------------------------------------------------------- */

@@ -164,6 +164,7 @@ ALLOWED = [
     r"koksma_rank_by_command picture->(scene|pattern) = (\"|long_text).*", r"koksma_rank_by_command picture->(spp|width|height|seed) = .*",  # its affair
     r"koksma_rank_patterns options->(render|render_context|reference) = .*",
     r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0|metric = NULL) .*",
+    r"koksma_study_images metric = NULL .*",
     r"\w+ path = .(%s%n|nothing:of).*",  # names of files like others
 ]
 

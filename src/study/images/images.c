@@ -27,6 +27,7 @@ typedef struct picture {
     const char *path;
     koksma__image_name name;
     _Alignas(8) koksma_image_error error; /* also where a double needs less, so that a picture is a row of doubles */
+    double robust, top_share;
 } picture;
 _Static_assert(sizeof(picture) % sizeof(double) == 0, "the statistics step over pictures by doubles");
 
@@ -34,6 +35,7 @@ typedef struct pictures {
     size_t n;
     picture *at;
     koksma_image reference;
+    const koksma_metric_spec *metric; /* NULL: mae */
 } pictures;
 
 static int compare_pictures(const void *a, const void *b)
@@ -75,6 +77,19 @@ static koksma_status collect(const char *places, const char *pattern, const glob
 
 /* ---- Errors -------------------------------------------------------------------------------------------- */
 
+/* The error by the metric takes the place of the mean absolute one. */
+static koksma_status apply_metric(const pictures *all, const koksma_image *image, picture *p)
+{
+    koksma_metric_spec mae = {.metric = NULL};
+    koksma_metric_value value;
+    KOKSMA__TRY(koksma_metric_parse("mae", &mae));
+    KOKSMA__TRY(koksma_metric_evaluate(all->metric ? all->metric : &mae, image, &all->reference, &value));
+    p->error.mean = all->metric ? value.value : p->error.mean;
+    p->robust = value.robust;
+    p->top_share = value.top_share;
+    return KOKSMA_OK;
+}
+
 static koksma_status compare_one(void *context, size_t i)
 {
     pictures *all = context;
@@ -85,6 +100,7 @@ static koksma_status compare_one(void *context, size_t i)
         /* One pixel that is no number would make a whole group's error none. */
         status =
             status ? koksma__fail_in(status, all->at[i].path) : koksma_image_check_finite(&image, all->at[i].path);
+        status = status ? status : apply_metric(all, &image, &all->at[i]);
         koksma_image_fini(&image);
     }
     return status;
@@ -130,6 +146,8 @@ static void fill_row(const picture *first, size_t n, koksma_images_row *row)
     row->sd = koksma__summarize(&first->error.sd, n, stride).mean;
     row->max = koksma__summarize(&first->error.max, n, stride).mean;
     row->rmse = koksma__summarize(&first->error.rmse, n, stride).mean;
+    row->robust = koksma__summarize(&first->robust, n, stride).mean;
+    row->top_share = koksma__summarize(&first->top_share, n, stride).mean;
 }
 
 static koksma_status make_rows(const pictures *all, koksma_images_row **rows, size_t *n)
@@ -233,6 +251,7 @@ static koksma_status write_report(const char *places, const char *reference, con
     const koksma__images images = {.places = places,
                                    .reference_path = reference,
                                    .reference = &all->reference,
+                                   .metric = all->metric,
                                    .rows = rows,
                                    .first = first,
                                    .n = n};
@@ -241,14 +260,14 @@ static koksma_status write_report(const char *places, const char *reference, con
     return status;
 }
 
-koksma_status koksma_study_images(const char *places, const char *reference, const char *folder,
-                                  const koksma_run *run, koksma_images_row **rows, size_t *n)
+koksma_status koksma_study_images(const char *places, const char *reference, const koksma_metric_spec *metric,
+                                  const char *folder, const koksma_run *run, koksma_images_row **rows, size_t *n)
 {
     KOKSMA__REQUIRE(places, reference, rows, n);
     KOKSMA__REQUIRE_RUN(run);
     char pattern[KOKSMA__PATH];
     glob_t found = {0};
-    pictures all = {0};
+    pictures all = {.metric = metric};
     *rows = NULL;
     *n = 0;
     KOKSMA__TRY(koksma__image_names_pattern(places, pattern, sizeof pattern));

@@ -135,15 +135,27 @@ static void put_table(koksma__document *d, const koksma__images *all, long long 
     koksma__doc_table_end(d);
 }
 
+/* The metric in words. */
+static void metric_of(const koksma__images *all, char text[KOKSMA_MAX_SPEC])
+{
+    snprintf(text, KOKSMA_MAX_SPEC, "the mean absolute difference of luminance");
+    if (all->metric) {
+        koksma_metric_text(all->metric, text);
+    }
+}
+
 static void put_errors(koksma__document *d, const koksma__images *all)
 {
+    char metric[KOKSMA_MAX_SPEC];
+    metric_of(all, metric);
     koksma__doc_section(d, "errors", "Which images are nearest to the reference?");
     koksma__doc_paragraph(
         d,
-        "Error: the mean over the trials of the mean absolute difference of luminance to the reference. Behind: "
+        "Error: the mean over the trials of %s to the reference. Behind: "
         "how much larger it is than that of the first, over that; its interval is of the differences of images "
         "with equal {trial}, and is known where both groups have the same trials. Each interval holds for itself "
-        "with 95 %%. Bands: the error has a pattern, which eyes notice more than noise (`koksma compare --help`).");
+        "with 95 %%. Bands: the error has a pattern, which eyes notice more than noise (`koksma compare --help`).",
+        metric);
     for (size_t i = 0; i < all->n; i++) {
         if (begins_spp(all, i)) {
             put_answer(d, all, all->rows[i].spp);
@@ -157,9 +169,12 @@ static void put_errors(koksma__document *d, const koksma__images *all)
 
 static void put_chart(koksma__document *d, const koksma__images *all)
 {
-    char label[KOKSMA_IMAGES_GROUP];
-    koksma__doc_chart_begin(
-        d, &(koksma__chart){"Error against samples a pixel", "samples a pixel", "mean absolute error", true, true});
+    char label[KOKSMA_IMAGES_GROUP], metric[KOKSMA_MAX_SPEC] = "mean absolute error";
+    if (all->metric) {
+        koksma_metric_text(all->metric, metric);
+    }
+    koksma__doc_chart_begin(d,
+                            &(koksma__chart){"Error against samples a pixel", "samples a pixel", metric, true, true});
     for (size_t i = 0; i < all->n; i++) {
         const koksma_images_row *row = &all->rows[i];
         if (i == 0 || !same_group(row, row - 1)) {

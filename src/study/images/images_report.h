@@ -9,8 +9,9 @@
 typedef struct koksma__images {
     const char *places, *reference_path;
     const koksma_image *reference;
-    const koksma_images_row *rows; /* by group, then by spp */
-    const char *const *first;      /* path of the first image of each row */
+    const koksma_metric_spec *metric; /* NULL: mae */
+    const koksma_images_row *rows;    /* by group, then by spp */
+    const char *const *first;         /* path of the first image of each row */
     size_t n;
 } koksma__images;
 
