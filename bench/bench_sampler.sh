@@ -20,7 +20,7 @@ for compiler in g++ clang++; do
   command -v $compiler >/dev/null || { echo "$compiler is not installed: left out"; continue; }
   for flags in "-O3 -march=native" "-O3 -mavx2" "-O2"; do
     # shellcheck disable=SC2086 # words of options
-    $compiler -std=c++17 $flags $peer -Iinclude bench/bench_sampler.cpp -o "$folder/vector"
+    $compiler -std=c++17 $flags $peer -Iinclude bench/bench_sampler.cpp -o "$folder/vector" 2>/dev/null || { echo "$compiler $flags: not for this processor"; continue; }
     # shellcheck disable=SC2086
     [ -z "$peer" ] || $compiler -std=c++17 $flags $peer -DOQMC_FORCE_SCALAR -Iinclude bench/bench_sampler.cpp -o "$folder/scalar"
     {
