@@ -116,7 +116,7 @@ class Site:
         self.references = text.references(ROOT / "docs/references.bib")
         self.cited = {}
         self.lists = {}
-        for kind in ("patterns", "measures", "scenes", "integrators", "filters", "adaptive", "warps", "uses", "parameters"):
+        for kind in ("patterns", "measures", "scenes", "integrators", "filters", "adaptive", "warps", "integrands", "uses", "parameters"):
             self.lists[kind], _ = program.rows("list", kind)
         known, _ = program.try_run("--help")
         self.commands = dict(re.findall(r"^  ([a-z]+) +(\S.*)$", known, re.M))

@@ -24,7 +24,7 @@ def integrator_source(name):
 
 
 def small_tables(site):
-    """A step for each page: scenes, integrators, filters, adaptive methods, warps, materials, lights, uses."""
+    """A step for each page: scenes, integrators, filters, adaptive methods, warps, integrands, materials, lights, uses."""
     program, size = site.program, ["--size", "48x36" if site.program.quick else "160x120"]
     spp = ["-n", "1" if program.quick else "16"]
 
@@ -52,6 +52,11 @@ def small_tables(site):
           counts(program, n, size)) for r, n in of("adaptive", "method")])
     add("warps", "Warps", "from the square to a lens, a triangle, a hemisphere: <code>koksma measure --warp</code>",
         lambda: [(n, r["what"], r["source"], f"src/warps/{n.replace('-', '_')}.c", "") for r, n in of("warps", "warp")])
+    table = (ROOT / "src/integrands/integrands.def").read_text(encoding="utf-8")
+    file_of = {n: f or n for n, f in re.findall(r"^INTEGRAND(?:_OF)?\((\w+)(?:, (\w+))?\)", table, re.M)}
+    add("integrands", "Integrands", "functions with known integrals: <code>koksma integrate</code>",
+        lambda: [(n, f"{r['what']}; integral: {r['integral']}", r["source"], f"src/integrands/{file_of[n.replace('-', '_')]}.c", "")
+                 for r, n in of("integrands", "integrand")])
     for kind, macro, prefix in (("materials", "MATERIAL", "bsdf_"), ("lights", "LIGHT", "light_")):
         table = (ROOT / f"src/render/{kind}/{kind}.def").read_text(encoding="utf-8")
         members = [(n, "", "", f"src/render/{kind}/{prefix}{n}.c", "") for n in re.findall(rf"^{macro}\((\w+)\)", table, re.M)]

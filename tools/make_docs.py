@@ -239,7 +239,7 @@ def index_pages(site):
             (f"{len(site.lists['measures'])} measures", "measures/index.html",
              ", ".join(f"<a href='measures/{name}.html'>{name}</a> {what}" for name, what in shown) + " ..."),
             ("Scenes", "scenes/index.html", ""), ("Integrators", "integrators/index.html", ""), ("Pixel filters", "filters/index.html", ""),
-            ("Adaptive sampling", "adaptive/index.html", ""), ("Warps", "warps/index.html", ""), ("Materials", "materials/index.html", ""),
+            ("Adaptive sampling", "adaptive/index.html", ""), ("Warps", "warps/index.html", ""), ("Integrands", "integrands/index.html", ""), ("Materials", "materials/index.html", ""),
             ("Lights", "lights/index.html", ""), ("Uses of a sample", "uses/index.html", ""), ("References", "references.html", "")]) +
         "<h2>What was found</h2>" + links([("Findings", "findings/index.html", "studies with their numbers")]))
     site.write("index.html", "", "Koksma documents", "sampling patterns, exact measures, and the error of the images", body)

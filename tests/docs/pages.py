@@ -131,7 +131,7 @@ with tempfile.TemporaryDirectory() as folder:
         title = re.sub(r"[`*]", "", document.read_text(encoding="utf-8").splitlines()[0].lstrip("# "))
         check(title in words_of(f"{folder}/{document.stem}.html"), f"no page for {document.name}")
     for kind, column in (("scenes", "scene"), ("integrators", "integrator"), ("filters", "filter"), ("adaptive", "method"),
-                         ("warps", "warp"), ("uses", "use")):
+                         ("warps", "warp"), ("integrands", "integrand"), ("uses", "use")):
         for name in names(PROGRAM, kind, column):
             check(name in pages[site / kind / "index.html"].anchors, f"{kind}/index.html lacks {name}")
 
