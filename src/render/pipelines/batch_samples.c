@@ -144,21 +144,28 @@ void BATCH_NAME(gather_both)(const float *from, const uint16_t *xs, const uint16
     }
 }
 
-void BATCH_NAME(move)(const float *xs, const float offset[2], size_t n, float *to)
-{
-    const float ox = offset[0], oy = offset[1];
-    for (size_t i = 0; i < n; i++) {
-        to[2 * i] = xs[2 * i] + ox;
-        to[2 * i + 1] = xs[2 * i + 1] + oy;
-    }
-}
-
 /* ---- Places ------------------------------------------------------------------------------------------------- */
 
 INLINE void in_turn(const float xy[2], floats *v)
 {
     for (int l = 0; l < FLOATS; l++) {
         (*v)[l] = xy[l % 2];
+    }
+}
+
+void BATCH_NAME(move)(const float *xs, const float offset[2], size_t n, float *to)
+{
+    floats offsets;
+    size_t i = 0;
+    in_turn(offset, &offsets);
+    for (; i + FLOATS <= 2 * n; i += FLOATS) {
+        floats x;
+        memcpy(&x, xs + i, sizeof x);
+        x += offsets;
+        memcpy(to + i, &x, sizeof x);
+    }
+    for (; i < 2 * n; i++) {
+        to[i] = xs[i] + offset[i % 2];
     }
 }
 
