@@ -140,7 +140,7 @@ static void a_file_that_is_stopped_is_as_before(void **state)
 {
     (void)state;
     static const char *const endings[] = {"txt", "csv", "npy"};
-    koksma_points p = test_points("random", 20000, 2, 1), few = test_points("random", 3, 2, 1), back;
+    koksma_points p = test_points("random", 400000, 2, 1), few = test_points("random", 3, 2, 1), back;
     for (int e = 0; e < 3; e++) {
         char folder[] = "interruption-XXXXXX", path[sizeof folder + 16];
         int asked = 0;

@@ -27,7 +27,8 @@ static koksma_status points_of(const char *text, size_t n, int dim, koksma_point
 static int compare_points(const void *a, const void *b)
 {
     const double *x = a, *y = b;
-    return (x[0] > y[0]) - (x[0] < y[0]) ? (x[0] > y[0]) - (x[0] < y[0]) : (x[1] > y[1]) - (x[1] < y[1]);
+    const int k = x[0] == y[0];
+    return (x[k] > y[k]) - (x[k] < y[k]);
 }
 
 /* The first n = b^k points of a lattice sequence are {i z / n}; the numbers of points in a file without a head are 2^k. */
