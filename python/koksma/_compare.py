@@ -101,6 +101,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     rmse, such as "relmse", "smape:epsilon=0.001" or "hdr-flip:ppd=40" (`koksma list metrics`). A RuntimeWarning says where
     0.1 % of the pixels carry half of the error or more.
 
+    >>> import koksma
     >>> import numpy as np
     >>> image = np.full((8, 8), 1.5)
     >>> round(koksma.compare(image, np.ones((8, 8)), metrics=["smape"]).metrics["smape"].value, 6)

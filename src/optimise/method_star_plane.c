@@ -46,9 +46,8 @@ typedef struct width {
 
 static width width_of(size_t n)
 {
-    return n <= 64    ? (width){.threshold = 0.05, .accepted = 0.3, .again = 0.1}
-           : n <= 350 ? (width){.threshold = 0.02, .accepted = 0.25, .again = 0.25}
-                      : (width){.threshold = 0.02, .accepted = 0.05, .again = 0.25};
+    return n <= 48 ? (width){.threshold = 0.05, .accepted = 0.3, .again = 0.1}
+                   : (width){.threshold = 0.02, .accepted = 0.05, .again = 0.25};
 }
 
 /* Corners looked at in one search: some tenths of a second. */

@@ -73,7 +73,7 @@ render ^ $(all scenes) FILES
 render ball -p jit^ jittered
 render ball --pairing ^ shuffled aligned native
 render ball --scope ^ pixel image
-render ball --lights ^ all one power uniform
+render ball --lights ^ all one power uniform auto
 render ball --integrator ^ $(all integrators)
 render ball --filter ^ $(all filters)
 render ball --adaptive ^ $(all adaptive)
@@ -106,7 +106,7 @@ study images x --reference ^ FILES
 reproduce ^ shirley1991 mitchell1992 open-questions FILES
 reproduce shirley1991 --table ^ all none
 reproduce shirley1991 -o ^ FILES
-list ^ patterns modifiers measures integrands claims properties warps curves scenes materials lights shapes formats integrators pipelines filters uses adaptive methods records plans questions sections parameters
+list ^ patterns modifiers measures integrands claims properties warps curves scenes materials lights shapes formats integrators pipelines filters uses metrics adaptive methods records plans questions sections parameters
 list patterns ^
 completion ^ bash zsh fish spec
 manual scen^ scene

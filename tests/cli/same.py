@@ -14,8 +14,9 @@ import tempfile
 
 KOKSMA = os.path.abspath(sys.argv[1])
 failures = []
-# Options of one letter that have two names, by what they take: a set's points or a pixel's samples, one or a list.
-TWO_NAMES = {"n": {"n", "spp", "points"}, "p": {"patterns", "pattern"}, "m": {"measures", "measure"}}
+# Options of one letter that have two names, by what they take: a set's points or a pixel's samples, a measure of
+# points or of an image's error, one or a list.
+TWO_NAMES = {"n": {"n", "spp", "points"}, "p": {"patterns", "pattern"}, "m": {"measures", "measure", "metric"}}
 
 
 def check(good, what):
@@ -41,7 +42,7 @@ def result(path, *arguments):
 
 
 # How each command takes points of sobol: words before and behind, where the pattern comes, and the file that it writes.
-OPERAND, OPTION = "operand", "option"
+OPERAND, OPTION, BEHIND = "operand", "option", "behind another operand"
 TAKES = {
     "generate": (OPERAND, [], ["-o", "out.txt"], "out.txt"),
     "measure": (OPERAND, [], ["--json"], None),
@@ -49,6 +50,7 @@ TAKES = {
     "curve": (OPERAND, ["power"], ["--json"], None),
     "plot": (OPERAND, [], ["-o", "out.svg"], "out.svg"),
     "render": (OPTION, ["ball"], ["--size", "16x12", "-o", "out.pfm", "--json"], "out.pfm"),
+    "integrate": (BEHIND, ["disk"], ["--json"], None),
     "rank": (OPTION, ["ball"], ["--size", "16x12", "--max-trials", "8", "--one-size", "-q", "--json"], None),
 }
 with tempfile.TemporaryDirectory() as folder:
@@ -69,6 +71,8 @@ with tempfile.TemporaryDirectory() as folder:
         if kind == OPERAND:
             ways = (["sobol@16"], ["pattern:sobol@16"], ["sobol", "-n", "16"], ["pattern:sobol", "-n", "16"], ["-p", "sobol", "-n", "16"],
                     ["-p", "sobol@16"], ["-p", "pattern:sobol@16"], ["sobol@16@2"], ["sobol", "-n", "16", "-d", "2"])
+        elif kind == BEHIND:
+            ways = (["sobol@16"], ["pattern:sobol@16"], ["-p", "sobol", "-n", "16"], ["-p", "sobol@16"], ["-p", "pattern:sobol@16"], ["sobol@16@2"])
         else:
             ways = (["-p", "sobol", "-n", "16"], ["-p", "sobol@16"], ["-p", "pattern:sobol@16"], ["-n", "16", "-p", "sobol@16"])
         results = [result(path, name, *before, *way, *behind) for way in ways]

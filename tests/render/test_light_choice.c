@@ -161,7 +161,7 @@ static void choices_have_their_probabilities(void **state)
 /* Mean of the picture over seeds, and its standard error. */
 static double mean_over_seeds(const koksma_scene *scene, koksma_render_options options, double *error)
 {
-    enum { SEEDS = 16 };
+    enum { SEEDS = 20 };
     double sum = 0, squares = 0;
     for (int seed = 0; seed < SEEDS; seed++) {
         koksma_image image;
