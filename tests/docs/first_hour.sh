@@ -37,7 +37,7 @@ step() {
 }
 
 # The commands of README that this path follows are in README.
-for command in 'koksma rank' 'koksma measure' 'koksma verify' 'koksma study'; do
+for command in 'koksma rank' 'koksma measure' 'koksma datasheet' 'koksma study'; do
   grep -q "$command" "$here/../../README.md" || { echo "README.md does not show $command"; failed=$((failed + 1)); }
 done
 

@@ -37,11 +37,14 @@ def rows_of(folder):
         return [line for line in lines if "renderer 0" not in line]
 
 
-def kill(verb, folder, within_s):
+def kill(verb, folder, within):
+    """Kills a command at a random moment. within[verb], the longest wait, follows how long the command takes just now."""
     victim = subprocess.Popen(command(verb, folder), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(random.uniform(0, within_s))
+    time.sleep(random.uniform(0, within[verb]))
     victim.send_signal(signal.SIGKILL)
-    return victim.wait() == -signal.SIGKILL
+    was_running = victim.wait() == -signal.SIGKILL
+    within[verb] *= 1.1 if was_running else 0.7
+    return was_running
 
 
 def main():
@@ -49,7 +52,7 @@ def main():
     random.seed(int(os.environ.get("KOKSMA_KILLS_SEED", "7")))
     began = time.monotonic()
     assert run("run", "whole").returncode == 0
-    within_s = 1.2 * (time.monotonic() - began)
+    within = dict.fromkeys(("run", "audit", "export", "report"), 1.2 * (time.monotonic() - began))
     assert run("export", "whole").returncode == 0
     rows, left = rows_of("whole"), listing("whole")
     killed = 0
@@ -66,7 +69,7 @@ def main():
             shutil.rmtree(folder)
             shutil.copytree("whole", folder)
             verbs = ["audit", "export", "report", "export", "report"]
-        killed += sum(kill(verb, folder, within_s) for verb in verbs)
+        killed += sum(kill(verb, folder, within) for verb in verbs)
         for verb in "run", "export", "audit":
             told = run(verb, folder)
             if told.returncode:

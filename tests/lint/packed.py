@@ -20,6 +20,8 @@ REASONS = {
     "kernel_rows_of_columns": TAIL,
     "kernel_rooks_2d": TAIL,
     "batch_place": TAIL,
+    "batch_jitter": TAIL,
+    "batch_move": TAIL,
     "batch_estimate": "few vectors a call, and what is the same for all lanes is computed before the loop",
     "batch_albedo": NO_BLEND,
     "batch_shade": NO_BLEND,
