@@ -16,8 +16,8 @@
  *
  * Starts: the order of the points (i, {i a + s}) for a with small partial quotients and random s; or the best set, in
  * a share of the searches (width_of). A walk keeps to permutations whose F is below a limit, up to a threshold above the
- * walk's least, its target (Dueck 1993: record-to-record travel). Moves: two points swap their ranks by y, such that a box of a cycle that is violated at the target
- * and holds too many points loses one, or one that holds too few gains one: no other swap can help. The last CYCLES cycles
+ * walk's least, its target (Dueck 1993: record-to-record travel). Moves: two points swap their ranks by y, such that a
+ * box of a cycle that is violated at the target and holds too many points loses one, or one that holds too few gains one: no other swap can help. The last CYCLES cycles
  * that were violated anywhere are kept, and a walk descends the number of those that are violated at the target: a move that
  * adds to it, or violates one at the limit, is refused before any constraint is looked at. Only where none is left the least
  * F is computed, which gives a new target or a new cycle (min-conflicts with constraints generated on demand). Work is

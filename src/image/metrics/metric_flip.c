@@ -281,7 +281,7 @@ static void analyse(flip *f, const double *rgb, int which)
         cx[p] = c[1];
         cz[p] = c[2];
     }
-    for (int i = 0; i < 4; i++) { /* into lab for now: Yy, Cx, Cz side by side */
+    for (int i = 0; i < 4; i++) { /* lab holds the filtered Yy, Cx, Cz until the next loop */
         const double *const in = f->planes + (size_t)(i < 3 ? i : 2) * f->n;
         const filter *s = &f->sensitivity[i];
         filter_image(s, s, in, f->width, f->height, f->scratch, f->filtered);
