@@ -16,9 +16,11 @@ for spp in 4 16; do
   echo "|---|---|---|---|---|---|"
   for pattern in $patterns; do
     line="| \`$pattern\`"
+    scope=pixel
+    case $pattern in z-sampler | mask-offset) scope=image ;; esac # one set of all pixels: that is what they are for
     for scene in $scenes; do
       for seed in 0 1 2 3 4 5 6 7; do
-        "$koksma" render $scene -q -p $pattern -n $spp -s $seed -o image.$seed.pfm >render.txt 2>&1 || break
+        "$koksma" render $scene -q -p $pattern --scope $scope -n $spp -s $seed -o image.$seed.pfm >render.txt 2>&1 || break
       done
       if [ -e image.7.pfm ]; then
         line="$line | $("$koksma" compare image.?.pfm $scene.pfm --json | tr ',' '\n' | sed 's/[{}"]//g' | awk -F: '
