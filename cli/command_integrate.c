@@ -110,16 +110,33 @@ static int open_integrand(job *j, size_t i, int dim, bool *end, koksma_integral 
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-static void put_error(job *j, const koksma_integral_facts *facts, const series *s, const koksma_integration_row *row)
+/* A coordinate or a pair of them. */
+static void put_axes(job *j, const int *axes, size_t n_axes)
 {
-    cli_row_text(j->rows, "integrand", facts->text);
+    char text[32], json[40];
+    snprintf(text, sizeof text, n_axes == 1 ? "%d" : "%d,%d", axes[0], axes[n_axes - 1]);
+    snprintf(json, sizeof json, "[%s]", text);
+    cli_row_json(j->rows, "axes", json, text);
+}
+
+/* The columns that errors of integrands (dim 0: of components) begin with, behind what they are of. */
+static void put_rmse(job *j, const series *s, int dim, const koksma_integration_row *row)
+{
     cli_row_text(j->rows, "source", s->text);
     cli_row_whole(j->rows, "n", row->n);
-    cli_row_whole(j->rows, "dim", (uint64_t)facts->dim);
+    if (dim) {
+        cli_row_whole(j->rows, "dim", (uint64_t)dim);
+    }
     cli_row_whole(j->rows, "trials", row->trials);
     cli_row_number(j->rows, "rmse", row->rmse);
     cli_row_number(j->rows, "low", row->low);
     cli_row_number(j->rows, "high", row->high);
+}
+
+static void put_error(job *j, const koksma_integral_facts *facts, const series *s, const koksma_integration_row *row)
+{
+    cli_row_text(j->rows, "integrand", facts->text);
+    put_rmse(j, s, facts->dim, row);
     cli_row_number(j->rows, "gain", row->gain);
     cli_row_number(j->rows, "mean", row->mean);
     cli_row_number(j->rows, "sd", row->sd);
@@ -192,16 +209,13 @@ static int put_share(job *j, const koksma_integral *integral, const char *name, 
                      uint64_t samples)
 {
     koksma_sensitivity s;
-    char text[32], json[40];
     const koksma_status status =
         koksma_integral_sensitivity(integral, axes, n_axes, samples, j->seed, &j->work.run, &s);
     if (status) {
         return cli_fail(j->arguments, status);
     }
-    snprintf(text, sizeof text, n_axes == 1 ? "%d" : "%d,%d", axes[0], axes[n_axes - 1]);
-    snprintf(json, sizeof json, "[%s]", text);
     cli_row_text(j->rows, "variance_of", name);
-    cli_row_json(j->rows, "axes", json, text);
+    put_axes(j, axes, n_axes);
     cli_row_number(j->rows, "share", s.component.value);
     cli_row_number(j->rows, "low", s.component.low);
     cli_row_number(j->rows, "high", s.component.high);
@@ -221,7 +235,6 @@ static int put_component(job *j, const koksma_integral *integral, const char *na
 {
     koksma_integral *component;
     koksma_integration result;
-    char text[32], json[40];
     koksma_status status = koksma_integral_component(integral, axes, n_axes, &component);
     if (status) {
         return status == KOKSMA_UNSUPPORTED ? CLI_YES : cli_fail(j->arguments, status);
@@ -232,16 +245,9 @@ static int put_component(job *j, const koksma_integral *integral, const char *na
         return cli_fail(j->arguments, status);
     }
     const koksma_integration_row *row = &result.rows[0];
-    snprintf(text, sizeof text, n_axes == 1 ? "%d" : "%d,%d", axes[0], axes[n_axes - 1]);
-    snprintf(json, sizeof json, "[%s]", text);
     cli_row_text(j->rows, "error_of", name);
-    cli_row_json(j->rows, "axes", json, text);
-    cli_row_text(j->rows, "source", s->text);
-    cli_row_whole(j->rows, "n", row->n);
-    cli_row_whole(j->rows, "trials", row->trials);
-    cli_row_number(j->rows, "rmse", row->rmse);
-    cli_row_number(j->rows, "low", row->low);
-    cli_row_number(j->rows, "high", row->high);
+    put_axes(j, axes, n_axes);
+    put_rmse(j, s, 0, row);
     cli_row_number(j->rows, "part", row->rmse * row->rmse / square);
     cli_row_end(j->rows);
     return CLI_YES;
@@ -455,8 +461,9 @@ const cli_command cli_command_integrate = {
         "sizes or more give the slope of log rmse against log n with its interval.\n"
         "\n"
         "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], a\n"
-        "function of a shared library that exports koksma_function_at (koksma/integrate.h). Where its\n"
-        "integral is not known, rmse is the standard deviation over the trials.\n"
+        "function of a shared library that exports koksma_function_at (koksma/integrate.h). The library runs with\n"
+        "your rights as soon as it is opened; plans and studies can name none. Where its integral is not known,\n"
+        "rmse is the standard deviation over the trials.\n"
         "\n"
         "--anova prints Sobol' indices, coordinates numbered from 0: share is that of the component of\n"
         "exactly these coordinates, total that of all components with any of them; pairs up to 16 dimensions.\n"

@@ -105,6 +105,12 @@ static const char *scene_title(const char *name)
     return title;
 }
 
+/* What the file is whose path its spec has: points, or the parameters of a rule that makes them. */
+static const char *reads(const koksma_pattern *p)
+{
+    return !p->takes_path ? "-" : p->whole ? "points" : "parameters";
+}
+
 /* list_TABLE: a row for each x that `next` finds as item i: its name, what it is, and `columns`. */
 #define LIST(table, noun, type, next, name, meaning, columns)                                                        \
     static void list_##table(cli_rows *rows)                                                                         \
@@ -121,7 +127,7 @@ static const char *scene_title(const char *name)
 
 LIST(patterns, "pattern", const koksma_pattern *, (x = koksma_pattern_at(i)), x->name, x->title,
      (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), put_claims(rows, x->claims),
-      put_ranges(rows, x), SOURCE))
+      put_ranges(rows, x), cli_row_text(rows, "reads", reads(x)), SOURCE))
 LIST(modifiers, "modifier", const koksma_modifier *, (x = koksma_modifier_at(i)), x->name, x->title,
      (cli_row_text(rows, "keeps", x->keeps), put_claims(rows, x->claims),
       cli_row_text(rows, "measures", strcmp(x->measures, "*") ? x->measures : "all"), SOURCE))
@@ -205,7 +211,8 @@ static void put_range(cli_rows *rows, const koksma_param *p)
         }
     } else {
         char min[CLI_NUMBER], max[CLI_NUMBER];
-        snprintf(text, sizeof text, "%s to %s", cli_number(p->min, min), cli_number(p->max, max));
+        snprintf(text, sizeof text, "%s%s to %s", p->fallback < p->min ? "0, " : "", cli_number(p->min, min),
+                 cli_number(p->max, max));
     }
     cli_row_text(rows, "range", text);
 }
@@ -235,10 +242,18 @@ static void list_parameters(cli_rows *rows)
     const koksma_adaptive *a;
     const koksma_metric *metric;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        if (p->takes_path) {
+            cli_row_text(rows, "of", p->name);
+            cli_row_text(rows, "parameter", "PATH");
+            cli_row_text(rows, "what", "the file that it reads, behind the colon: NAME:PATH");
+            cli_row_text(rows, "default", "-");
+            cli_row_text(rows, "range", reads(p));
+            cli_row_end(rows);
+        }
         list_parameters_of(rows, p->name, p->params);
     }
     for (size_t i = 0; (x = koksma_modifier_at(i)); i++) {
-        const koksma_param one[] = {{x->name, x->title, 0, 0, x->max, NULL, true}, {0}};
+        const koksma_param one[] = {{x->name, x->title, 0, x->min > 1 ? x->min : 0, x->max, NULL, true}, {0}};
         list_parameters_of(rows, "any pattern", one);
     }
     for (size_t i = 0; (m = koksma_measure_at(i)); i++) {

@@ -134,9 +134,10 @@ class Site:
         (self.out / "explorer.html").write_text(page.replace('<meta name="docs" content="../docs/">', '<meta name="docs" content="">', 1), encoding="utf-8")
         return True
 
-    def explorer_link(self, name):
-        """A pattern in the explorer."""
-        return f"<p><a href='../explorer.html#a={name}@16'>Try {name} in the explorer</a></p>" if self.explorer and name not in ("file", "lattice-file", "net-file") else ""
+    def explorer_link(self, row):
+        """A pattern in the explorer, which has no files."""
+        name = row["pattern"]
+        return f"<p><a href='../explorer.html#a={name}@16'>Try {name} in the explorer</a></p>" if self.explorer and row["reads"] == "-" else ""
 
     def cite(self, keys, name, kind):
         """The references of a member as links, entered into the index of references."""

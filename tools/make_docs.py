@@ -22,7 +22,7 @@ from docs_site import ROOT, Program, Site, table
 from docs_tables import small_tables
 
 PLAIN = ("star", "l2-star", "extreme", "edge", "l2-periodic", "relative-radius")  # the columns of a pattern's page
-FILES = {  # what the patterns that read a file are shown with; file has points
+FILES = {  # what each pattern that reads a file (`koksma list patterns`) is shown with; file has points
     "file": ("from-elsewhere.csv", None),
     "lattice-file": ("vector.txt", "# lattice\n2 # dimensions\n1048576 # points\n1\n182667\n"),
     "net-file": ("net.txt", "d s a m_i\n2 1 0 1\n"),
@@ -159,7 +159,7 @@ def pattern_page(site, row, numbers):
             "<h2>What it promises</h2><p>Each line is a test.</p>" + promised +
             f"<h2>Measured</h2><p>Means and standard errors over the sets of the seeds 0, 1, ..; {numbers['dim']} dimensions.</p>" +
             table(head, rows) + f"<pre>{commands}</pre><h2>Verified</h2>" + verified(site, row, 16 if site.program.quick else 256))
-    site.write(f"patterns/{name}.html", "pattern", name, text.formula(row["what"]), site.explorer_link(name) + body)
+    site.write(f"patterns/{name}.html", "pattern", name, text.formula(row["what"]), site.explorer_link(row) + body)
 
 
 def ranking(site, name, numbers):
@@ -261,6 +261,8 @@ def main():
             (program.folder / path).write_text(content, encoding="utf-8")
     site = Site(program, arguments.folder)
     patterns, progress, numbers = site.lists["patterns"], site.progress, {}
+    if {row["pattern"] for row in patterns if row["reads"] != "-"} != set(FILES):
+        raise SystemExit("FILES of tools/make_docs.py has not a file for each pattern that reads one")
 
     def run(steps):
         return list(program.pool.map(lambda step: step(), steps))

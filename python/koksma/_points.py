@@ -30,6 +30,7 @@ class Member:
     min_dim: int
     max_dim: int
     parameters: Tuple[str, ...]
+    reads_file: bool = False  # its text has the path of a file: "file:PATH"
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,8 @@ def table(at: object) -> List[Member]:
         while m.params and m.params[i].name:
             names.append(m.params[i].name.decode())
             i += 1
-        members.append(Member(m.name.decode(), m.title.decode(), m.cite.decode(), m.min_dim, m.max_dim, tuple(names)))
+        members.append(Member(m.name.decode(), m.title.decode(), m.cite.decode(), m.min_dim, m.max_dim, tuple(names),
+                              getattr(m, "takes_path", False)))
     return members
 
 

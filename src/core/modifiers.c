@@ -20,7 +20,6 @@
  */
 #include "core/modifiers.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "core/random.h"
@@ -247,18 +246,6 @@ void koksma__modify(const double *values, uint64_t seed, koksma_points *points)
     }
 }
 
-koksma_status koksma__modifiers_check(const char *pattern, const double *values)
-{
-    for (size_t i = 0; i < COUNT; i++) {
-        const koksma_modifier *m = &rows[i].modifier;
-        KOKSMA__FAIL_IF(
-            !(values[i] == 0 || (values[i] >= m->min && values[i] <= m->max && values[i] == floor(values[i]))),
-            KOKSMA_ARGUMENT, "%s: %s=%.17g: it takes 0 or whole numbers from %.9g to %.9g", pattern, m->name,
-            values[i], m->min, m->max);
-    }
-    return KOKSMA_OK;
-}
-
 bool koksma__modifiers_are_random(const double *values)
 {
     bool random = false;
@@ -289,6 +276,13 @@ unsigned koksma__claims_left(const koksma_spec *spec, size_t n)
     return claims;
 }
 
+/* Behind 0, which is not to apply it, most have the range from 1. */
+koksma_param koksma__modifier_param(size_t i)
+{
+    const koksma_modifier *m = &rows[i].modifier;
+    return (koksma_param){m->name, m->title, 0, m->min > 1 ? m->min : 0, m->max, NULL, true};
+}
+
 void koksma__all_params_init(koksma__all_params *all, const koksma_param *own)
 {
     *all = (koksma__all_params){.own = 0};
@@ -296,8 +290,7 @@ void koksma__all_params_init(koksma__all_params *all, const koksma_param *own)
         all->params[all->own] = own[all->own];
     }
     for (size_t i = 0; i < COUNT; i++) {
-        all->params[all->own + i] =
-            (koksma_param){rows[i].modifier.name, rows[i].modifier.title, 0, 0, rows[i].modifier.max, NULL, true};
+        all->params[all->own + i] = koksma__modifier_param(i);
     }
 }
 

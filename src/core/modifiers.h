@@ -22,8 +22,8 @@ KOKSMA__LAB const char *koksma__modifiers_of_path(const char *text);
 /* Applies all modifiers that are not 0 to points in [0,1), which stay there. */
 void koksma__modify(const double *values, uint64_t seed, koksma_points *points);
 
-/* Errors: ARGUMENT (a value that the table does not allow). */
-koksma_status koksma__modifiers_check(const char *pattern, const double *values);
+/* Modifier i as a parameter, whose default 0 may be below its range. */
+koksma_param koksma__modifier_param(size_t i);
 
 /* Whether one of them depends on the seed. */
 KOKSMA__LAB bool koksma__modifiers_are_random(const double *values);

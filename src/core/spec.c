@@ -26,14 +26,18 @@ static koksma_status parse_choice(const char *member, const koksma_param *param,
     return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%s: it takes %s", member, param->name, text, words);
 }
 
+/* A modifier's 0, which is not to apply it, may be below its range. */
 static koksma_status check_range(const char *member, const koksma_param *param, double value)
 {
     if (param->whole && value != floor(value)) {
         return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%.17g: it takes whole numbers", member, param->name, value);
     }
-    if (!(value >= param->min && value <= param->max)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%.17g: it takes %.9g to %.9g", member, param->name, value,
-                            param->min, param->max);
+    if (value != param->fallback && !(value >= param->min && value <= param->max)) {
+        const bool below = param->fallback < param->min;
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            below ? "%s: %s=%.17g: it takes 0 or %.9g to %.9g"
+                                  : "%s: %s=%.17g: it takes %.9g to %.9g",
+                            member, param->name, value, param->min, param->max);
     }
     return KOKSMA_OK;
 }
@@ -190,6 +194,16 @@ koksma_status koksma__params_check(const char *member, const koksma_param *param
     koksma_status status = KOKSMA_OK;
     for (int i = 0; !status && params && params[i].name; i++) {
         status = check_range(member, &params[i], values[i]);
+    }
+    return status;
+}
+
+koksma_status koksma__modifiers_check(const char *pattern, const double *values)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; koksma_modifier_at(i) && !status; i++) {
+        const koksma_param params[] = {koksma__modifier_param(i), {0}};
+        status = koksma__params_check(pattern, params, &values[i]);
     }
     return status;
 }

@@ -13,6 +13,7 @@ KOKSMA__LAB koksma_status koksma__params_parse(const char *member, const koksma_
 
 /* Whether all values are in their ranges. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__params_check(const char *member, const koksma_param *params, const double *values);
+koksma_status koksma__modifiers_check(const char *pattern, const double *values);
 
 /* Whether a member has a form in so many dimensions. Errors: DIM. */
 koksma_status koksma__dim_check(const char *member, int dim, int min_dim, int max_dim);

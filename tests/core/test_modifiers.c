@@ -249,12 +249,33 @@ static void digits_of_a_base_are_scrambled_by_definition(void **state)
         assert_true(points.xs[0] != 0);
         koksma_points_fini(&points);
     }
-    koksma_spec spec;
-    koksma_points points;
-    assert_ok(koksma_pattern_spec("sobol:owen-base=1", &spec));
-    assert_ok(koksma_points_init(&points, 4, 2));
-    assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_ARGUMENT);
-    koksma_points_fini(&points);
+}
+
+/* A value is 0 or a whole number in the modifier's range; a text and a struct with any other are refused by the same
+   words. */
+static void limits_are_the_same_in_texts_and_structs(void **state)
+{
+    (void)state;
+    const koksma_modifier *m;
+    for (size_t at = 0; (m = koksma_modifier_at(at)); at++) {
+        const double values[] = {0, m->min, m->max, m->min - 1, m->max + 1, m->min + 0.5, -1};
+        for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
+            char text[KOKSMA_MAX_SPEC], said[KOKSMA_MAX_SPEC] = "";
+            double xs[8];
+            koksma_points points = {4, 2, xs};
+            koksma_spec spec;
+            const bool allowed = values[v] == 0 || (v < 3 && values[v] >= m->min);
+            snprintf(text, sizeof text, "sobol:%s=%.1f", m->name, values[v]);
+            assert_int_equal(koksma_pattern_spec(text, &spec), allowed ? KOKSMA_OK : KOKSMA_ARGUMENT);
+            if (!allowed) {
+                snprintf(said, sizeof said, "%s", koksma_error_text());
+            }
+            assert_ok(koksma_pattern_spec("sobol", &spec));
+            spec.modifiers[at] = values[v];
+            assert_int_equal(koksma_generate(&spec, 0, NULL, &points), allowed ? KOKSMA_OK : KOKSMA_ARGUMENT);
+            assert_true(allowed || !strcmp(said, koksma_error_text()));
+        }
+    }
 }
 
 /* tent is 1 - |2x - 1|, below 1; behind a shift the mean over a lattice of x^2 y has a far smaller error than without. */
@@ -366,6 +387,7 @@ int main(void)
         cmocka_unit_test(measures_are_kept),
         cmocka_unit_test(digits_are_scrambled_by_definition),
         cmocka_unit_test(digits_of_a_base_are_scrambled_by_definition),
+        cmocka_unit_test(limits_are_the_same_in_texts_and_structs),
         cmocka_unit_test(tents_fold_the_cube),
         cmocka_unit_test(shifts_move_all_points_alike),
         cmocka_unit_test(texts_are_read_and_printed),

@@ -94,12 +94,6 @@ koksma_status koksma__range_blocks(const koksma_args *args, koksma_points *out, 
     return n_groups == 1 ? group(&j, 0) : koksma__parallel(args->run, n_groups, group, &j);
 }
 
-koksma_status koksma__fill_blocks(const koksma_run *run, koksma_points *out, koksma__block f, const void *context)
-{
-    const koksma_args args = {.run = run};
-    return koksma__range_blocks(&args, out, f, context);
-}
-
 typedef struct single {
     koksma__column f;
     const void *context;
@@ -118,12 +112,6 @@ koksma_status koksma__range_columns(const koksma_args *args, koksma_points *out,
 {
     const single s = {f, context};
     return koksma__range_blocks(args, out, one_by_one, &s);
-}
-
-koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context)
-{
-    const koksma_args args = {.run = run};
-    return koksma__range_columns(&args, out, f, context);
 }
 
 typedef struct digital_job {

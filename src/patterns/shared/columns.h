@@ -16,10 +16,7 @@ typedef void (*koksma__column)(const void *context, int k, uint64_t first, size_
 typedef double (*koksma__columns)[KOKSMA__COLUMN_BLOCK];
 typedef void (*koksma__block)(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs);
 
-koksma_status koksma__fill_blocks(const koksma_run *run, koksma_points *out, koksma__block f, const void *context);
-koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context);
-
-/* The same of a range: point 0 of out is point args->first. */
+/* Point 0 of out is point args->first. */
 koksma_status koksma__range_blocks(const koksma_args *args, koksma_points *out, koksma__block f, const void *context);
 koksma_status koksma__range_columns(const koksma_args *args, koksma_points *out, koksma__column f,
                                     const void *context);
