@@ -24,6 +24,17 @@ def percent(x):
     return f"{100 * x:.0f} %" if abs(x) < 0.995 else f"{1 + x:.1f} times"
 
 
+def fitting(sampler, n):
+    """The largest number up to n of points that a pattern makes; Mitsuba's own samplers make what they are asked for."""
+    while sampler in OURS:
+        try:
+            koksma.generate(sampler, n, 2)
+            break
+        except koksma.ArgumentError:
+            n -= 1
+    return n
+
+
 def show(ranking, names, notes):
     """A row for each sampler; notes: the text of its last column."""
     print("| place | sampler | error x 1000 | interval | behind the first | interval | images | " + notes[0] + " |")
@@ -58,9 +69,10 @@ def main():
     if a.only == "samples":
         return
     seconds = dict(zip(samplers, koksma.mitsuba.times(scene, samplers, a.spp, size=(256, 256), repeats=2, clock=time.process_time)))
-    # A factor of 1 is a name, too: no sampler stands twice, and the reference is the plain one.
+    # A factor of 1 is a name, too: no sampler stands twice, and the reference is the plain one. Mitsuba's own samplers round
+    # numbers up that they can't make, and warn.
     factors = {s: seconds["independent"] / seconds[s] for s in samplers}
-    names = {f"{s}*{factors[s]:.2f}": s for s in samplers}
+    names = {f"{s}*{fitting(s, max(1, round(a.spp * factors[s]))) / a.spp:.5f}": s for s in samplers}
     print(f"At the time of `independent` with {a.spp} samples:\n")
     show(koksma.mitsuba.rank(scene, list(names), a.spp, reference="independent", **options), names,
          ("samples (seconds of a large picture)", {n: f"{max(1, round(a.spp * float(n.partition('*')[2])))} ({seconds[s]:.2f})"
