@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""mitsuba_table.py [--spp N] [--side PIXELS] [--trials N] [--time-limit S] [--metric METRIC]: the tables of docs/renderers.md,
-as Markdown: Mitsuba's Cornell box with its own samplers and six of our patterns, at equal samples and at equal time.
+"""mitsuba_table.py [--spp N] [--side PIXELS] [--trials N] [--time-limit S] [--metric METRIC] [--only samples|time]: the tables of
+docs/renderers.md, as Markdown: Mitsuba's Cornell box with its own samplers and six of our patterns, at equal samples and at
+equal time. The limit of time holds for each table.
 
 Run it in the environment that scripts/try_mitsuba makes (PYTHONPATH=python, DRJIT_LIBLLVM_PATH). In the second table a sampler
 has the samples that fit into the time of `independent`, at least one. The time is processor time of all threads, which other
@@ -21,6 +22,17 @@ OURS = ("random", "jittered", "n-rooks", "correlated-multi-jittered", "pmj02:shu
 
 def percent(x):
     return f"{100 * x:.0f} %" if abs(x) < 0.995 else f"{1 + x:.1f} times"
+
+
+def fitting(sampler, n):
+    """The largest number up to n of points that a pattern makes; Mitsuba's own samplers make what they are asked for."""
+    while sampler in OURS:
+        try:
+            koksma.generate(sampler, n, 2)
+            break
+        except koksma.ArgumentError:
+            n -= 1
+    return n
 
 
 def show(ranking, names, notes):
@@ -44,18 +56,23 @@ def main():
     parser.add_argument("--trials", type=int, default=64)
     parser.add_argument("--time-limit", type=float, default=600)
     parser.add_argument("--metric", default="mae")
+    parser.add_argument("--only", choices=("samples", "time"))
     a = parser.parse_args()
     scene, samplers = mi.cornell_box(), [*koksma.mitsuba.OWN, *OURS]
     samplers.remove("orthogonal")  # it takes squares of primes only, and rounds other numbers up
     options = dict(size=(a.side, a.side), time_limit=a.time_limit, max_trials=a.trials, metric=a.metric)
-    print(f"Mitsuba {mi.__version__}, its Cornell box, {a.spp} samples a pixel:\n")
-    equal = koksma.mitsuba.rank(scene, samplers, a.spp, **options)
-    bands = {r.pattern: f"{r.coherence:.1f}{' bands' if r.coherent else ''}" for r in equal.rows}
-    show(equal, {s: s for s in samplers}, ("coherence", bands))
+    if a.only != "time":
+        print(f"Mitsuba {mi.__version__}, its Cornell box, {a.spp} samples a pixel:\n")
+        equal = koksma.mitsuba.rank(scene, samplers, a.spp, **options)
+        bands = {r.pattern: f"{r.coherence:.1f}{' bands' if r.coherent else ''}" for r in equal.rows}
+        show(equal, {s: s for s in samplers}, ("coherence", bands))
+    if a.only == "samples":
+        return
     seconds = dict(zip(samplers, koksma.mitsuba.times(scene, samplers, a.spp, size=(256, 256), repeats=2, clock=time.process_time)))
-    # A factor of 1 is a name, too: no sampler stands twice, and the reference is the plain one.
+    # A factor of 1 is a name, too: no sampler stands twice, and the reference is the plain one. Mitsuba's own samplers round
+    # numbers up that they can't make, and warn.
     factors = {s: seconds["independent"] / seconds[s] for s in samplers}
-    names = {f"{s}*{factors[s]:.2f}": s for s in samplers}
+    names = {f"{s}*{fitting(s, max(1, round(a.spp * factors[s]))) / a.spp:.5f}": s for s in samplers}
     print(f"At the time of `independent` with {a.spp} samples:\n")
     show(koksma.mitsuba.rank(scene, list(names), a.spp, reference="independent", **options), names,
          ("samples (seconds of a large picture)", {n: f"{max(1, round(a.spp * float(n.partition('*')[2])))} ({seconds[s]:.2f})"

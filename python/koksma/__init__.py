@@ -14,7 +14,7 @@ try:
 except ModuleNotFoundError:
     raise ImportError("koksma needs NumPy: apt install python3-numpy, or pip install numpy") from None
 
-from ._compare import Comparison, MetricValue, compare
+from ._compare import Comparison, MetricValue, compare, metrics
 from ._datasheet import Datasheet, datasheet
 from ._display import load_ipython_extension, unload_ipython_extension
 from ._engine import Engine
@@ -22,11 +22,11 @@ from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, i
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)
 from ._optimise import Optimum, optimise
-from ._points import (Finding, Member, Modifier, Value, Witness, canonical, generate, has_ranges, measure, measures, modifiers, patterns,
-                      read, verify, write)
+from ._points import (Finding, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, measure, measures, modifiers,
+                      patterns, read, verify, warps, write)
 from ._plot import Picture, plot, plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, rank
-from ._render import read_image, render, scenes, version
+from ._render import Layers, adaptive, filters, integrators, read_image, render, scenes, version, write_image
 from ._series import Convergence, Trials, convergence, trials
 from ._spectrum import PairCorrelation, Spectrum, pair_correlation, spectrum
 from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
@@ -34,9 +34,9 @@ from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
-    "Integrand", "Integration", "MalformedError", "Member", "MetricValue", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
+    "Integrand", "Integration", "Layers", "MalformedError", "Member", "MetricValue", "MissingError", "Modifier", "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
     "Ranked", "Ranking", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
-    "Witness", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "has_ranges", "integrand", "integrands", "integrate", "measure", "measures",
-    "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence",
-    "rank", "read", "read_image", "render", "scenes", "sensitivity", "spectrum", "trials", "verify", "version", "write",
+    "Witness", "adaptive", "audit", "canonical", "compare", "convergence", "datasheet", "filters", "generate", "has_ranges", "integrand", "integrands", "integrate", "integrators", "measure", "measures",
+    "metrics", "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence",
+    "rank", "read", "read_image", "render", "scenes", "sensitivity", "spectrum", "trials", "verify", "version", "warps", "write", "write_image",
 ]

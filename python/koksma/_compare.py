@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, check, lab, text
+from ._points import Named, named
 
 FEW_PIXELS = 0.5  #: the share of the error in 0.1 % of the pixels from which on koksma warns
 
@@ -74,7 +75,12 @@ def _metric(name: str) -> Tuple[s.MetricSpec, str]:
     return spec, canonical.value.decode()
 
 
-def _as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
+def metrics() -> List[Named]:
+    """All metrics of the error of images, in the table's order."""
+    return named(lab().koksma_metric_at)
+
+
+def as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
     given = np.asanyarray(image)
     if given.dtype.kind not in "buifO":
         raise ArgumentError(f"pixels are real numbers, not {given.dtype}")
@@ -88,7 +94,7 @@ def _as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
     return array
 
 
-def _view(array: npt.NDArray[np.float32]) -> s.Image:
+def view_image(array: npt.NDArray[np.float32]) -> s.Image:
     height, width, channels = array.shape
     return s.Image(width, height, channels, array.ctypes.data_as(POINTER(c_float)))
 
@@ -98,7 +104,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     """Compares an image, or several in a list or another iterable, with a reference, all of linear light.
 
     Several images are those of one pattern with several seeds; an iterator is asked for one at a time. metrics: beside
-    rmse, such as "relmse", "smape:epsilon=0.001" or "hdr-flip:ppd=40" (`koksma list metrics`). A RuntimeWarning says where
+    rmse, such as "relmse", "smape:epsilon=0.001" or "hdr-flip:ppd=40" (`koksma.metrics()`). A RuntimeWarning says where
     0.1 % of the pixels carry half of the error or more.
 
     >>> import koksma
@@ -117,16 +123,16 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
         several = [images] if images and np.ndim(images[0]) < 2 else images
     else:
         several = images  # type: ignore[assignment]
-    target = _as_image(reference)
-    c_target, raw, error, values = _view(target), s.Coherence(), s.ImageError(), s.CoherenceValues()
+    target = as_image(reference)
+    c_target, raw, error, values = view_image(target), s.Coherence(), s.ImageError(), s.CoherenceValues()
     errors: List[List[float]] = []
     found: Dict[str, List[List[float]]] = {name: [] for name in specs}
     value = s.MetricValue()
     check(lab().koksma_coherence_init(byref(raw), target.shape[1], target.shape[0]))
     try:
         for image in several:
-            array = _as_image(image)
-            c_image = _view(array)
+            array = as_image(image)
+            c_image = view_image(array)
             check(lab().koksma_image_compare(byref(c_image), byref(c_target), byref(error)))
             check(lab().koksma_coherence_add(byref(raw), byref(c_image), byref(c_target)))
             for name, spec in specs.items():

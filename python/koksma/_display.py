@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._compare import _as_image, _view
+from ._compare import as_image, view_image
 from ._library import check, lab
 from ._plot import Picture, _figure, _free, plot
 
@@ -55,7 +55,7 @@ def chart(x_label: str, y_label: str, curves: Sequence[Tuple[str, npt.ArrayLike,
 
 def png(image: npt.ArrayLike) -> bytes:
     """An image of linear light as the bytes of a PNG file, encoded as sRGB."""
-    view, data, size = _view(_as_image(image)), POINTER(c_ubyte)(), c_size_t()
+    view, data, size = view_image(as_image(image)), POINTER(c_ubyte)(), c_size_t()
     check(lab().koksma_image_png_bytes(byref(view), byref(data), byref(size)))
     try:
         return ctypes.string_at(data, size.value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import re
 from ctypes import POINTER, byref, c_bool, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache
 from operator import index
@@ -112,6 +113,7 @@ def core() -> ctypes.CDLL:
     _declare(library, c_double, "koksma_best_rate", POINTER(s.Measure), c_int)
     _declare(library, c_int, "koksma_pair_correlation", points, c_double, c_size_t, run, POINTER(c_double))
     _declare(library, c_void_p, "koksma_warp_find", c_char_p)
+    _declare(library, POINTER(s.Named), "koksma_warp_at", c_size_t)
     _declare(library, c_int, "koksma_warp_evaluate", c_void_p, spec, points, run, POINTER(s.Value))
     _declare(library, c_int, "koksma_verify", points, run, POINTER(s.Findings))
     _declare(library, None, "koksma_findings_fini", POINTER(s.Findings))
@@ -151,9 +153,16 @@ def lab() -> ctypes.CDLL:
         _declare(library, c_char_p, f"koksma_{name}_name", c_int)
     for name in ("integrator", "filter"):
         _declare(library, c_void_p, f"koksma_{name}_find", c_char_p)
+    for name, kind in (("integrator", s.Named), ("filter", s.Named), ("metric", s.Named), ("adaptive", s.Adaptive)):
+        _declare(library, POINTER(kind), f"koksma_{name}_at", c_size_t)
     _declare(library, None, "koksma_render_options_init", options, c_void_p)
     _declare(library, c_int, "koksma_render_patterns", c_char_p, options)
     _declare(library, c_int, "koksma_render", c_void_p, options, POINTER(s.Run), image)
+    _declare(library, c_int, "koksma_render_layers", c_void_p, options, POINTER(s.Run), POINTER(s.Layers))
+    _declare(library, None, "koksma_layers_fini", POINTER(s.Layers))
+    _declare(library, c_int, "koksma_adaptive_parse", c_char_p, POINTER(s.AdaptiveOptions))
+    _declare(library, c_int, "koksma_render_adaptive", c_void_p, options, POINTER(s.AdaptiveOptions), POINTER(s.Run),
+             POINTER(s.Layers), POINTER(s.AdaptiveReport))
     _declare(library, c_int, "koksma_datasheet", POINTER(s.DatasheetOptions), POINTER(s.Run), POINTER(c_void_p))
     _declare(library, c_int, "koksma_datasheet_page", c_char_p, POINTER(c_void_p))
     _declare(library, c_int, "koksma_rank_patterns", POINTER(s.RankOptions), POINTER(s.Run), POINTER(s.RankRow),
@@ -195,7 +204,7 @@ def check(status: int) -> None:
     """Raises what a failed call has to say."""
     if status == 0:
         return
-    text = core().koksma_error_text().decode(errors="replace")
+    text = re.sub(r"'koksma list (\w+)'", r"koksma.\1()", core().koksma_error_text().decode(errors="replace"))
     kind = _CLASSES[status] if status < len(_CLASSES) else Error
     error = kind(text)
     if isinstance(error, Error):

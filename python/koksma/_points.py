@@ -18,11 +18,17 @@ from ._library import ArgumentError, call, check, core, spec, text, whole, witho
 PointArray = npt.NDArray[np.float64]
 SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
+_CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
+           "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
+           "latin-prefixes", "independent")  # by their bits
 
 
 @dataclass(frozen=True)
 class Member:
-    """A line of the table of patterns, measures or integrands."""
+    """A line of the table of patterns, measures or integrands.
+
+    claims: what a pattern claims, as in <koksma/claims.def>; empty for others.
+    """
 
     name: str
     title: str
@@ -31,6 +37,16 @@ class Member:
     max_dim: int
     parameters: Tuple[str, ...]
     reads_file: bool = False  # its text has the path of a file: "file:PATH"
+    claims: Tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Named:
+    """A line of one of the other tables."""
+
+    name: str
+    title: str
+    cite: str
 
 
 @dataclass(frozen=True)
@@ -124,9 +140,24 @@ def table(at: object) -> List[Member]:
         while m.params and m.params[i].name:
             names.append(m.params[i].name.decode())
             i += 1
+        claims = tuple(name for bit, name in enumerate(_CLAIMS) if getattr(m, "claims", 0) >> bit & 1)
         members.append(Member(m.name.decode(), m.title.decode(), m.cite.decode(), m.min_dim, m.max_dim, tuple(names),
-                              getattr(m, "takes_path", False)))
+                              getattr(m, "takes_path", False), claims))
     return members
+
+
+def named(at: Any) -> List[Named]:
+    """The members of another table, by the function that returns member i."""
+    found: List[Named] = []
+    while at(len(found)):
+        m = at(len(found)).contents
+        found.append(Named(m.name.decode(), m.title.decode(), m.cite.decode()))
+    return found
+
+
+def warps() -> List[Named]:
+    """All warps, in the table's order."""
+    return named(core().koksma_warp_at)
 
 
 def patterns() -> List[Member]:

@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex,
 import numpy.typing as npt
 
 from . import _structs as s
-from ._compare import _as_image, _metric
+from ._compare import as_image, _metric
 from ._library import ArgumentError, call, lab, text, whole
 from ._points import canonical
 from ._render import _found
@@ -125,7 +125,7 @@ class _Renderer:
         p = picture.contents
         asked = Asked(os.fsdecode(p.scene), os.fsdecode(p.pattern), p.spp, (p.width, p.height) if p.width else None, p.seed)
         try:
-            pixels = _as_image(self.renderer(asked))
+            pixels = as_image(self.renderer(asked))
             height, width, channels = pixels.shape
             status = lab().koksma_image_init(image, width, height, channels)
             if status == 0:

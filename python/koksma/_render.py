@@ -2,16 +2,18 @@
 """The renderer of libkoksma-lab."""
 from __future__ import annotations
 
+import math
 import os
 from ctypes import byref, c_void_p
-from typing import Dict, List, Optional, SupportsIndex, Tuple, Union
+from dataclasses import dataclass
+from typing import Dict, List, Literal, Optional, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, call, check, core, lab, text, whole
-from ._points import free_with, shown
+from ._points import Named, free_with, named, shown
 
 
 def scenes() -> List[str]:
@@ -20,6 +22,21 @@ def scenes() -> List[str]:
     while lab().koksma_scene_name_at(len(names)):
         names.append(lab().koksma_scene_name_at(len(names)).decode())
     return names
+
+
+def integrators() -> List[Named]:
+    """All integrators, in the table's order."""
+    return named(lab().koksma_integrator_at)
+
+
+def filters() -> List[Named]:
+    """All pixel filters, in the table's order."""
+    return named(lab().koksma_filter_at)
+
+
+def adaptive() -> List[Named]:
+    """All methods of adaptive sampling, in the table's order."""
+    return named(lab().koksma_adaptive_at)
 
 
 def _choice(kind: str, word: str) -> int:
@@ -34,22 +51,74 @@ def _choice(kind: str, word: str) -> int:
 def _found(kind: str, name: str) -> int:
     found = getattr(lab(), f"koksma_{kind}_find")(text(name))
     if not found:
-        raise ArgumentError(f"no {kind} '{name}'; 'koksma list {kind}s' names them")
+        raise ArgumentError(f"no {kind} '{name}'; koksma.{kind}s() names them")
     return found
 
 
+@dataclass(frozen=True, eq=False)
+class Layers:
+    """An image and further values of its pixels, arrays of shape (height, width, channels).
+
+    Attributes
+    ----------
+    image : ndarray
+        Linear light, 1 or 3 channels.
+    albedo, normal, depth : ndarray
+        Of the first hit, means over the samples; of adaptive sampling over those of the first round. 3, 3 and 1 channels.
+    samples, variance : ndarray
+        Number of samples of a pixel, and the variance of its luminance as if they were independent.
+    rays : int
+        Rays cast.
+    rounds, splits : int
+        Of adaptive sampling: rounds after the first, and strata that were split.
+    """
+
+    image: npt.NDArray[np.float32]
+    albedo: npt.NDArray[np.float32]
+    normal: npt.NDArray[np.float32]
+    depth: npt.NDArray[np.float32]
+    samples: npt.NDArray[np.float32]
+    variance: npt.NDArray[np.float32]
+    rays: int
+    rounds: int
+    splits: int
+
+    def __repr__(self) -> str:
+        height, width, channels = self.image.shape
+        return (f"Layers({width} x {height} pixels, {channels} channel{'s' * (channels > 1)}, {self.samples.mean():.6g} samples a "
+                f"pixel, {self.rays} rays)")
+
+
+@overload
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
-           filter: Optional[str] = None, threads: SupportsIndex = 0) -> npt.NDArray[np.float32]:
+           depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
+           adaptive: Optional[str] = None, budget: float = 0, layers: Literal[False] = False,
+           threads: SupportsIndex = 0) -> npt.NDArray[np.float32]: ...
+@overload
+def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
+           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
+           pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
+           depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
+           adaptive: Optional[str] = None, budget: float = 0, layers: Literal[True],
+           threads: SupportsIndex = 0) -> Layers: ...
+def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
+           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
+           pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
+           depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
+           adaptive: Optional[str] = None, budget: float = 0, layers: bool = False,
+           threads: SupportsIndex = 0) -> Union[npt.NDArray[np.float32], Layers]:
     """Renders a scene that ships, or a JSON file (a path, or a text with a '/' or that ends in ".json").
 
     pattern: of all uses of a sample; or also patterns of single uses and of groups of uses, which one pattern of their
     total dimension samples together, with ';' between: "random;lens=sobol;pixel+time=scan-time".
-    size: (width, height); the scene's own when left out. The other arguments are those of `koksma render`, and give
-    the same bits. Returns linear light of shape (height, width, channels), channels 1 or 3; row 0 is on top.
+    size: (width, height); the scene's own when left out. adaptive: a method, such as "hierarchical:levels=2", that takes
+    more samples than spp where it needs them, until it needs none or `budget` (0: no limit) is spent: samples a pixel,
+    averaged over the image; some methods draw strata of their own, and take no pattern. The other arguments are those of `koksma render`, and give the same bits. Returns linear light
+    of shape (height, width, channels), channels 1 or 3; row 0 is on top; with layers=True a `Layers`, whose image it is.
     """
-    handle, options, image = c_void_p(), s.RenderOptions(), s.Image()
+    handle, options, image, every, report = c_void_p(), s.RenderOptions(), s.Image(), s.Layers(), s.AdaptiveReport()
     choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),
                                "lights": _choice("light_selection", lights)}
     spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
@@ -69,13 +138,36 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
             options.integrator = _found("integrator", integrator)
         if filter is not None:
             options.filter = _found("filter", filter)
-        call(lab().koksma_render, handle, byref(options), byref(image), threads=threads, run_at=2)
+        if depth is not None:
+            options.depth = whole("depth", depth, 0, s.MAX_DEPTH)
+        options.splat = bool(splat)
+        if adaptive is not None:
+            method = s.AdaptiveOptions()
+            check(lab().koksma_adaptive_parse(text(adaptive), byref(method)))
+            if not 0 <= budget < math.inf:
+                raise ArgumentError(f"budget {budget}: it takes samples a pixel; 0: no limit")
+            if method.method.contents.own_samples and pattern != "n-rooks":
+                raise ArgumentError(f"pattern '{pattern}': adaptive method {adaptive} draws strata of its own")
+            method.budget = budget
+            call(lab().koksma_render_adaptive, handle, byref(options), byref(method), byref(every), byref(report),
+                 threads=threads, run_at=3)
+        elif budget:
+            raise ArgumentError(f"budget {budget}: it takes a method of adaptive sampling; koksma.adaptive() names them")
+        elif layers:
+            call(lab().koksma_render_layers, handle, byref(options), byref(every), threads=threads, run_at=2)
+        else:
+            call(lab().koksma_render, handle, byref(options), byref(image), threads=threads, run_at=2)
     except BaseException:  # a signal's handler's, perhaps, when the image was there
         lab().koksma_image_fini(byref(image))
+        lab().koksma_layers_fini(byref(every))
         raise
     finally:
         lab().koksma_scene_close(handle)
-    return adopt_image(image)
+    if adaptive is None and not layers:
+        return adopt_image(image)
+    names = ("image", "albedo", "normal", "depth", "samples", "variance")
+    arrays = [adopt_image(s.Image.from_buffer_copy(getattr(every, name))) for name in names]
+    return Layers(*arrays, every.rays, report.rounds, report.splits) if layers else arrays[0]
 
 
 def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
@@ -89,6 +181,14 @@ def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
     image = s.Image()
     check(lab().koksma_image_read(text(os.fspath(path)), byref(image)))
     return adopt_image(image)
+
+
+def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> None:
+    """Writes linear light, an array of shape (height, width) or (height, width, channels), as EXR, PNG or PFM by the ending."""
+    from ._compare import as_image, view_image
+
+    array = as_image(image)
+    check(lab().koksma_image_write(text(os.fspath(path)), byref(view_image(array)), None))
 
 
 def version() -> str:

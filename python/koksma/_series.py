@@ -59,6 +59,16 @@ class Trials:
     def __float__(self) -> float:
         return self.mean
 
+    def __sub__(self, other: Trials) -> Trials:
+        """The differences, set by set: their interval says which pattern has the smaller mean."""
+        if not isinstance(other, Trials):
+            return NotImplemented
+        ours, theirs = ((t.measure, t.seed, len(t.values)) for t in (self, other))
+        if ours != theirs:
+            raise ArgumentError(f"differences of {ours} and {theirs}: both take the same measure, first seed and number of sets")
+        pattern = self.pattern if self.pattern == other.pattern else f"{self.pattern} - {other.pattern}"
+        return Trials(pattern, self.measure, self.n, self.dim, self.seed, self.values - other.values, min(self.exact, other.exact))
+
     def __repr__(self) -> str:
         return (f"Trials({self.pattern!r}, n={self.n}, {self.measure!r}: {self.mean:.6g} +- {self.standard_error:.2g}, "
                 f"{len(self.values)} sets)")
@@ -112,7 +122,7 @@ class Convergence:
 
 
 def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: SupportsIndex = 2, trials: SupportsIndex = 100,
-           seed: SupportsIndex = 0, threads: SupportsIndex = 0) -> Trials:
+           seed: SupportsIndex = 0, warp: Optional[str] = None, threads: SupportsIndex = 0) -> Trials:
     """Measures many sets of a pattern.
 
     Parameters
@@ -123,6 +133,8 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
         Points of each set, and their dimensions.
     trials, seed : int
         Sets with the seeds seed .. seed + trials - 1.
+    warp : str, optional
+        Measures the points mapped by it, as `measure` does.
     threads : int
         0: one for each processor. The values do not depend on it.
 
@@ -137,16 +149,20 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
 
     Notes
     -----
-    The same values as `koksma measure pattern:SPEC@N --trials T` averages.
+    The same values as `koksma measure pattern:SPEC@N --trials T` averages. The difference of two results is that of
+    their sets, pair by pair, as with `--paired`.
 
     Examples
     --------
     >>> import koksma
     >>> koksma.trials("jittered", 64, "l2-star", trials=100)
     Trials('jittered', n=64, 'l2-star': 0.0177216 +- 0.00015, 100 sets)
+    >>> low, high = (koksma.trials("jittered", 64) - koksma.trials("random", 64)).interval
+    >>> high < 0
+    True
     """
     count, seed = whole("trials", trials, 1, 1 << 24), whole("seed", seed, 0, s.MAX_SEED)
-    found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, threads=threads) for t in range(count)]
+    found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, warp=warp, threads=threads) for t in range(count)]
     return Trials(canonical(pattern), canonical_measure(measure), whole("n", n, 1, s.MAX_COORDINATES),
                   whole("dim", dim, 1, s.MAX_DIM), seed, np.array([v.value for v in found]), sum(v.exact for v in found))
 

@@ -210,6 +210,8 @@ async function byKeyboard(page) {
     await page.setViewportSize({ width: 400, height: 800 });
     const sides = await page.evaluate(() => [document.documentElement.scrollWidth, document.body.scrollWidth, innerWidth]);
     check(sides[0] <= sides[2] && sides[1] <= sides[2], `at 400 pixels the page is ${sides} wide`);
+    const broken = await page.evaluate(() => [...document.querySelectorAll(".name:first-child")].filter(e => e.checkVisibility() && e.textContent.length > 5 && e.clientWidth < 60).map(e => e.textContent));
+    check(broken.length === 0, `at 400 pixels ${broken.length} names have a few letters a line, first ${broken[0]}`);
     // The page hears of its new width some frames later.
     const wide = () => [...document.querySelectorAll(".plot > svg")].filter(s => s.viewBox.baseVal.width > 400).length;
     let small = await page.evaluate(wide); // playwright's own waiting needs eval, which the page's policy forbids

@@ -43,7 +43,7 @@ const small = text => element("span", { class: "pm" }, text);
 function spread({ value, low, high, sd }, column) {
   const half = h => column.decimals === undefined || h < 0.5 * 10 ** -column.decimals ? general(h, 2) : h.toFixed(column.decimals);
   if (typeof sd === "number") return [" ", small(`± ${general(sd, 2)}`)];
-  if (low === high && typeof low === "number") return [];
+  if (typeof low === "number" && high - low <= 1e-12 * Math.abs(value)) return []; // rounding
   if (typeof low !== "number" || typeof high !== "number") return column.type === "interval" ? [" ", small("± ?")] : [];
   if (Math.abs(high - value - (value - low)) < 1e-6 * (high - low)) return [" ", small(`± ${half(high - value)}`)];
   return [" ", small(`${half(low)} … ${half(high)}`)];
