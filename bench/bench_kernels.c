@@ -48,6 +48,7 @@ static const koksma__dart_cells cells = {places, STRIDE, 1, N, squares};
 
 RUN(uniform, N, t->uniform(1, 2, 3, 0, N, out[0]))
 RUN(words, N, t->words(1, 2, 3, 0, N, found))
+RUN(draws, N, t->draws(1, 2, 3, 0, N, found))
 RUN(permutation, N, t->permutation(1, 2, N, found))
 RUN(quotients, N, t->quotients(N, units, 0.5, 3.1, out[0]))
 RUN(steps, N, t->steps(N, 7, 0.5, 3.1, out[0]))

@@ -71,16 +71,19 @@ bool koksma__decimal_read(const char *text, char **end, double *out)
     return true;
 }
 
-/* Digits 16 .. 0 of d < 10^17, in pairs. */
+/* Digits 16 .. 0 of d < 10^17, in pairs of its upper 9 and its lower 8, which do not wait for each other. */
 static void put_digits(uint64_t d, char text[17])
 {
-    for (int i = 15; i > 0; i -= 2) {
-        const unsigned pair = (unsigned)(d % 100);
-        d /= 100;
-        text[i] = (char)('0' + pair / 10);
-        text[i + 1] = (char)('0' + pair % 10);
+    uint32_t halves[2] = {(uint32_t)(d / 100000000), (uint32_t)(d % 100000000)};
+    for (int i = 7; i > 0; i -= 2) {
+        for (int half = 0; half < 2; half++) {
+            const uint32_t pair = halves[half] % 100;
+            halves[half] /= 100;
+            text[i + 8 * half] = (char)('0' + pair / 10);
+            text[i + 8 * half + 1] = (char)('0' + pair % 10);
+        }
     }
-    text[0] = (char)('0' + d);
+    text[0] = (char)('0' + halves[0]);
 }
 
 size_t koksma__decimal_write(double x, char text[KOKSMA__DECIMAL_ROOM])

@@ -297,7 +297,7 @@ koksma_status koksma__points_put_rows(FILE *stream, const koksma_points *points,
 {
     char text[256 * (KOKSMA__DECIMAL_ROOM + 1)];
     size_t length = 0;
-    for (size_t i = 0; i < points->n && !ferror(stream); i++) {
+    for (size_t i = 0; i < points->n && (i % 256 || !ferror(stream)); i++) {
         if (i % 256 == 0 &&
             !koksma__keep_going(progress.run, progress.done + progress.share * (double)i / (double)points->n)) {
             return koksma__fail_interrupted();

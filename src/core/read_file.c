@@ -117,7 +117,15 @@ koksma_status koksma__check_text(const unsigned char *bytes, size_t size)
                                   : KOKSMA_OK;
 }
 
-/* Reads to the end; capacity doubles, because a pipe does not tell its length, and ends at the limit. */
+/* Bytes to make room for at once: a plain file's length and one more, which shows its end; 0 for a pipe. */
+static size_t length_of(FILE *stream, size_t most)
+{
+    struct stat info;
+    const bool plain = !fstat(fileno(stream), &info) && S_ISREG(info.st_mode) && info.st_size >= 0;
+    return !plain ? 0 : (uint64_t)info.st_size < most ? (size_t)info.st_size + 1 : most + 1;
+}
+
+/* Reads to the end; capacity doubles where a file does not tell its length, as a pipe, and ends at the limit. */
 static koksma_status read_all(FILE *stream, const char *name, size_t most, koksma__check_start *check,
                               unsigned char **bytes, size_t *size)
 {
@@ -140,7 +148,8 @@ static koksma_status read_all(FILE *stream, const char *name, size_t most, koksm
         if (used < capacity || used > most) {
             break;
         }
-        capacity = 2 * capacity <= most ? 2 * capacity : most + 1;
+        const size_t length = length_of(stream, most), twice = 2 * capacity <= most ? 2 * capacity : most + 1;
+        capacity = length > capacity ? length : twice;
     }
     (*bytes)[used] = 0;
     *size = used;

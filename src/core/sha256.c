@@ -16,9 +16,19 @@ static const uint32_t constants[64] = {
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-static uint32_t rotate(uint32_t x, int n)
+static inline uint32_t rotate(uint32_t x, int n)
 {
     return x >> n | x << (32 - n);
+}
+
+/* Round k modulo 8, in which a is s[-k] and h is s[7 - k], modulo 8. */
+static inline void mix_round(uint32_t s[8], unsigned k, uint32_t add)
+{
+    const uint32_t a = s[(8 - k) % 8], b = s[(9 - k) % 8], c = s[(10 - k) % 8];
+    const uint32_t e = s[(12 - k) % 8], f = s[(13 - k) % 8], g = s[(14 - k) % 8];
+    const uint32_t t = s[(15 - k) % 8] + (rotate(e, 6) ^ rotate(e, 11) ^ rotate(e, 25)) + ((e & f) ^ (~e & g)) + add;
+    s[(11 - k) % 8] += t;
+    s[(15 - k) % 8] = t + (rotate(a, 2) ^ rotate(a, 13) ^ rotate(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
 }
 
 static void mix(uint32_t state[8], const unsigned char block[64])
@@ -34,14 +44,15 @@ static void mix(uint32_t state[8], const unsigned char block[64])
                (rotate(b, 17) ^ rotate(b, 19) ^ b >> 10);
     }
     memcpy(s, state, sizeof s);
-    for (int i = 0; i < 64; i++) {
-        const uint32_t a = s[0], e = s[4];
-        const uint32_t t =
-            s[7] + (rotate(e, 6) ^ rotate(e, 11) ^ rotate(e, 25)) + ((e & s[5]) ^ (~e & s[6])) + constants[i] + w[i];
-        const uint32_t u = (rotate(a, 2) ^ rotate(a, 13) ^ rotate(a, 22)) + ((a & s[1]) ^ (a & s[2]) ^ (s[1] & s[2]));
-        memmove(&s[1], s, 7 * sizeof *s);
-        s[4] += t;
-        s[0] = t + u;
+    for (int i = 0; i < 64; i += 8) { /* instead of moving a to h on, their roles go round */
+        mix_round(s, 0, constants[i] + w[i]);
+        mix_round(s, 1, constants[i + 1] + w[i + 1]);
+        mix_round(s, 2, constants[i + 2] + w[i + 2]);
+        mix_round(s, 3, constants[i + 3] + w[i + 3]);
+        mix_round(s, 4, constants[i + 4] + w[i + 4]);
+        mix_round(s, 5, constants[i + 5] + w[i + 5]);
+        mix_round(s, 6, constants[i + 6] + w[i + 6]);
+        mix_round(s, 7, constants[i + 7] + w[i + 7]);
     }
     for (int i = 0; i < 8; i++) {
         state[i] += s[i];

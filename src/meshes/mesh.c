@@ -55,16 +55,19 @@ static void twice_area(const koksma__mesh *m, size_t t, double out[3])
 
 static koksma_status check_vertices(koksma__mesh *m)
 {
-    for (size_t k = 0; k < 3; k++) {
-        m->low[k] = INFINITY;
-        m->high[k] = -INFINITY;
+    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            const float x = m->vertices[3 * i + k] += 0.0f; /* -0 and 0 are one place */
+            KOKSMA__FAIL_IF(!(fabsf(x) <= (float)FAR), KOKSMA_MALFORMED,
+                            "vertex %zu has a coordinate of %g: it takes -1e6 to 1e6", i, (double)x);
+            low[k] = x < low[k] ? x : low[k];
+            high[k] = x > high[k] ? x : high[k];
+        }
     }
-    for (size_t i = 0; i < 3 * m->n_vertices; i++) {
-        const double x = (double)(m->vertices[i] += 0.0f); /* -0 and 0 are one place */
-        KOKSMA__FAIL_IF(!(fabs(x) <= FAR), KOKSMA_MALFORMED,
-                        "vertex %zu has a coordinate of %g: it takes -1e6 to 1e6", i / 3, x);
-        m->low[i % 3] = fmin(m->low[i % 3], x);
-        m->high[i % 3] = fmax(m->high[i % 3], x);
+    for (size_t k = 0; k < 3; k++) {
+        m->low[k] = (double)low[k];
+        m->high[k] = (double)high[k];
     }
     for (size_t i = 0; m->uvs && i < 2 * m->n_vertices; i++) {
         KOKSMA__FAIL_IF(!(fabs((double)m->uvs[i]) <= FAR), KOKSMA_MALFORMED,

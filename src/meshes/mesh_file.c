@@ -69,17 +69,25 @@ bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MA
 
 /* ---- What readers share ------------------------------------------------------------------------------------- */
 
-void *koksma__list_add(koksma__list *list, size_t more, size_t item_size)
+bool koksma__list_reserve(koksma__list *list, size_t more, size_t item_size)
 {
     if (list->capacity - list->n < more) {
         const size_t twice = 2 * list->capacity, capacity = list->n + more > twice ? list->n + more : twice;
         void *items = capacity < SIZE_MAX / item_size ? realloc(list->items, capacity * item_size) : NULL;
         if (!items) {
             koksma__fail_memory(capacity * item_size);
-            return NULL;
+            return false;
         }
         list->items = items;
         list->capacity = capacity;
+    }
+    return true;
+}
+
+void *koksma__list_add(koksma__list *list, size_t more, size_t item_size)
+{
+    if (!koksma__list_reserve(list, more, item_size)) {
+        return NULL;
     }
     void *first = (char *)list->items + list->n * item_size;
     memset(first, 0, more * item_size);

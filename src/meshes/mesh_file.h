@@ -18,6 +18,9 @@ typedef struct koksma__list {
    the error's text then. */
 void *koksma__list_add(koksma__list *list, size_t more, size_t item_size);
 
+/* Makes room for `more` items behind the list's end; false when memory runs out, which is the error's text then. */
+bool koksma__list_reserve(koksma__list *list, size_t more, size_t item_size);
+
 /* A texture that a material names: a file beside the model, or, `within`, bytes that the model holds. */
 typedef struct koksma__file_texture {
     char *name; /* owned; NULL: there is no texture */

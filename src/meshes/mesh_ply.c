@@ -250,7 +250,7 @@ static koksma_status take_text(ply *p, const type *of, double *real, long long *
     return KOKSMA_OK;
 }
 
-static uint64_t bits_at(const unsigned char *at, size_t bytes, bool big_endian)
+static inline uint64_t bits_at(const unsigned char *at, size_t bytes, bool big_endian)
 {
     uint64_t value = 0;
     for (size_t i = 0; i < bytes; i++) {
@@ -311,15 +311,20 @@ static koksma_status check_corner(const ply *p, const element *e, size_t i, long
                         where, e->name, i, vertex, p->n_vertices);
 }
 
+/* Where the mesh has these numbers of its vertices, *step apart. NULL: it has none such (colours). */
+static float *numbers_of(const ply *p, slot to, size_t *step)
+{
+    const koksma__mesh *m = &p->mesh;
+    *step = to <= NZ ? 3 : 2;
+    return to <= Z ? m->vertices + to : to <= NZ ? m->normals + (to - NX) : to <= V ? m->uvs + (to - U) : NULL;
+}
+
 static void put_vertex(ply *p, size_t i, slot to, const type *of, double value)
 {
-    koksma__mesh *m = &p->mesh;
-    if (to <= Z) {
-        m->vertices[3 * i + to] = (float)value;
-    } else if (to <= NZ) {
-        m->normals[3 * i + to - NX] = (float)value;
-    } else if (to <= V) {
-        m->uvs[2 * i + to - U] = (float)value;
+    size_t step;
+    float *numbers = numbers_of(p, to, &step);
+    if (numbers) {
+        numbers[step * i] = (float)value;
     } else {
         p->coloured |= value != of->full;
     }
@@ -418,6 +423,107 @@ static koksma_status take_item(ply *p, const element *e, size_t i, bool vertices
     return koksma__fan_add(p->text.path, &p->indices, p->corners.items, p->corners.n);
 }
 
+/* Property `of` of binary vertices first .. first + n - 1, of which the first is at `at`, each stride bytes long. */
+static void take_column(ply *p, const property *of, const unsigned char *at, size_t stride, size_t first, size_t n)
+{
+    size_t step;
+    float *numbers = numbers_of(p, of->slot, &step);
+    if (!numbers || of->item->kind != REAL || of->item->bytes != 4 || p->big_endian) {
+        for (size_t i = 0; i < n; i++) {
+            put_vertex(p, first + i, of->slot, of->item, real_at(p, of->item, at + stride * i));
+        }
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t bits = (uint32_t)bits_at(at + stride * i, 4, false);
+        memcpy(&numbers[step * (first + i)], &bits, sizeof bits);
+    }
+}
+
+/* Binary vertices without lists, in blocks that stay in the cache, one property after the other, so that its type is
+   looked up once a block. Returns how many: all that the file has in full. */
+static size_t take_vertices(ply *p, const element *e)
+{
+    enum { BLOCK = 512 };
+    size_t stride = 0;
+    for (int k = e->first; k < e->first + e->n; k++) {
+        if (p->properties[k].count) {
+            return 0;
+        }
+        stride += p->properties[k].item->bytes;
+    }
+    const size_t there = (size_t)(p->text.end - p->text.next) / (stride ? stride : 1); /* 0: there are none */
+    const size_t n = there < e->count ? there : e->count;
+    for (size_t i = 0; i < n; i += BLOCK) {
+        const size_t block = n - i < BLOCK ? n - i : BLOCK;
+        const unsigned char *at = (const unsigned char *)p->text.next;
+        for (int k = e->first; k < e->first + e->n; at += p->properties[k++].item->bytes) {
+            if (p->properties[k].slot != UNUSED) {
+                take_column(p, &p->properties[k], at, stride, i, block);
+            }
+        }
+        p->text.next += stride * block;
+    }
+    return n;
+}
+
+/* The triangles, at most 4096, that come next in a binary file whose faces are a count in a byte and corners of 4 bytes:
+   as most are. Sets how many; none where a face is of another kind or names a vertex that is not there, which
+   take_item() sees to. */
+static koksma_status take_triangles(ply *p, const element *e, size_t most, size_t *taken)
+{
+    enum { BYTES = 13, RUN = 4096 };
+    const property *of = &p->properties[e->first];
+    const unsigned char *at = (const unsigned char *)p->text.next;
+    const size_t there = (size_t)(p->text.end - p->text.next) / BYTES, before = p->indices.n;
+    size_t n = 0;
+    *taken = 0;
+    most = most < there ? most : there;
+    if (p->is_text || e->n != 1 || of->slot != CORNERS || of->count->bytes != 1 || of->item->bytes != 4 ||
+        before / 3 + RUN > KOKSMA__MAX_TRIANGLES) {
+        return KOKSMA_OK;
+    }
+    if (!before) { /* all faces may be triangles: their corners take less than the file does */
+        KOKSMA__TRY(koksma__list_reserve(&p->indices, 3 * most, sizeof(uint32_t)) ? KOKSMA_OK : KOKSMA_MEMORY);
+    }
+    most = most < RUN ? most : RUN;
+    while (n < most && at[BYTES * n] == 3) {
+        n++;
+    }
+    if (!n) {
+        return KOKSMA_OK;
+    }
+    uint32_t *to = koksma__list_add(&p->indices, 3 * n, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    for (bool there_are = true; *taken < n && there_are; at += BYTES, to += 3) {
+        for (size_t c = 0; c < 3; c++) {
+            to[c] = (uint32_t)bits_at(at + 1 + 4 * c, 4, p->big_endian);
+            there_are &= to[c] < p->n_vertices;
+        }
+        *taken += there_are;
+    }
+    p->indices.n = before + 3 * *taken;
+    p->text.next += BYTES * *taken;
+    return KOKSMA_OK;
+}
+
+static koksma_status take_element_items(ply *p, const element *e)
+{
+    const bool vertices = !strcmp(e->name, "vertex");
+    koksma_status status = KOKSMA_OK;
+    size_t i = vertices && !p->is_text ? take_vertices(p, e) : 0;
+    while (!status && i < e->count) {
+        size_t taken;
+        status = take_triangles(p, e, e->count - i, &taken);
+        if (!status && !taken) {
+            status = take_item(p, e, i, vertices);
+            taken = 1;
+        }
+        i += taken;
+    }
+    return status;
+}
+
 /* Room for the vertices, with what their properties are. */
 static koksma_status make_mesh(ply *p)
 {
@@ -456,11 +562,7 @@ koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__
     status = status ? status : check_length(p);
     status = status ? status : make_mesh(p);
     for (int k = 0; !status && k < p->n_elements; k++) {
-        const element *e = &p->elements[k];
-        const bool vertices = !strcmp(e->name, "vertex");
-        for (size_t i = 0; !status && i < e->count; i++) {
-            status = take_item(p, e, i, vertices);
-        }
+        status = take_element_items(p, &p->elements[k]);
     }
     status = status ? status : finish(p);
     koksma__mesh_fini(&p->mesh);

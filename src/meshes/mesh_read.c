@@ -57,7 +57,8 @@ static koksma_status check_start(const unsigned char *bytes, size_t size)
     return binary ? KOKSMA_OK : koksma__check_text(bytes, size);
 }
 
-koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out)
+/* hashed: else out->hash is unknown, which takes as long as reading a binary file. */
+static koksma_status read_meshes(const char *path, koksma__named by, bool hashed, koksma__mesh_file *out)
 {
     unsigned char *bytes = NULL;
     size_t size = 0;
@@ -72,8 +73,13 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma_
     }
     *kept = bytes;
     KOKSMA__FAIL_IF(!size, KOKSMA_MALFORMED, "%s: empty", path);
-    out->hash = how->times * koksma__hash(bytes, size);
+    out->hash = hashed ? how->times * koksma__hash(bytes, size) : 0;
     return how->read(bytes, size, out);
+}
+
+koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out)
+{
+    return read_meshes(path, by, true, out);
 }
 
 /* ---- One mesh ------------------------------------------------------------------------------- */
@@ -137,7 +143,7 @@ static koksma_status join(const koksma__mesh_file *f, koksma__mesh *out)
 koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
 {
     koksma__mesh_file f;
-    koksma_status status = koksma__mesh_file_read(path, KOKSMA__BY_FILE, &f);
+    koksma_status status = read_meshes(path, KOKSMA__BY_FILE, false, &f);
     if (!status) {
         const koksma__file_placement *first = f.placements.items;
         if (f.placements.n == 1 && !memcmp(first->matrix, identity, sizeof identity)) {

@@ -207,6 +207,84 @@ static void the_cube_of_turk(void **state)
     }
 }
 
+/* A binary file of many blocks of vertices and runs of triangles, with quadrilaterals and an edge among them; `bad` is
+   the number of the corner that names a vertex that is not there. Returns its length. */
+enum { MANY_VERTICES = 1300, MANY_FACES = 9000 };
+static size_t write_many(bool big, const char *index_type, size_t bad, unsigned char *file, float (*corners)[3],
+                         size_t *n_corners)
+{
+    size_t n = (size_t)sprintf((char *)file,
+                               "ply\nformat binary_%s_endian 1.0\nelement vertex %d\nproperty uchar flag\n"
+                               "property float x\nproperty double y\nproperty short z\nproperty float weight\n"
+                               "element face %d\nproperty list uchar %s vertex_indices\nend_header\n",
+                               big ? "big" : "little", MANY_VERTICES, MANY_FACES, index_type);
+    for (int i = 0; i < MANY_VERTICES; i++) {
+        n += put(file + n, 'B', i % 256, big);
+        n += put(file + n, 'f', i + 0.25, big);
+        n += put(file + n, 'd', i * 700, big);
+        n += put(file + n, 's', i % 700 - 350, big);
+        n += put(file + n, 'f', -1, big);
+    }
+    *n_corners = 0;
+    for (int face = 0, corner = 0; face < MANY_FACES; face++) {
+        const int sides = face % 4500 == 4499 ? 4 : face == 7 ? 2 : 3;
+        n += put(file + n, 'B', sides, big);
+        for (int k = 0; k < sides; k++, corner++) {
+            const int vertex = (size_t)corner == bad ? MANY_VERTICES : (face * 7 + k * k * 11) % MANY_VERTICES;
+            n += put(file + n, *index_type == 'i' ? 'i' : 'I', vertex, big);
+        }
+        for (int k = 0; k < 3 * (sides - 2); k++) { /* of a quadrilateral 0 1 2 and 0 2 3 */
+            const int of = k == 3 ? 0 : k > 3 ? k - 2 : k, i = (face * 7 + of * of * 11) % MANY_VERTICES;
+            const float place[3] = {(float)i + 0.25f, (float)(i * 700), (float)(i % 700 - 350)};
+            memcpy(corners[(*n_corners)++], place, sizeof place);
+        }
+    }
+    return n;
+}
+
+static void many_faces_of_binary_ply(void **state)
+{
+    static unsigned char file[1 << 18];
+    static float corners[3 * MANY_FACES + 64][3];
+    size_t n_corners;
+    (void)state;
+    for (int form = 0; form < 4; form++) {
+        const size_t n = write_many(form & 1, form & 2 ? "int" : "uint", SIZE_MAX, file, corners, &n_corners);
+        write_bytes("many.ply", file, n);
+        koksma__mesh mesh = read_mesh("many.ply", n_corners, corners);
+        assert_int_equal(mesh.n_vertices, MANY_VERTICES);
+        koksma__mesh_fini(&mesh);
+        write_bytes("many.ply", file, n - 5);
+        assert_int_equal(koksma__mesh_read("many.ply", &mesh), KOKSMA_MALFORMED);
+        assert_non_null(strstr(koksma_error_text(), "the file ends within element 'face' number 8999 of 9000"));
+        write_bytes("many.ply", file, write_many(form & 1, "int", 18000, file, corners, &n_corners));
+        assert_int_equal(koksma__mesh_read("many.ply", &mesh), KOKSMA_MALFORMED);
+        assert_non_null(strstr(koksma_error_text(), "face 6000 names vertex 1300; there are 1300, from 0 on"));
+    }
+    unlink("many.ply");
+}
+
+/* The header's counts fit the file, but a face takes more of it than it must. */
+static void a_ply_that_ends_among_its_vertices(void **state)
+{
+    static const char text[] = "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar int "
+                               "vertex_index\nelement vertex 3\nproperty float x\nproperty float y\n"
+                               "property float z\nend_header\n\3\0\0\0\0\1\0\0\0\2\0\0\0";
+    static const char no_vertex[] = "ply\nformat binary_little_endian 1.0\nelement vertex 0\nelement face 1\n"
+                                    "property list uchar int vertex_index\nend_header\n\2\0\0\0";
+    unsigned char file[sizeof text + 36] = {0};
+    koksma__mesh mesh = {0};
+    (void)state;
+    write_bytes("short.ply", no_vertex, sizeof no_vertex - 1);
+    assert_int_equal(koksma__mesh_read("short.ply", &mesh), KOKSMA_MALFORMED);
+    assert_non_null(strstr(koksma_error_text(), "the file ends within element 'face' number 0 of 1"));
+    memcpy(file, text, sizeof text - 1);
+    write_bytes("short.ply", file, sizeof text - 1 + 35);
+    assert_int_equal(koksma__mesh_read("short.ply", &mesh), KOKSMA_MALFORMED);
+    assert_non_null(strstr(koksma_error_text(), "the file ends within element 'vertex' number 2 of 3"));
+    unlink("short.ply");
+}
+
 /* MeshLab's texture coordinates of corners, and the texture's name. */
 static void wedges_of_ply_are_of_vertices(void **state)
 {
@@ -460,6 +538,8 @@ int main(void)
         cmocka_unit_test(the_cubes_of_the_obj_manual),
         cmocka_unit_test(corners_of_obj_name_three_things),
         cmocka_unit_test(the_cube_of_turk),
+        cmocka_unit_test(many_faces_of_binary_ply),
+        cmocka_unit_test(a_ply_that_ends_among_its_vertices),
         cmocka_unit_test(wedges_of_ply_are_of_vertices),
         cmocka_unit_test(a_pyramid_in_off),
         cmocka_unit_test(decimals_are_the_nearest_floats),

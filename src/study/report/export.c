@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "core/atomic_file.h"
-#include "core/c_locale.h"
 #include "core/csv.h"
 #include "core/json_writer.h"
 #include "core/npy.h"
@@ -62,23 +61,24 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
     values_of(series, result, values);
     for (int k = 0; k < N_FIRST; k++) {
         koksma__csv_put(f, text_of(series, k));
-        putc(',', f);
+        putc_unlocked(',', f);
     }
     for (int k = 0; k < N_WHOLES; k++) {
-        fprintf(f, "%lld,", whole_of(series, k));
+        koksma__csv_put_whole(f, (uint64_t)whole_of(series, k));
+        putc_unlocked(',', f);
     }
-    fprintf(f, "%lld,%llu", result->trial, (unsigned long long)result->seed);
+    koksma__csv_put_whole(f, (uint64_t)result->trial);
+    putc_unlocked(',', f);
+    koksma__csv_put_whole(f, result->seed);
     for (int k = 0; k < N_VALUES; k++) {
-        putc(',', f);
-        if (!isnan(values[k])) {
-            koksma__fprintf(f, "%.17g", values[k]);
-        }
+        putc_unlocked(',', f);
+        koksma__csv_put_number(f, values[k]);
     }
     for (int k = N_FIRST; k < N_TEXTS; k++) {
-        putc(',', f);
+        putc_unlocked(',', f);
         koksma__csv_put(f, text_of(series, k));
     }
-    putc('\n', f);
+    putc_unlocked('\n', f);
     return KOKSMA_OK;
 }
 
@@ -215,8 +215,8 @@ static koksma_status put_npy(void *context, const koksma__series *series, const 
 
 typedef struct hasher {
     koksma__sha256 hash;
-    char *text; /* of the stream: one row */
-    size_t size;
+    char *text; /* of the stream: some rows */
+    size_t size, rows;
     writer writer;
 } hasher;
 
@@ -234,7 +234,7 @@ static koksma_status hash_row(void *context, const koksma__series *series, const
 {
     hasher *h = context;
     put_csv(&h->writer, series, result);
-    return hash_text(h);
+    return ++h->rows % 256 ? KOKSMA_OK : hash_text(h);
 }
 
 koksma_status koksma__rows_sha256(koksma__store *store, char text[KOKSMA__SHA256_TEXT])
@@ -246,8 +246,8 @@ koksma_status koksma__rows_sha256(koksma__store *store, char text[KOKSMA__SHA256
         return koksma__fail_memory(1);
     }
     put_csv_header(h.writer.stream);
-    koksma_status status = hash_text(&h);
-    status = status ? status : koksma__store_visit(store, hash_row, &h);
+    koksma_status status = koksma__store_visit(store, hash_row, &h);
+    status = status ? status : hash_text(&h);
     fclose(h.writer.stream);
     free(h.text);
     koksma__sha256_finish(&h.hash, text);

@@ -22,6 +22,7 @@ typedef enum koksma__query {
     KOKSMA__PUT_ROWS,
     KOKSMA__GET_ROW,
     KOKSMA__GET_RESULTS,
+    KOKSMA__FILTER_RESULTS,
     KOKSMA__GET_IDS,
     KOKSMA__GET_SERIES,
     KOKSMA__LAST_SERIES,
