@@ -8,7 +8,7 @@
  *     {curve:OPTION}, {chart:OPTION}       power, rings, ...: those that take an option
  *     {curve-meanings}, {chart-meanings}   a paragraph each
  *     {property-meanings}                  a paragraph each, of `verify`
- *     {image-formats}, {images}            .exr, .png or .pfm; .exr|.png|.pfm
+ *     {image-formats}, {images}            .exr, .png, .pfm or .jpg; .exr|.png|.pfm|.jpg
  *     {lists}                              patterns|measures|...: what `list` lists
  *
  * Other braces stay as they are. The texts are kept until the program ends, in one block of fixed size; a text that

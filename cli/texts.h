@@ -9,7 +9,7 @@
  */
 const cli_command *cli_expand(const cli_command *command, size_t i);
 
-/* The endings of image files with `comma` between and `last` before the last one, as ".exr, .png or .pfm". Returns text. */
+/* The endings of image files with `comma` between and `last` before the last one, as ".exr, .png, .pfm or .jpg". Returns text. */
 const char *cli_image_formats(const char *comma, const char *last, char *text, size_t size);
 
 /* What `koksma list` lists (command_list.c), with `comma` between. Returns text. */

@@ -125,10 +125,13 @@ static void formats_know_their_files_only(void **state)
     (void)state;
     static const struct {
         const char *format, *head;
-    } heads[] = {{"exr", "\x76\x2f\x31\x01\2\0\0\0"}, {"png", "\x89PNG\r\n\x1a\n"}, {"pfm", "Pf\n1 1\n-1\n...."}};
+    } heads[] = {{"exr", "\x76\x2f\x31\x01\2\0\0\0"},
+                 {"png", "\x89PNG\r\n\x1a\n"},
+                 {"pfm", "Pf\n1 1\n-1\n...."},
+                 {"jpg", "\xff\xd8\xff\xe0\0\x10JF"}};
     for (size_t i = 0; koksma__image_format_at(i); i++) {
         const koksma__image_format *format = koksma__image_format_at(i);
-        for (size_t k = 0; k < 3 && !format->left_out; k++) {
+        for (size_t k = 0; k < 4 && !format->left_out; k++) {
             assert_int_equal(format->recognises((const unsigned char *)heads[k].head, 8),
                              !strcmp(format->name, heads[k].format));
         }

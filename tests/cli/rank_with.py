@@ -89,7 +89,7 @@ def main():
                             (command.replace("{out.pfm}", "x"), "lacks {out}"),
                             ("exit 5", "lacks {out}"),
                             ("exit 5; echo {out}", "exit code 5"),
-                            ("echo text >{out}", "neither EXR nor PNG nor PFM"),
+                            ("echo text >{out}", "neither EXR nor PNG nor PFM nor JPG"),
                             ("true {out}", "No such file"),
                             (f"{command.replace('{width}', '9')}", "9 x ")):
             code, rows, said = rank(bad, "fine,coarse", "--size", "48x32")

@@ -23,6 +23,7 @@ only() {
 only 'png\.h' src/image/png.c
 only 'openexr\.h' src/image/exr_openexr.c
 only 'OpenEXR/' src/image/exr_rgba.c
+only 'jpeglib\.h' src/image/jpeg_turbo.c
 only 'cairo' src/plot/cairo.c
 only 'sqlite3\.h' src/study/store/database.c
 only 'jansson\.h' src/json/json.c

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Fuzzes the reader of JPEG files: bytes that it recognises give an image or an error. */
+#include "image/formats.h"
+#include "target.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    koksma_image image = {0};
+    if (koksma__format_jpg.recognises(bytes, size)) {
+        fuzz_check_status(koksma__format_jpg.read(bytes, size, &image));
+        koksma_image_fini(&image);
+    }
+    return 0;
+}

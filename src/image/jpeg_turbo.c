@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The module koksma-jpeg.so: JPEG by libjpeg-turbo, baseline and progressive, grey or in colour (ITU-T T.81, T.871). Levels
+ * are sRGB's, as in png.c; a profile in the file is not applied. Files are written without subsampling at quality 100.
+ *
+ * A file that is cut short is an error, although the library would fill the rest with grey; so is one with more than 1000
+ * scans, of which each takes as long as the whole picture. The library ends by longjmp out of on_error().
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jpeglib.h>
+
+#include <jerror.h>
+
+#include "image/jpeg.h"
+#include "modules/module_side.h"
+
+#define HOST ((const koksma__jpeg_host *)koksma__own_host->functions)
+
+enum { SCANS = 1000 };
+
+typedef struct errors {
+    struct jpeg_error_mgr manager; /* first: the library knows no other part */
+    jmp_buf back;
+    char message[JMSG_LENGTH_MAX];
+    bool no_memory;
+} errors;
+
+static void on_error(j_common_ptr jpeg)
+{
+    errors *e = (errors *)(void *)jpeg->err;
+    e->no_memory = e->manager.msg_code == JERR_OUT_OF_MEMORY;
+    e->manager.format_message(jpeg, e->message);
+    longjmp(e->back, 1);
+}
+
+/* A warning about the file's end is an error; what else the library finds odd, such as bytes between markers, is not. */
+static void on_message(j_common_ptr jpeg, int level)
+{
+    if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) {
+        on_error(jpeg);
+    }
+}
+
+static void on_progress(j_common_ptr jpeg)
+{
+    if (jpeg->is_decompressor && ((j_decompress_ptr)jpeg)->input_scan_number > SCANS) {
+        ERREXIT(jpeg, JERR_BAD_PROGRESSION);
+    }
+}
+
+static void set_errors(errors *e)
+{
+    jpeg_std_error(&e->manager);
+    e->manager.error_exit = on_error;
+    e->manager.emit_message = on_message;
+}
+
+static koksma_status fail(const errors *e)
+{
+    return koksma__fail(e->no_memory ? KOKSMA_MEMORY : KOKSMA_MALFORMED, "as a JPEG: %s", e->message);
+}
+
+/* ---- Reading ------------------------------------------------------------------------------------------ */
+
+static float to_linear(int level)
+{
+    const double s = level / 255.0;
+    return (float)(s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4));
+}
+
+/* May longjmp, as read_rows may; nothing here that would need releasing. */
+static bool read_head(struct jpeg_decompress_struct *jpeg, errors *e, const unsigned char *bytes, size_t size)
+{
+    if (setjmp(e->back)) {
+        return false;
+    }
+    jpeg_create_decompress(jpeg);
+    jpeg_mem_src(jpeg, bytes, size);
+    jpeg_read_header(jpeg, TRUE);
+    jpeg->out_color_space = jpeg->num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
+    return true;
+}
+
+static bool read_rows(struct jpeg_decompress_struct *jpeg, errors *e, unsigned char *row, koksma_image *out)
+{
+    const size_t count = (size_t)out->width * (size_t)out->channels;
+    float table[256];
+    for (int i = 0; i < 256; i++) {
+        table[i] = to_linear(i);
+    }
+    if (setjmp(e->back)) {
+        return false;
+    }
+    jpeg_start_decompress(jpeg);
+    while (jpeg->output_scanline < jpeg->output_height) {
+        float *to = out->pixels + jpeg->output_scanline * count;
+        jpeg_read_scanlines(jpeg, &row, 1);
+        for (size_t i = 0; i < count; i++) {
+            to[i] = table[row[i]];
+        }
+    }
+    jpeg_finish_decompress(jpeg);
+    return true;
+}
+
+static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    struct jpeg_decompress_struct jpeg;
+    struct jpeg_progress_mgr progress = {.progress_monitor = on_progress};
+    errors e = {.no_memory = false};
+    memset(&jpeg, 0, sizeof jpeg);
+    set_errors(&e);
+    jpeg.err = &e.manager;
+    koksma_status status = read_head(&jpeg, &e, bytes, size) ? KOKSMA_OK : fail(&e);
+    if (!status) {
+        const int channels = jpeg.num_components == 1 ? 1 : 3;
+        jpeg.progress = &progress;
+        /* 2^15 blocks of 8 x 8 may be one run of a progressive file */
+        status = HOST->image_claim(jpeg.image_width, jpeg.image_height, channels, size, 64.0 * 32768, out);
+        unsigned char *row = status ? NULL : malloc((size_t)out->width * (size_t)channels);
+        if (!status && !row) {
+            status = koksma__fail_memory((size_t)out->width * (size_t)channels);
+        }
+        status = status ? status : read_rows(&jpeg, &e, row, out) ? KOKSMA_OK : fail(&e);
+        free(row);
+    }
+    jpeg_destroy_decompress(&jpeg);
+    return status;
+}
+
+/* ---- Writing ------------------------------------------------------------------------------------------ */
+
+static unsigned char to_level(float linear)
+{
+    const double x = linear >= 0 ? fmin((double)linear, 1) : 0; /* NaN is 0 */
+    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
+    return (unsigned char)(255 * s + 0.5);
+}
+
+static bool write_rows(struct jpeg_compress_struct *jpeg, errors *e, const koksma_image *image, const char *metadata,
+                       unsigned char *row, unsigned char **bytes, unsigned long *size)
+{
+    const size_t count = (size_t)image->width * (size_t)image->channels, length = strlen(metadata);
+    if (setjmp(e->back)) {
+        return false;
+    }
+    jpeg_create_compress(jpeg);
+    jpeg_mem_dest(jpeg, bytes, size);
+    jpeg->image_width = (JDIMENSION)image->width;
+    jpeg->image_height = (JDIMENSION)image->height;
+    jpeg->input_components = image->channels;
+    jpeg->in_color_space = image->channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
+    jpeg_set_defaults(jpeg);
+    jpeg_set_quality(jpeg, 100, TRUE);
+    jpeg->comp_info[0].h_samp_factor = jpeg->comp_info[0].v_samp_factor = 1;
+    jpeg_start_compress(jpeg, TRUE);
+    jpeg_write_marker(jpeg, JPEG_COM, (const JOCTET *)metadata, (unsigned)(length < 65000 ? length : 65000));
+    while (jpeg->next_scanline < jpeg->image_height) {
+        for (size_t i = 0; i < count; i++) {
+            row[i] = to_level(image->pixels[jpeg->next_scanline * count + i]);
+        }
+        jpeg_write_scanlines(jpeg, &row, 1);
+    }
+    jpeg_finish_compress(jpeg);
+    return true;
+}
+
+static koksma_status write(const koksma_image *image, const char *metadata, koksma__bytes *out)
+{
+    struct jpeg_compress_struct jpeg;
+    errors e = {.no_memory = false};
+    unsigned char *bytes = NULL;
+    unsigned long size = 0;
+    const size_t count = (size_t)image->width * (size_t)image->channels;
+    if (image->width > JPEG_MAX_DIMENSION || image->height > JPEG_MAX_DIMENSION) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a JPEG has at most %ld pixels a side", (long)JPEG_MAX_DIMENSION);
+    }
+    unsigned char *row = malloc(count);
+    if (!row) {
+        return koksma__fail_memory(count);
+    }
+    memset(&jpeg, 0, sizeof jpeg);
+    set_errors(&e);
+    jpeg.err = &e.manager;
+    koksma_status status = KOKSMA_OK;
+    if (!write_rows(&jpeg, &e, image, metadata, row, &bytes, &size)) {
+        status = fail(&e);
+    } else if (!HOST->bytes_put(out, 0, bytes, size)) {
+        status = koksma__fail_memory(size);
+    }
+    jpeg_destroy_compress(&jpeg);
+    free(bytes);
+    free(row);
+    return status;
+}
+
+static const koksma__jpeg_functions functions = {read, write};
+KOKSMA__MODULE(functions)

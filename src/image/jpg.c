@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* JPEG as an image format: known here, read and written by the module koksma-jpeg.so, which the first file loads. */
+#include <string.h>
+
+#include "image/jpeg.h"
+
+static const koksma__jpeg_host host = {koksma__bytes_put, koksma__image_claim};
+static const koksma__module module = {"jpeg", "libjpeg-turbo", {koksma__fail, koksma__fail_memory, &host}};
+
+static bool recognises(const unsigned char *bytes, size_t size)
+{
+    static const unsigned char magic[3] = {0xff, 0xd8, 0xff};
+    return size >= 3 && !memcmp(bytes, magic, 3);
+}
+
+static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    const void *functions;
+    const koksma_status status = koksma__module_load(&module, &functions);
+    return status ? status : ((const koksma__jpeg_functions *)functions)->read(bytes, size, out);
+}
+
+static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
+{
+    const void *functions;
+    const koksma_status status = koksma__module_load(&module, &functions);
+    (void)n; /* one has a place */
+    return status ? status : ((const koksma__jpeg_functions *)functions)->write(layers->image, metadata, out);
+}
+
+const koksma__image_format koksma__format_jpg = {.name = "jpg",
+                                                 .recognises = recognises,
+                                                 .read = read,
+                                                 .write = write,
+                                                 .error = 4.0 / 255 * 2.4 /
+                                                          1.055, /* four levels where the curve is steepest, at 1 */
+                                                 .module = &module};
