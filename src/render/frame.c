@@ -140,12 +140,12 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
         lobes = KOKSMA__LOBE_DIFFUSE;
     }
     const bool one = koksma__light_selection(scene, options) != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
-    const int lights = one ? 1 : (int)scene->n_lights;
+    const int lights = one ? 1 : (int)scene->n_lights, past = flags->weight == KOKSMA__WEIGHT_ZERO;
     return (koksma__use_list){.lens = scene->camera.lens_radius > 0,
                               .time = scene->moves,
                               .lights = flags->areas ? lights : 0,
                               .light_choice = one,
-                              .vertices = lobes & flags->followed ? depth_of(options) + 1 : 1};
+                              .vertices = lobes & flags->followed ? depth_of(options) + 1 + past : 1};
 }
 
 bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i)

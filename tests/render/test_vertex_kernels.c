@@ -109,8 +109,9 @@ static void run(const koksma__batch_table *batch, const koksma__frame *f, const 
     out->surfaces.table = &f->lane_materials;
     batch->surfaces(rays, KOKSMA__BLOCK, KOKSMA__BLOCK, &out->surfaces);
     batch->beams(lights, hits, u, KOKSMA__BLOCK, &out->beams);
-    out->lit = batch->reflect(&out->surfaces, lights, &out->beams, f->flags->followed, goes_on, KOKSMA__BLOCK,
-                              &out->shadows, out->reflected);
+    out->lit = batch->reflect(&out->surfaces, lights, &out->beams, f->flags->followed,
+                              goes_on ? KOKSMA__WEIGHT_POWER : KOKSMA__WEIGHT_ONE, KOKSMA__BLOCK, &out->shadows,
+                              out->reflected);
     batch->scatter(&out->surfaces, f->flags->followed, u + 2, KOKSMA__BLOCK, &out->directions);
 }
 

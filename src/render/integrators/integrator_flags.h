@@ -4,6 +4,7 @@
 #define KOKSMA_RENDER_INTEGRATORS_INTEGRATOR_FLAGS_H
 
 #include "render/materials/materials.h"
+#include "render/pipelines/batch.h"
 
 struct koksma__frame;
 
@@ -11,10 +12,11 @@ typedef struct koksma__integrator_flags {
     unsigned followed; /* lobes whose directions are followed further; the others see lights only */
     bool areas;        /* lights are sampled all over; else from their centres */
     bool shadows;
-    bool ambient;   /* the scene's ambient stands for light between diffuse surfaces */
-    bool branches;  /* glass sends two rays */
-    bool roulette;  /* dim paths end at random */
-    bool is_biased; /* converges to something else than its formula, even without its depth limit */
+    bool ambient;                /* the scene's ambient stands for light between diffuse surfaces */
+    bool branches;               /* glass sends two rays */
+    bool roulette;               /* dim paths end at random */
+    koksma__light_weight weight; /* of light that sampling it and a followed lobe can both find */
+    bool is_biased;              /* converges to something else than its formula, even without its depth limit */
     /* NULL, or: what is made before the picture, kept in frame->cache; and what it says of the light that diffuse
        surfaces send to s at a time, as irradiance / pi, added to out. */
     koksma_status (*open)(struct koksma__frame *frame, const koksma_run *run);

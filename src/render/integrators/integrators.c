@@ -80,11 +80,19 @@ static const koksma__integrator_flags ambient_occlusion = {.followed = KOKSMA__L
  * end at the depth limit; and no path finds the light that reaches a surface by a mirror or glass from lights that
  * rays can't meet (points, directional lights, lights that are not `visible`).
  */
-static const koksma__integrator_flags path = {.followed =
-                                                  KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE,
-                                              .areas = true,
-                                              .shadows = true,
-                                              .roulette = true};
+#define PATH                                                                                                         \
+    .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE, .areas = true, .shadows = true,  \
+    .roulette = true
+static const koksma__integrator_flags path = {PATH};
+
+/*
+ * path-balance, path-light, path-bsdf: path with other weights, for studies of the strategies (Veach 1997, section 9.2):
+ * the balance heuristic p / (p + q); lights that rays can meet by sampling them alone, but for what mirrors and glass show;
+ * and by reflected rays alone. What rays can't meet is sampled by all. They have the mean of path at any depth.
+ */
+static const koksma__integrator_flags path_balance = {PATH, .weight = KOKSMA__WEIGHT_BALANCE};
+static const koksma__integrator_flags path_light = {PATH, .weight = KOKSMA__WEIGHT_ONE};
+static const koksma__integrator_flags path_bsdf = {PATH, .weight = KOKSMA__WEIGHT_ZERO};
 
 /* irradiance-cache: as distribution, with light between diffuse surfaces from the cache instead of ambient light. */
 static const koksma__integrator_flags irradiance_cache = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY,
@@ -101,6 +109,10 @@ static const koksma_integrator rows[] = {
     {"distribution", "soft shadows, lens, motion, glossy reflection", "cook1984 shirley1991", 6, &distribution},
     {"path", "path tracing with next-event estimation; caustics of visible lights only", "kajiya1986 veach1997", 16,
      &path},
+    {"path-balance", "path with the balance heuristic in place of the power heuristic", "kajiya1986 veach1997", 16,
+     &path_balance},
+    {"path-light", "path with lights found by sampling them alone", "kajiya1986 veach1997", 16, &path_light},
+    {"path-bsdf", "path with lights found by reflected rays alone", "kajiya1986 veach1997", 16, &path_bsdf},
     {"direct", "soft shadows of lights alone; mirrors and glass", "shirley1996", 6, &direct},
     {"ambient-occlusion", "how much of a white sky surfaces see; shapes only", "zhukov1998", 1, &ambient_occlusion},
     {"irradiance-cache", "diffuse light between surfaces, interpolated", "ward1988", 6, &irradiance_cache},

@@ -66,6 +66,15 @@ typedef struct koksma__shadows {
     const int32_t *aimed;
 } koksma__shadows;
 
+/* How the light of a sampled direction counts that a ray along a lobe could find too, of density p by sampling and q by
+   the lobe: the heuristics of Veach 1997, section 9.2, and one strategy alone. */
+typedef enum koksma__light_weight {
+    KOKSMA__WEIGHT_POWER,   /* p^2 / (p^2 + q^2) */
+    KOKSMA__WEIGHT_BALANCE, /* p / (p + q) */
+    KOKSMA__WEIGHT_ONE,     /* sampling lights alone */
+    KOKSMA__WEIGHT_ZERO     /* sampling lobes alone */
+} koksma__light_weight;
+
 /* Direction of film position (x, y): base + x step_x + y step_y. */
 typedef struct koksma__batch_camera {
     float eye[3], base[3], step_x[3], step_y[3];

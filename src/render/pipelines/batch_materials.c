@@ -175,14 +175,18 @@ static void values(const koksma__surfaces *s, const koksma__lanes *w, unsigned l
 
 /* ---- Light that is reflected ---------------------------------------------------------------------------------- */
 
-/* Adds to shadows and reflected what is not weighed (met NULL) or weighed by the power heuristic against met. */
+/* Adds to reflected; a visible light is weighed against what `values` has as the density of meeting it. */
 INLINE void weigh(const koksma__light_lanes *restrict l, const koksma__beams *restrict b,
-                  const koksma__bsdf_values *restrict values, bool weighed, int n, koksma__lanes *restrict reflected)
+                  const koksma__bsdf_values *restrict values, koksma__light_weight weight, int n,
+                  koksma__lanes *restrict reflected)
 {
+    const int weighed = weight != KOKSMA__WEIGHT_ONE, squared = weight == KOKSMA__WEIGHT_POWER;
+    const float most = weight == KOKSMA__WEIGHT_ZERO ? 0 : 1;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         const float probability = l->probability[i], sampled = b->pdf[i] * probability, met = values->pdf[i];
-        const float ours = sampled * sampled, shared = ours / (ours + met * met);
+        const float ours = sampled * (squared ? sampled : 1),
+                    shared = most * (ours / (ours + met * (squared ? met : 1)));
         const int shares = weighed & (b->visible[i] != 0) & (sampled > 0);
         const float scale = (shares ? shared : 1) / probability;
         reflected[0][i] += values->value[0][i] * b->value[0][i] * scale;
@@ -192,7 +196,7 @@ INLINE void weigh(const koksma__light_lanes *restrict l, const koksma__beams *re
 }
 
 int BATCH_NAME(reflect)(const struct koksma__surfaces *s, const struct koksma__light_lanes *l,
-                        const struct koksma__beams *restrict b, unsigned followed, bool goes_on, int n,
+                        const struct koksma__beams *restrict b, unsigned followed, koksma__light_weight weight, int n,
                         koksma__shadows *restrict shadows, float (*restrict reflected)[KOKSMA__BLOCK])
 {
     const unsigned shown = KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY; /* specular lobes have no value */
@@ -204,11 +208,11 @@ int BATCH_NAME(reflect)(const struct koksma__surfaces *s, const struct koksma__l
     }
     if (shown & ~followed & koksma__lobes_of(s)) {
         values(s, b->w, shown & ~followed, n, &found);
-        weigh(l, b, &found, false, n, reflected);
+        weigh(l, b, &found, KOKSMA__WEIGHT_ONE, n, reflected);
     }
     if (shown & followed & koksma__lobes_of(s)) {
         values(s, b->w, shown & followed, n, &found);
-        weigh(l, b, &found, goes_on, n, reflected);
+        weigh(l, b, &found, weight, n, reflected);
     }
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {

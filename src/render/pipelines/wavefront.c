@@ -22,7 +22,9 @@
  * Light that both steps could find, by sampling the light and by a reflected ray that meets it, is shared by the
  * power heuristic (Veach 1997, section 9.2): each is weighed by m = p^2 / (p^2 + q^2), with p the density by which it
  * was found and q that of the other way; the two m of one direction add to 1. A path carries the density of its last
- * direction for this (0 after a mirror, whose light no sampling finds: m = 1).
+ * direction for this (0 after a mirror, whose light no sampling finds: m = 1). Integrators may have other weights: the
+ * balance heuristic, or 1 and 0. Where lobes alone find the light, paths take one ray more, past the depth limit, which
+ * finds what sampling the lights of the last vertex would have: all weights have the same mean, at any depth.
  *
  * What is random comes from uses (samples/uses.def): lobe, lobe choice, lights and roulette of vertex b have keys of
  * their own, so that the patterns under study, not the tracer, decide how vertices are stratified.
@@ -158,8 +160,8 @@ static koksma__v3 direction_at(const koksma__paths *p, int i)
     return koksma__v3_unit((koksma__v3){p->rays.dx[i], p->rays.dy[i], p->rays.dz[i]});
 }
 
-/* The part of the light that counts for a ray which met a light by its own direction: the power heuristic against
-   sampling that light, whose density for the direction is pdf. */
+/* The part of the light that counts for a ray which met a light by its own direction, weighed against sampling that
+   light, whose density for the direction is pdf. */
 static float met_weight(const koksma__frame *frame, const koksma__paths *p, int i, size_t light, float pdf)
 {
     if (!(p->pdf[i] > 0)) {
@@ -167,7 +169,16 @@ static float met_weight(const koksma__frame *frame, const koksma__paths *p, int 
     }
     const float o[3] = {p->rays.ox[i], p->rays.oy[i], p->rays.oz[i]}, n[3] = {p->n[0][i], p->n[1][i], p->n[2][i]};
     const float sampled = pdf * koksma__light_probability(frame, o, n, (int)light);
-    return p->pdf[i] * p->pdf[i] / (p->pdf[i] * p->pdf[i] + sampled * sampled);
+    switch (frame->flags->weight) {
+    case KOKSMA__WEIGHT_BALANCE:
+        return p->pdf[i] / (p->pdf[i] + sampled);
+    case KOKSMA__WEIGHT_ONE:
+        return sampled > 0 ? 0 : 1;
+    case KOKSMA__WEIGHT_ZERO:
+        return 1;
+    default:
+        return p->pdf[i] * p->pdf[i] / (p->pdf[i] * p->pdf[i] + sampled * sampled);
+    }
 }
 
 static void add_scaled(koksma__vertices *v, int i, const float value[3], float scale)
@@ -278,10 +289,21 @@ static koksma_status branch(const koksma__trace *trace, const koksma__vertices *
     return status;
 }
 
+/* Lobes that go on from here. The ray past the depth limit stands for samples of lights, which specular lobes don't
+   reflect. */
+static unsigned followed_at(const koksma__trace *trace)
+{
+    const koksma__frame *frame = trace->frame;
+    return trace->bounce < frame->depth ? frame->flags->followed
+           : trace->bounce > frame->depth || frame->flags->weight != KOKSMA__WEIGHT_ZERO
+               ? 0
+               : frame->flags->followed & ~(unsigned)KOKSMA__LOBE_SPECULAR;
+}
+
 /* The pairs that the lanes' directions take: (u[0], u[1]), and u[2] for the choice of a lobe. */
 static koksma_status draw_directions(const koksma__trace *trace, const koksma__vertices *v, koksma__lanes u[3])
 {
-    const unsigned lobes = koksma__lobes_of(&v->surfaces) & trace->frame->flags->followed;
+    const unsigned lobes = koksma__lobes_of(&v->surfaces) & followed_at(trace);
     const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
     const float *us;
     memset(u, 0, 3 * sizeof *u);
@@ -316,7 +338,8 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
     koksma__queue *queue = trace->next;
     koksma__directions to;
     _Alignas(64) koksma__lanes u[3];
-    if (!(flags->followed & koksma__lobes_of(&v->surfaces)) || trace->bounce >= trace->frame->depth) {
+    const unsigned followed = followed_at(trace);
+    if (!(followed & koksma__lobes_of(&v->surfaces))) {
         return KOKSMA_OK;
     }
     for (int i = 0; flags->branches && i < v->n; i++) {
@@ -326,7 +349,7 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
         }
     }
     KOKSMA__TRY(draw_directions(trace, v, u));
-    batch->scatter(&v->surfaces, flags->followed, u, v->whole, &to);
+    batch->scatter(&v->surfaces, followed, u, v->whole, &to);
     if (batch->weigh(v->paths, v->whole, &to) && flags->roulette && trace->bounce >= 4) {
         KOKSMA__TRY(play_roulette(trace, v, &to));
     }
@@ -387,6 +410,7 @@ static void fill_lanes(koksma__paths *p, int n, int whole)
 
 static koksma_status trace_block(const koksma__trace *trace, koksma__paths *paths, int n, koksma__values *values)
 {
+    static const float black[3] = {0, 0, 0};
     const koksma__frame *frame = trace->frame;
     koksma__vertices *v = trace->scratch->vertices;
     koksma__hits *hits = &v->hits;
@@ -405,7 +429,7 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     }
     values->rays += (uint64_t)n;
     frame->batch->surfaces(&paths->rays, n, v->whole, &v->surfaces);
-    frame->batch->background(frame->background, v);
+    frame->batch->background(trace->bounce > frame->depth ? black : frame->background, v);
     if (v->surfaces.traits & KOKSMA__HAS_IMAGE) {
         add_textures(frame, v);
     }

@@ -3,7 +3,7 @@
  * What lights give at a block of vertices: a position on each, or on one that is chosen, and a shadow ray there.
  * The choice (Shirley 1991, section 5.4; Shirley, Wang & Zimmerman 1996) is in proportion to what each light
  * would give without shadows, so one shadow ray a vertex is enough for many of them; the estimate is divided by the
- * probability. Light that a followed lobe would meet by itself too is weighed by the power heuristic.
+ * probability. Light that a followed lobe would meet by itself too is weighed as the integrator's flags have it.
  */
 #include <string.h>
 
@@ -67,8 +67,10 @@ static void add_samples(const koksma__trace *trace, koksma__vertices *v, const k
         memset(u, 0, sizeof u);
     }
     frame->batch->beams(l, &v->hits, u, v->whole, &beams);
-    const int sampled = frame->batch->reflect(&v->surfaces, l, &beams, frame->flags->followed,
-                                              trace->bounce < frame->depth, v->whole, &shadows, reflected);
+    const bool meets = trace->bounce < frame->depth || frame->flags->weight == KOKSMA__WEIGHT_ZERO;
+    const koksma__light_weight weight = meets ? frame->flags->weight : KOKSMA__WEIGHT_ONE;
+    const int sampled =
+        frame->batch->reflect(&v->surfaces, l, &beams, frame->flags->followed, weight, v->whole, &shadows, reflected);
     if (!sampled) {
         return;
     }
@@ -111,7 +113,7 @@ koksma_status koksma__wavefront_light(const koksma__trace *trace, koksma__vertic
     const float *us = NULL, *choices = NULL;
     koksma__light_lanes l = {.lights = frame->lights.lights, .same = -1, .centres = !frame->flags->areas};
     _Alignas(64) koksma__lanes u;
-    if (!v->surfaces.traits || !frame->lights.n) {
+    if (!v->surfaces.traits || !frame->lights.n || trace->bounce > frame->depth) {
         return KOKSMA_OK;
     }
     if (frame->light_selection == KOKSMA_LIGHTS_ALL) {
