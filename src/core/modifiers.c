@@ -33,6 +33,7 @@ enum { DIGITS = 53, LEVELS = 7, MOST_BASE = 64 };
 #define OF_DIGITS                                                                                                    \
     (KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |                \
      KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES)
+#define OF_GROUPS (KOKSMA_CLAIM_PAIRS | KOKSMA_CLAIM_QUADRUPLES)
 #define OF_CELLS (KOKSMA_CLAIM_LATIN | KOKSMA_CLAIM_GRID | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_OA3)
 #define OF_CUBE (ON_TORUS | OF_DIGITS | OF_CELLS | KOKSMA_CLAIM_MIN_DISTANCE | KOKSMA_CLAIM_NET_PREFIXES)
 
@@ -193,19 +194,19 @@ static const struct {
     koksma_modifier modifier;
     void (*apply)(uint64_t seed, double value, koksma_points *points);
 } rows[] = {
-    {{"owen", "nested uniform scrambling of binary digits (1), or none (0)", "owen1995", 1, 1, true, OF_DIGITS,
-      OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
+    {{"owen", "nested uniform scrambling of binary digits (1), or none (0)", "owen1995", 1, 1, true,
+      OF_DIGITS | OF_GROUPS, OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
       "elementary intervals in base 2: nets, and strata where n is a power of 2; t-value in base 2"},
      scramble},
     {{"digital-shift", "xor of the binary digits with those of one random point (1), or none (0)", "lecuyer2002", 1,
-      1, true, OF_DIGITS, OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
+      1, true, OF_DIGITS | OF_GROUPS, OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
       "elementary intervals in base 2: nets, and strata where n is a power of 2; t-value in base 2"},
      flip_digits},
     {{"axes", "a random order of the coordinates (1), or none (0)", "-", 1, 1, true, OF_CUBE, 0, 0, "*",
       "every measure, and all strata that do not single out a coordinate"},
      permute_axes},
-    {{"mirror", "each coordinate reflected about 1/2 or not, at random (1), or none (0)", "-", 1, 1, true, OF_CUBE, 0,
-      0, MIRROR_MEASURES,
+    {{"mirror", "each coordinate reflected about 1/2 or not, at random (1), or none (0)", "-", 1, 1, true,
+      OF_CUBE | OF_GROUPS, 0, 0, MIRROR_MEASURES,
       "strata, distances, and measures that do not single out the corner 0: not star, l2-star and l2-modified"},
      mirror},
     {{"phase", "shifted on the torus by the vector that shift has for this seed (1 or more), or not (0)",

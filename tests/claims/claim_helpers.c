@@ -175,3 +175,14 @@ bool is_net_in_base(const koksma_points *points, size_t n, size_t b)
     assert_true(points->dim <= 8);
     return is_net_from(points, n, b, use, ms, 0, n);
 }
+
+koksma_points projection_of(const koksma_points *points, int k, int count)
+{
+    koksma_points projection;
+    assert_ok(koksma_points_init(&projection, points->n, count));
+    for (size_t i = 0; i < points->n; i++) {
+        memcpy(projection.xs + i * (size_t)count, points->xs + i * (size_t)points->dim + k,
+               (size_t)count * sizeof *points->xs);
+    }
+    return projection;
+}

@@ -53,6 +53,9 @@ bool is_net2_block(const koksma_points *points, size_t first, size_t n);
 /* The first n = b^m points, in up to 8 dimensions, are a (0,m,dim)-net in base b. */
 bool is_net_in_base(const koksma_points *points, size_t n, size_t b);
 
+/* Coordinates k .. k + count - 1 of all points. */
+koksma_points projection_of(const koksma_points *points, int k, int count);
+
 /* Means over sets of what a box and bands hold of all points, or of the first, in standard errors. */
 void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only);
 

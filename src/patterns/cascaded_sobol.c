@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * cascaded-sobol: n = 2^m points; a coordinate, as a whole number below n, is the index of the next one's point in a
+ * dimension of Sobol'. Each two consecutive coordinates thus are a (0,m,2)-net in base 2.
+ *
+ *     y_0 = the m bits of i reversed,  y_k+1 = the first m digits of dimension k + 2 of Sobol' at index y_k,  x_k = y_k / n
+ *
+ * Source: Paulin, Coeurjolly, Iehl, Bonneel, Keller & Ostromoukhov 2021. Their numbers are optimised; here they are those
+ * of Joe & Kuo 2008. A one-dimensional digital sequence beside its index is a (0,m,2)-net (Niederreiter 1987), for any
+ * numbers. There are m digits: the modifier owen scrambles them and adds random ones below. All points depend on n.
+ */
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/sobol_table.h"
+
+enum { BITS = 32, MOST_LEVELS = 31 };
+
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
+{
+    const uint32_t(*directions)[BITS] = context;
+    uint32_t v[KOKSMA__COLUMN_BLOCK];
+    koksma__kernels()->digital(count, directions[k], koksma__digital_start(directions[k], first), v);
+    koksma__kernels()->fractions(count, v, xs);
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    (void)seed;
+    int m = 0;
+    while (m < MOST_LEVELS && (uint64_t)1 << m < out->n) {
+        m++;
+    }
+    KOKSMA__FAIL_IF((uint64_t)1 << m != out->n, KOKSMA_N,
+                    "cascaded-sobol: n = %zu is not a power of two up to 2^%d; n = %zu would do", out->n, MOST_LEVELS,
+                    (size_t)1 << m);
+    const size_t bytes = (size_t)out->dim * BITS * sizeof(uint32_t);
+    uint32_t(*directions)[BITS] = calloc(1, bytes);
+    KOKSMA__REQUIRE_MEMORY(directions, bytes);
+    for (int b = 0; b < m; b++) {
+        directions[0][b] = 0x80000000u >> b;
+        for (int k = 1; k < out->dim; k++) {
+            const uint32_t *next = koksma__sobol_directions(k, 0), index = directions[k - 1][b] >> (BITS - m);
+            directions[k][b] = koksma__digital_start(next, index) & ~(0xffffffffu >> m);
+        }
+    }
+    const koksma_status status = koksma__range_columns(args, out, column, directions);
+    free(directions);
+    return status;
+}
+
+const koksma_pattern koksma__pattern_cascaded_sobol = {
+    .name = "cascaded-sobol",
+    .title = "n = 2^m points, each two consecutive coordinates a (0,m,2)-net: one Sobol' dimension indexes the next",
+    .cite = "paulin2021 joe2008 niederreiter1987",
+    .min_dim = 1,
+    .max_dim = KOKSMA__SOBOL_DIM,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_PAIRS,
+    .generate = generate,
+};

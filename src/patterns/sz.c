@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * sz: a digital sequence in base 2 that is a (0,256)-sequence in base 256, its dimensions 16 k .. 16 k + 15 a
+ * (0,16)-sequence in base 16, 4 k .. 4 k + 3 a (0,4)-sequence in base 4, and 2 k, 2 k + 1 a (0,2)-sequence in base 2.
+ *
+ *     x_d = matrix of d times the bits of i;   matrix of d = Q(1, d & 1) Q(2, d & 2) Q(4, d & 12) Q(8, d & 240)
+ *     Q(q, a): blocks of q x q bits, block (r, c) = binomial(c, r) a^(c-r), an element of GF(2^q) as the matrix that
+ *     multiplies the bits of others by it; dimensions count from 0
+ *
+ * Source: the aim and the use of binary matrices for powers of two are of Ahmed, Pharr, Ostromoukhov & Huang (2025); the
+ * product above is this project's. Q(q, a) for all a in GF(2^q) are Faure's matrices, which Niederreiter (1987) has for any
+ * finite field: Q(q, a) Q(q, b) = Q(q, a + b), and together they are a (0, 2^q)-sequence in base 2^q. The fields are those
+ * of nimbers, where each lies in the next: for a in GF(2^q),
+ *
+ *     Q(q, a) = (diagonal of 2q x 2q blocks) Q(2q, a^2),
+ *
+ * since binomial(2c + c', 2r + r') = binomial(c, r) binomial(c', r') modulo 2. A diagonal of blocks permutes the digits in
+ * base 2^2q, each by itself, which keeps nets. So up to such permutations the matrix of d is Q(8, a_d) with 256 different
+ * a_d, those of 16 consecutive dimensions are Q(4, ...) times one common matrix, and so on; a common upper triangular
+ * matrix on the right only permutes aligned blocks of indices. Two dimensions are the (0,2)-sequence of Sobol'.
+ *
+ * Known exactly, 2D: the points of `sobol`. Scrambled by the modifier owen, which keeps the nets of all four bases.
+ */
+#include <koksma/sampler.h>
+
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+
+enum { BITS = 32, MOST_DIM = 256 };
+
+/* The product of two nimbers of q bits, q a power of two: with F = 2^(q/2), F F = F + F/2. */
+static uint32_t product(uint32_t a, uint32_t b, int q)
+{
+    const int half = q / 2;
+    if (q == 1 || !a || !b) {
+        return a & b;
+    }
+    const uint32_t low = (1u << half) - 1, lows = product(a & low, b & low, half);
+    const uint32_t highs = product(a >> half, b >> half, half);
+    const uint32_t all = product((a >> half) ^ (a & low), (b >> half) ^ (b & low), half);
+    return (all ^ lows) << half | (lows ^ product(highs, 1u << (half - 1), half));
+}
+
+/* Q(q, a) times z; bit r of z is row r. */
+static uint32_t multiply(int q, uint32_t a, uint32_t z)
+{
+    const uint32_t digit = (1u << q) - 1;
+    uint32_t sum = z;
+    for (int c = 1; a && c < BITS / q; c++) {
+        uint32_t term = z >> c * q & digit;
+        for (int r = c - 1; term && r >= 0; r--) {
+            term = product(term, a, q);
+            sum ^= (r & ~c) ? 0 : term << r * q;
+        }
+    }
+    return sum;
+}
+
+/* Column b of the matrix of dimension d, its first row the highest bit. */
+static uint32_t column_of(int d, int b)
+{
+    const uint32_t k = (uint32_t)d;
+    uint32_t z = multiply(2, k & 2, multiply(4, k & 12, multiply(8, k & 240, 1u << b)));
+    if (d & 1) {
+        z = koksma_pascal(z);
+    }
+    return koksma_mirror(z);
+}
+
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
+{
+    const uint32_t(*directions)[BITS] = context;
+    uint32_t v[KOKSMA__COLUMN_BLOCK];
+    koksma__kernels()->digital(count, directions[k], koksma__digital_start(directions[k], first), v);
+    koksma__kernels()->fractions(count, v, xs);
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    (void)seed;
+    KOKSMA__TRY(koksma__range_fits("sz", args, out));
+    const size_t bytes = (size_t)out->dim * BITS * sizeof(uint32_t);
+    uint32_t(*directions)[BITS] = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(directions, bytes);
+    for (int d = 0; d < out->dim; d++) {
+        for (int b = 0; b < BITS; b++) {
+            directions[d][b] = column_of(d, b);
+        }
+    }
+    const koksma_status status = koksma__range_columns(args, out, column, directions);
+    free(directions);
+    return status;
+}
+
+const koksma_pattern koksma__pattern_sz = {
+    .name = "sz",
+    .title = "a sequence whose pairs, quadruples and groups of 16 are (0,s)-sequences in bases 2, 4 and 16",
+    .cite = "ahmed2025 niederreiter1987",
+    .min_dim = 1,
+    .max_dim = MOST_DIM,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 |
+              KOKSMA_CLAIM_NET2_PREFIXES | KOKSMA_CLAIM_PAIRS | KOKSMA_CLAIM_QUADRUPLES,
+    .generate = generate,
+    .ranges = koksma__ranges_always,
+};
