@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma optimise`: the best point set that a search finds, on disk after each gain. */
-#include <koksma/optimise.h>
+/* `koksma optimise`: the best point set that a search finds, on disk after each gain. Ranks of mpirun share the search;
+   rank 0 writes and prints. */
+#include <koksma/study.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "source.h"
+
+enum { MOST_PROJECTIONS = 4096 };
 
 typedef struct job {
     const cli_arguments *arguments;
@@ -15,6 +19,10 @@ typedef struct job {
     koksma_status written; /* of the last write */
     uint64_t last_gain;
     double gained_s;
+    uint64_t projections[MOST_PROJECTIONS];
+    double weights[MOST_PROJECTIONS];
+    koksma_processes ranks;
+    double first; /* the value of the first set */
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
 
@@ -24,7 +32,10 @@ static koksma_status write_best(const job *j, const koksma_optimum *best)
     char comment[KOKSMA_MAX_SPEC + 256];
     snprintf(comment, sizeof comment, "optimised for %s\nvalue %.17g\nseed %llu\nsteps %llu\nkoksma %s", j->name,
              best->value, (unsigned long long)j->options.seed, (unsigned long long)best->last_gain, koksma_version());
-    return koksma_points_write(cli_text(j->arguments, "output", NULL), &best->points, comment, NULL);
+    const char *path = cli_text(j->arguments, "output", NULL);
+    return j->ranks.rank > 0                         ? KOKSMA_OK
+           : j->options.keep == KOKSMA_KEEP_SEQUENCE ? koksma_net_write(path, &best->points, comment)
+                                                     : koksma_points_write(path, &best->points, comment, NULL);
 }
 
 static bool progress(void *context, const koksma_optimum *best)
@@ -35,6 +46,7 @@ static bool progress(void *context, const koksma_optimum *best)
         j->last_gain = best->last_gain;
         j->gained_s = now_s;
         j->written = write_best(j, best);
+        j->first = best->steps == 0 ? best->value : j->first;
     }
     char bound[48] = "";
     if (best->lower == best->lower) {
@@ -52,6 +64,9 @@ static int report(job *j, const koksma_optimum *best)
     cli_row_whole(rows, "n", best->points.n);
     cli_row_whole(rows, "dim", (uint64_t)best->points.dim);
     cli_row_number(rows, "value", best->value);
+    if (j->options.keep == KOKSMA_KEEP_SEQUENCE) {
+        cli_row_number(rows, "first", j->first);
+    }
     cli_row_number(rows, "lower", best->lower);
     cli_row_text(rows, "method", best->method);
     cli_row_whole(rows, "seed", j->options.seed);
@@ -96,18 +111,71 @@ static int first_set(job *j, bool counted, koksma_points *from)
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
+/* --weights W,..: one of each projection. */
+static bool parse_weights(job *j)
+{
+    const char *text = cli_text(j->arguments, "weights", NULL);
+    char item[64];
+    size_t n = 0;
+    for (; text && n < MOST_PROJECTIONS && cli_list_item(text, n, item, sizeof item); n++) {
+        char *end;
+        j->weights[n] = strtod(item, &end);
+        if (end == item || *end || !(j->weights[n] > 0)) {
+            cli_usage_error(j->arguments, "--weights %s: it takes numbers above 0, such as 1,1,4", text);
+            return false;
+        }
+    }
+    if (text && n != j->options.n_projections) {
+        cli_usage_error(j->arguments, "--weights %s: it takes one of each of %zu --projections", text,
+                        j->options.n_projections);
+        return false;
+    }
+    j->options.weights = text ? j->weights : NULL;
+    return true;
+}
+
+/* --projections 0+1,2: bits of coordinates. */
+static bool parse_projections(job *j)
+{
+    const char *text = cli_text(j->arguments, "projections", NULL), *at = text;
+    koksma_optimise_options *o = &j->options;
+    o->projections = j->projections;
+    if (text && !strcmp(text, "pairs")) {
+        for (int k = 0; k < o->dim && k < 64; k++) {
+            for (int l = 0; l < k; l++) {
+                j->projections[o->n_projections++] = UINT64_C(1) << k | UINT64_C(1) << l;
+            }
+        }
+        return true;
+    }
+    while (at && *at) {
+        char *end;
+        const unsigned long k = *at >= '0' && *at <= '9' ? strtoul(at, &end, 10) : 64;
+        const bool one = k < 64 && (*end == '+' || *end == ',' || !*end) && (!*end || end[1]);
+        if (!one || o->n_projections == MOST_PROJECTIONS) {
+            cli_usage_error(j->arguments,
+                            "--projections %s: it takes pairs, or coordinates from 0 on, such as 0+1,0+2", text);
+            return false;
+        }
+        j->projections[o->n_projections] |= UINT64_C(1) << k;
+        o->n_projections += *end != '+';
+        at = *end ? end + 1 : end;
+    }
+    return true;
+}
+
 static bool parse(job *j)
 {
     const cli_arguments *arguments = j->arguments;
-    static const char *const kept[] = {"none", "latin", "net"};
+    static const char *const kept[] = {"none", "latin", "net", "sequence"};
     const char *keep = cli_text(arguments, "keep", "none");
     uint64_t n, dim;
     int k = 0;
-    while (k < 3 && strcmp(keep, kept[k]) != 0) {
+    while (k < 4 && strcmp(keep, kept[k]) != 0) {
         k++;
     }
-    if (k == 3) {
-        cli_usage_error(arguments, "--keep %s: it takes none, latin or net", keep);
+    if (k == 4) {
+        cli_usage_error(arguments, "--keep %s: it takes none, latin, net or sequence", keep);
         return false;
     }
     if (!cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
@@ -120,7 +188,8 @@ static bool parse(job *j)
     j->options.n = n;
     j->options.dim = (int)dim;
     j->options.keep = (koksma_keep)k;
-    return cli_real(arguments, "time-limit", j->options.steps ? 0 : 60, 0, 1e9, &j->work.run.time_limit_s);
+    return parse_projections(j) && parse_weights(j) &&
+           cli_real(arguments, "time-limit", j->options.steps ? 0 : 60, 0, 1e9, &j->work.run.time_limit_s);
 }
 
 static int run(const cli_arguments *arguments)
@@ -151,10 +220,13 @@ static int run(const cli_arguments *arguments)
     if (!code) {
         j.work.what = j.line;
         j.gained_s = cli_seconds();
-        status = koksma_optimise(&measure, &j.options, &j.work.run, &best);
+        j.options.processes = &j.ranks;
+        status = koksma_study_mpi_processes(&j.ranks);
+        j.work.run.keep_going = j.ranks.rank > 0 ? NULL : j.work.run.keep_going;
+        status = status ? status : koksma_optimise(&measure, &j.options, &j.work.run, &best);
         cli_work_end();
         status = j.written ? j.written : status;
-        if (best.points.n && !j.written) {
+        if (best.points.n && !j.written && j.ranks.rank == 0) {
             code = report(&j, &best);
         }
         code = status ? cli_fail(arguments, status) : code;
@@ -167,8 +239,11 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out with --from FILE)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
-    {0, "from", "FILE", "the first set, also PATTERN or SPEC@N (default: latin-hypercube; with --keep net: sobol)"},
-    {0, "keep", "none|latin|net", "what the points may not lose (default: none)"},
+    {0, "from", "FILE",
+     "the first set, also PATTERN or SPEC@N (default: latin-hypercube; with --keep net or sequence: sobol)"},
+    {0, "keep", "none|latin|net|sequence", "what the points may not lose (default: none)"},
+    {0, "projections", "0+1,0+2,..|pairs", "the coordinates in which points are measured (default: all together)"},
+    {0, "weights", "W,..", "of the projections, in the root of the mean of squares (default: 1)"},
     {0, "steps", "K", "steps of a fixed amount of work: equal --seed and --steps give equal sets"},
     {0, "time-limit", "SECONDS",
      "end after the step in which so many seconds pass (default: 60, with --steps: none)"},
@@ -182,7 +257,7 @@ static const cli_option options[] = {
 const cli_command cli_command_optimise = {
     .name = "optimise",
     .summary = "search for points with a small value of a measure",
-    .synopsis = "MEASURE -n N [-d DIM] [--from FILE] [--keep WHAT] [--steps K] -o FILE",
+    .synopsis = "MEASURE -n N [-d DIM] [--from FILE] [--keep WHAT] [--projections LIST] [--steps K] -o FILE",
     .details = "MEASURE is any with exact values, such as star or l2-disk:law=area; a distance is made large. Equal "
                "arguments\n"
                "with --steps give equal sets, on any number of threads; after a time limit the row says how many "
@@ -191,10 +266,17 @@ const cli_command cli_command_optimise = {
                "search may\n"
                "be ended by Ctrl-C (exit code 130) or a kill, and --from FILE goes on.\n"
                "--keep latin only changes which coordinates go together; --keep net leaves each in its interval of "
-               "length 1/n.",
+               "length 1/n.\n"
+               "--keep sequence changes the generator matrices of a digital sequence in base 2; the value is the "
+               "geometric mean\n"
+               "of the measure over its first 2, 4, .., n points, and FILE is one that net-file:FILE reads. Under "
+               "mpirun the\n"
+               "ranks share the work.",
     .examples = "koksma optimise star -n 64 --time-limit 60 -o best.txt\n"
                 "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
-                "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n",
+                "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n"
+                "koksma optimise star -n 256 --keep sequence --steps 4 -o net.txt && koksma measure "
+                "pattern:net-file:net.txt@64 -m star\n",
     .options = options,
     .run = run,
 };

@@ -17,6 +17,7 @@
 #define KOKSMA_STUDY_H
 
 #include <koksma/koksma.h>
+#include <koksma/optimise.h>
 #include <koksma/render.h>
 
 #ifdef __cplusplus
@@ -40,6 +41,10 @@ KOKSMA_API const char *koksma_study_mpi(void);
 /* Returns the MPI rank of this process; 0 without mpirun. Ranks other than 0 open a study with folder NULL; their
    koksma_study_run works for rank 0 until all jobs are done. */
 KOKSMA_API int koksma_study_mpi_rank(void);
+
+/* The ranks of this run as processes that share a search: for koksma_optimise_options.processes. Without mpirun it is one.
+   Errors: UNSUPPORTED (mpirun started this process, and this build has no MPI). */
+KOKSMA_API koksma_status koksma_study_mpi_processes(koksma_processes *out);
 
 /* Which study to open. */
 typedef struct koksma_study_options {

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import byref
+from ctypes import byref, c_double, c_uint64
 from dataclasses import dataclass
-from typing import Callable, Optional, SupportsIndex
+from typing import Callable, Optional, Sequence, SupportsIndex
 
 import numpy.typing as npt
 
@@ -13,7 +13,7 @@ from . import _structs as s
 from ._library import ArgumentError, call, core, spec, whole
 from ._points import PointArray, as_points, shown, view
 
-_KEEP = ("none", "latin", "net")
+_KEEP = ("none", "latin", "net", "sequence")
 
 
 @dataclass(frozen=True)
@@ -40,19 +40,25 @@ def _optimum(best: s.Optimum) -> Optimum:
 
 
 def optimise(measure: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, *,
-             start: Optional[npt.ArrayLike] = None, keep: str = "none", seed: SupportsIndex = 0,
+             start: Optional[npt.ArrayLike] = None, keep: str = "none",
+             projections: Sequence[Sequence[SupportsIndex]] = (),
+             weights: Optional[Sequence[float]] = None, seed: SupportsIndex = 0,
              steps: SupportsIndex = 0, time_limit: Optional[float] = None, threads: SupportsIndex = 0,
              progress: Optional[Callable[[Optimum], object]] = None) -> Optimum:
     """Searches for n points in [0,1)^dim with a small value of a measure (a large one of a distance).
 
     measure: a spec of a measure with exact values, such as "star" or "l2-centered".
     start: the first set, an (n, dim) array; n and dim may then be left out. None: the library's own.
-    keep: "latin" changes only which coordinates go together; "net" leaves each in its interval of length 1/n.
+    keep: "latin" changes only which coordinates go together; "net" leaves each in its interval of length 1/n; "sequence"
+    changes the generator matrices of a digital sequence in base 2, and the value is the geometric mean of the measure over
+    its first 2, 4, .., n points.
+    projections: the coordinates in which points are measured, as [(0, 1), (0, 2)]; empty: all together. The value is the
+    root of the mean of the squares, with weights, one of each projection, if they are given.
     steps: of a fixed amount of work; equal steps and seed give equal sets. 0: until time_limit, in seconds.
     progress: called with the first set and after each step; returns False to stop.
     """
     if keep not in _KEEP:
-        raise ArgumentError(f"keep {keep!r}: it takes 'none', 'latin' or 'net'")
+        raise ArgumentError(f"keep {keep!r}: it takes 'none', 'latin', 'net' or 'sequence'")
     first = None if start is None else as_points(start)
     if n is None and first is None:
         raise ArgumentError("n, the number of points, is missing")
@@ -61,6 +67,8 @@ def optimise(measure: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex
     steps = whole("steps", steps, 0, s.MAX_SEED)
     if not steps and time_limit is None and progress is None:
         raise ArgumentError("the search has no end: it takes steps, time_limit or progress")
+    if weights is not None and len(weights) != len(projections):
+        raise ArgumentError(f"{len(weights)} weights: it takes one of each of {len(projections)} projections")
     raised = []
 
     def tell(_context: object, best: object) -> bool:
@@ -70,10 +78,12 @@ def optimise(measure: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex
             raised.append(error)
             return False
 
+    bits = [sum(1 << k for k in {whole("projections", k, 0, 63) for k in u}) for u in projections]
     parsed, best = spec("measure", measure), s.Optimum()
     c_first = None if first is None else ctypes.pointer(view(first))
     options = s.OptimiseOptions(n, dim, c_first, _KEEP.index(keep), whole("seed", seed, 0, s.MAX_SEED), steps,
-                                s.OptimiseProgress(tell), None)
+                                s.OptimiseProgress(tell), None, (c_uint64 * len(bits))(*bits),
+                                None if weights is None else (c_double * len(bits))(*weights), len(bits), None)
     try:
         call(core().koksma_optimise, byref(parsed), byref(options), byref(best), threads=threads,
              time_limit=time_limit, run_at=2)

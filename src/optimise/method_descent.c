@@ -2,35 +2,34 @@
 /* descent: for measures with a gradient, L-BFGS of the square of the measure from many starts (descent.c). */
 #include <string.h>
 
-#include "core/spec.h"
 #include "optimise/descent.h"
+#include "optimise/value.h"
 
 typedef struct job {
-    const koksma_measure *measure;
-    koksma_args args;
+    const koksma_spec *measure;
+    const koksma_optimise_options *options;
 } job;
 
 static koksma_status square_of(const void *context, const koksma_points *points, double *value, double *gradient)
 {
     const job *j = context;
-    return j->measure->gradient(points, &j->args, value, gradient);
+    return koksma__search_square(j->measure, j->options, points, value, gradient);
 }
 
-static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
                             koksma_points *points)
 {
-    static const koksma_run one_thread = {.threads = 1};
-    const job j = {measure->measure, koksma__spec_arguments(measure, &one_thread)};
+    const job j = {measure, o};
     koksma__stream random = {.seed = seed};
     koksma__descent d;
     const double n = (double)points->n;
-    koksma_status status = koksma__descent_init(&d, points, keep, keep == KOKSMA_KEEP_NET || !j.measure->on_torus,
-                                                n * n * points->dim + 1000);
+    koksma_status status = koksma__descent_init(
+        &d, points, o->keep, o->keep == KOKSMA_KEEP_NET || !measure->measure->on_torus, n * n * points->dim + 1000);
     double best = value * value;
     d.function = square_of;
     d.context = &j;
     while (!status && d.work < d.budget) {
-        koksma__descent_start(&d, points, keep, &random);
+        koksma__descent_start(&d, points, o->keep, &random);
         d.goal = best;
         double square;
         status = koksma__descend(&d, KOKSMA__ITERATIONS, &square);
@@ -43,10 +42,9 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
     return status;
 }
 
-static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep keep)
+static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    (void)n, (void)dim;
-    return measure->measure->gradient && keep != KOKSMA_KEEP_LATIN ? 5 : 0;
+    return measure->measure->gradient && (o->keep == KOKSMA_KEEP_NONE || o->keep == KOKSMA_KEEP_NET) ? 5 : 0;
 }
 
 const koksma_method koksma__method_descent = {

@@ -59,10 +59,10 @@ static double change(const koksma__l2_row *row, const koksma_points *points, siz
     return 2 * pairs + selves - 2 * (double)n * (linear_p - linear_q) * slope;
 }
 
-static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
                             koksma_points *points)
 {
-    (void)keep;
+    (void)o;
     koksma__stream random = {.seed = seed};
     const koksma__l2_row *row = koksma__l2_row_of(measure->measure);
     const size_t n = points->n, dim = (size_t)points->dim;
@@ -81,10 +81,9 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
     return KOKSMA_OK;
 }
 
-static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep keep)
+static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    (void)n, (void)dim;
-    return keep == KOKSMA_KEEP_LATIN && koksma__l2_row_of(measure->measure) ? 5 : 0;
+    return o->keep == KOKSMA_KEEP_LATIN && !o->n_projections && koksma__l2_row_of(measure->measure) ? 5 : 0;
 }
 
 const koksma_method koksma__method_exchange = {

@@ -9,13 +9,14 @@
 #include <string.h>
 
 #include "optimise/methods.h"
+#include "optimise/value.h"
 
 enum { MOVES = 200 };
 
-static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep keep)
+static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    (void)measure, (void)n, (void)dim, (void)keep;
-    return 1;
+    (void)measure;
+    return o->keep != KOKSMA_KEEP_SEQUENCE;
 }
 
 /* One coordinate of a point, moved by up to `reach`. */
@@ -30,12 +31,11 @@ static double moved(double x, double reach, size_t n, koksma_keep keep, koksma__
     return wrapped < 1 ? wrapped : 0;
 }
 
-static koksma_status value_of(const koksma_spec *measure, const koksma_points *points, double *value)
+static koksma_status value_of(const koksma_spec *measure, const koksma_optimise_options *o,
+                              const koksma_points *points, double *value)
 {
-    const koksma_run run = {.threads = 1};
-    koksma_value v;
-    const koksma_status status = koksma_evaluate(measure, points, &run, &v);
-    *value = measure->measure->larger_is_better ? -v.value : v.value;
+    const koksma_status status = koksma__search_value(measure, o, points, value);
+    *value = measure->measure->larger_is_better ? -*value : *value;
     return status;
 }
 
@@ -55,7 +55,7 @@ static void move(koksma_points *points, koksma_keep keep, koksma__stream *random
     }
 }
 
-static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
                             koksma_points *points)
 {
     koksma__stream random = {.seed = seed};
@@ -68,8 +68,8 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
                *b = points->xs + koksma__next_below(&random, points->n) * dim, after;
         memcpy(before, a, bytes);
         memcpy(before + dim, b, bytes);
-        move(points, keep, &random, a, b);
-        status = value_of(measure, points, &after);
+        move(points, o->keep, &random, a, b);
+        status = value_of(measure, o, points, &after);
         if (after <= current + tolerance * (1 - (double)(m + 1) / MOVES)) {
             current = after;
         } else {

@@ -619,10 +619,10 @@ static void draw_start(plane *s, double *xs)
     }
 }
 
-static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
                             koksma_points *points)
 {
-    (void)measure, (void)keep;
+    (void)measure, (void)o;
     const size_t n = points->n;
     plane s;
     koksma_status status = plane_init(&s, n, seed);
@@ -656,9 +656,12 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
     return status;
 }
 
-static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep keep)
+static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    return measure->measure == &koksma__measure_star && dim == 2 && n <= MAX_N && keep == KOKSMA_KEEP_NONE ? 10 : 0;
+    return measure->measure == &koksma__measure_star && o->dim == 2 && o->n <= MAX_N && o->keep == KOKSMA_KEEP_NONE &&
+                   !o->n_projections
+               ? 10
+               : 0;
 }
 
 const koksma_method koksma__method_star_plane = {

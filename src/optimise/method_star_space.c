@@ -344,7 +344,7 @@ static koksma_status wander(koksma_keep keep, koksma__descent *d, job *j, koksma
     return status;
 }
 
-static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
                             koksma_points *points)
 {
     (void)measure;
@@ -358,12 +358,12 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
         status = koksma__fail_memory(bytes);
     }
     if (!status) {
-        status = koksma__descent_init(&d, points, keep, true, 0);
+        status = koksma__descent_init(&d, points, o->keep, true, 0);
         if (!status) {
             d.function = excesses;
             d.context = &j;
             d.budget = fmax(1.5e7 + 6e5 * (double)n, 5 * pow((double)n + 1, 3));
-            status = wander(keep, &d, &j, &random, value, best, points);
+            status = wander(o->keep, &d, &j, &random, value, best, points);
             koksma__descent_fini(&d);
         }
     }
@@ -372,9 +372,12 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
     return status;
 }
 
-static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep keep)
+static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    return measure->measure == &koksma__measure_star && dim == 3 && n <= MAX_N && keep != KOKSMA_KEEP_LATIN ? 10 : 0;
+    return measure->measure == &koksma__measure_star && o->dim == 3 && o->n <= MAX_N && !o->n_projections &&
+                   (o->keep == KOKSMA_KEEP_NONE || o->keep == KOKSMA_KEEP_NET)
+               ? 10
+               : 0;
 }
 
 const koksma_method koksma__method_star_space = {

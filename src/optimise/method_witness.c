@@ -17,12 +17,11 @@ enum { MOVES = 200 };
 /* What counts as on the border. */
 #define NEAR 1e-9
 
-static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep keep)
+static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
     const koksma_measure *m = measure->measure;
-    (void)n;
     return m->family != KOKSMA_FAMILY_NONE && m->answer == KOKSMA_ANSWER_EXACT && !m->gradient &&
-                   dim <= KOKSMA_WITNESS_DIM && keep == KOKSMA_KEEP_NONE
+                   o->dim <= KOKSMA_WITNESS_DIM && o->keep == KOKSMA_KEEP_NONE && !o->n_projections
                ? 3
                : 0;
 }
@@ -92,10 +91,10 @@ static void move(koksma_points *points, const koksma_witness *w, koksma__stream 
     }
 }
 
-static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
                             koksma_points *points)
 {
-    (void)keep;
+    (void)o;
     static const koksma_run one_thread = {.threads = 1};
     koksma__stream random = {.seed = seed};
     const size_t bytes = points->n * (size_t)points->dim * sizeof(double);

@@ -3,11 +3,13 @@
  * koksma_optimise: steps of a fixed amount of work. A step hands the best set to SEARCHES searches of the method, with
  * a seed each, which know nothing of each other and run on any number of threads; the best of their results, the first
  * of equals, is the new best if it is better. Every result is measured by koksma_evaluate: a method's own opinion of a
- * set decides nothing.
+ * set decides nothing. Processes that share a search make every size-th search each and give the others its points and
+ * value, so that all go on from the same best set.
  */
 #include <koksma/optimise.h>
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "api/evaluate.h"
@@ -17,37 +19,48 @@
 #include "core/status.h"
 #include "measures/measures.h"
 #include "optimise/methods.h"
+#include "optimise/sequence.h"
+#include "optimise/value.h"
 
-enum { SEARCHES = 8 };
+enum { SEARCHES = 8, MOST_PROCESSES = 1024 };
 
 typedef struct step {
     const koksma_spec *measure;
     const koksma_optimise_options *options;
     const koksma_method *method;
     const koksma_optimum *best;
-    koksma_points found[SEARCHES];
-    double values[SEARCHES];
+    double *found; /* SEARCHES pieces */
+    size_t piece;  /* numbers of one */
     const koksma_run *run;
     double start_s;
 } step;
 
-static koksma_status evaluate(const koksma_spec *measure, const koksma_points *points, double *value)
+/* The smaller the better. */
+static koksma_status evaluate(const koksma_spec *measure, const koksma_optimise_options *o,
+                              const koksma_points *points, double *value)
 {
-    const koksma_run run = {.threads = 1};
-    koksma_value result;
-    const koksma_status status = koksma_evaluate(measure, points, &run, &result);
-    *value = measure->measure->larger_is_better ? -result.value : result.value;
+    const koksma_status status = koksma__search_value(measure, o, points, value);
+    *value = measure->measure->larger_is_better ? -*value : *value;
     return status;
+}
+
+/* What search i gives: its value and points, one behind the other. */
+static double *piece(const step *s, size_t i)
+{
+    return s->found + i * s->piece;
 }
 
 static koksma_status search(void *context, size_t block)
 {
     step *s = context;
     const koksma_optimum *best = s->best;
-    const uint64_t seed = koksma__random_seed(s->options->seed, best->steps * SEARCHES + block, 1);
-    memcpy(s->found[block].xs, best->points.xs, best->points.n * (size_t)best->points.dim * sizeof(double));
-    const koksma_status status = s->method->search(s->measure, s->options->keep, seed, best->value, &s->found[block]);
-    return status ? status : evaluate(s->measure, &s->found[block], &s->values[block]);
+    const koksma_processes *others = s->options->processes;
+    const size_t i = others ? block * (size_t)others->size + (size_t)others->rank : block;
+    const uint64_t seed = koksma__random_seed(s->options->seed, best->steps * SEARCHES + i, 1);
+    koksma_points points = {best->points.n, best->points.dim, piece(s, i) + 1};
+    memcpy(points.xs, best->points.xs, (s->piece - 1) * sizeof(double));
+    const koksma_status status = s->method->search(s->measure, s->options, seed, best->value, &points);
+    return status ? status : evaluate(s->measure, s->options, &points, piece(s, i));
 }
 
 /* The share of the whole search: of its steps, or of its time. */
@@ -62,31 +75,53 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(s->run, fmin(done, 1));
 }
 
+/* Searches 0 .. SEARCHES - 1 of which this process makes every size-th. */
 static koksma_status take_step(step *s, koksma_optimum *best)
 {
     const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = keep_going, .context = s};
-    const koksma_status status = koksma__parallel(&run, SEARCHES, search, s);
+    const koksma_processes *others = s->options->processes;
+    const size_t size = others ? (size_t)others->size : 1, rank = others ? (size_t)others->rank : 0;
+    koksma_status status = koksma__parallel(&run, (SEARCHES - rank + size - 1) / size, search, s);
+    if (!status && size > 1) {
+        status = others->exchange(others->context, s->found, SEARCHES, s->piece * sizeof(double));
+    }
     if (status) {
         return status;
     }
     const double sign = s->measure->measure->larger_is_better ? -1 : 1;
     best->steps++;
     for (size_t i = 0; i < SEARCHES; i++) {
-        if (s->values[i] < sign * best->value) {
-            best->value = sign * s->values[i];
+        if (*piece(s, i) < sign * best->value) {
+            best->value = sign * *piece(s, i);
             best->last_gain = best->steps;
-            memcpy(best->points.xs, s->found[i].xs, best->points.n * (size_t)best->points.dim * sizeof(double));
+            memcpy(best->points.xs, piece(s, i) + 1, (s->piece - 1) * sizeof(double));
         }
     }
     return KOKSMA_OK;
 }
 
-/* A coordinate of n points on the line alone forces 1/2n of the star discrepancy and 1/n of the extreme one. */
-static double lower_bound(const koksma_spec *measure, size_t n)
+/* Whether every process of a shared search goes on. */
+static koksma_status agree(const koksma_processes *others, bool *going)
 {
-    return measure->measure == &koksma__measure_star      ? 0.5 / (double)n
-           : measure->measure == &koksma__measure_extreme ? 1 / (double)n
-                                                          : (double)NAN;
+    double wishes[MOST_PROCESSES];
+    if (!others || others->size == 1) {
+        return KOKSMA_OK;
+    }
+    wishes[others->rank] = *going;
+    KOKSMA__TRY(others->exchange(others->context, wishes, (size_t)others->size, sizeof *wishes));
+    for (int i = 0; i < others->size; i++) {
+        *going = *going && wishes[i] > 0;
+    }
+    return KOKSMA_OK;
+}
+
+/* A coordinate of n points on the line alone forces 1/2n of the star discrepancy and 1/n of the extreme one. */
+static double lower_bound(const koksma_spec *measure, const koksma_optimise_options *o)
+{
+    return o->keep == KOKSMA_KEEP_SEQUENCE || o->n_projections ? (double)NAN
+           : measure->measure == &koksma__measure_star         ? 0.5 / (double)o->n
+           : measure->measure == &koksma__measure_extreme      ? 1 / (double)o->n
+                                                               : (double)NAN;
 }
 
 static koksma_status first_set(const koksma_optimise_options *o, const koksma_run *run, koksma_points *points)
@@ -96,7 +131,8 @@ static koksma_status first_set(const koksma_optimise_options *o, const koksma_ru
         memcpy(points->xs, o->first->xs, o->n * (size_t)o->dim * sizeof(double));
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma_pattern_spec(o->keep == KOKSMA_KEEP_NET ? "sobol" : "latin-hypercube", &spec);
+    const koksma_status status = koksma_pattern_spec(
+        o->keep == KOKSMA_KEEP_NET || o->keep == KOKSMA_KEEP_SEQUENCE ? "sobol" : "latin-hypercube", &spec);
     return status ? status : koksma_generate(&spec, o->seed, run, points);
 }
 
@@ -106,9 +142,13 @@ static koksma_status check(const koksma_spec *measure, const koksma_optimise_opt
         return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a measure with exact values, as star is",
                             measure->measure ? measure->measure->name : "koksma_optimise");
     }
-    if (o->keep != KOKSMA_KEEP_NONE && o->keep != KOKSMA_KEEP_LATIN && o->keep != KOKSMA_KEEP_NET) {
-        return koksma__fail(KOKSMA_ARGUMENT, "koksma_optimise: keep = %d is none of koksma_keep", (int)o->keep);
-    }
+    KOKSMA__FAIL_IF((unsigned)o->keep > KOKSMA_KEEP_SEQUENCE, KOKSMA_ARGUMENT,
+                    "koksma_optimise: keep = %d is none of koksma_keep", (int)o->keep);
+    KOKSMA__FAIL_IF(o->processes && (!o->processes->exchange || o->processes->rank < 0 ||
+                                     o->processes->rank >= o->processes->size || o->processes->size > MOST_PROCESSES),
+                    KOKSMA_ARGUMENT, "koksma_optimise: process %d of %d: 1 to %d processes can share a search",
+                    o->processes ? o->processes->rank : 0, o->processes ? o->processes->size : 0, MOST_PROCESSES);
+    KOKSMA__TRY(koksma__search_check(o));
     const koksma_status status = o->first ? koksma__points_check(o->first) : KOKSMA_OK;
     if (!status && o->first && (o->first->n != o->n || o->first->dim != o->dim)) {
         return koksma__fail(KOKSMA_N, "the first set has %zu points of dim = %d, not %zu of %d", o->first->n,
@@ -116,7 +156,7 @@ static koksma_status check(const koksma_spec *measure, const koksma_optimise_opt
     }
     int best = 0;
     for (size_t i = 0; koksma_method_at(i); i++) {
-        const int serves = koksma_method_at(i)->serves(measure, o->n, o->dim, o->keep);
+        const int serves = koksma_method_at(i)->serves(measure, o);
         if (serves > best) {
             best = serves;
             *method = koksma_method_at(i);
@@ -130,10 +170,15 @@ static koksma_status run_steps(step *s, koksma_optimum *best)
     const koksma_optimise_options *o = s->options;
     koksma_status status = KOKSMA_OK;
     bool going = !o->progress || o->progress(o->context, best);
+    status = agree(o->processes, &going);
     while (!status && going && (o->steps == 0 || best->steps < o->steps)) {
         status = take_step(s, best);
         going = !status && (!o->progress || o->progress(o->context, best)) &&
                 !(s->run->time_limit_s > 0 && koksma__now_s() - s->start_s >= s->run->time_limit_s);
+        status = status ? status : agree(o->processes, &going);
+    }
+    if (!status && o->processes && o->processes->done) {
+        o->processes->done(o->processes->context);
     }
     return status;
 }
@@ -147,25 +192,28 @@ koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_
     step s = {.measure = measure,
               .options = options,
               .best = out,
+              .piece = options->n * (size_t)(options->dim > 0 ? options->dim : 0) + 1,
               .run = run ? run : &unlimited,
               .start_s = koksma__now_s()};
-    *out = (koksma_optimum){.lower = lower_bound(measure, options->n)};
+    *out = (koksma_optimum){.lower = lower_bound(measure, options)};
     koksma_status status = check(measure, options, &s.method);
     status = status ? status : koksma_points_init(&out->points, options->n, options->dim);
     status = status ? status : koksma__evaluate_check("koksma_optimise", measure, &out->points);
-    for (size_t i = 0; i < SEARCHES && !status; i++) {
-        status = koksma_points_init(&s.found[i], options->n, options->dim);
+    s.found = status ? NULL : malloc(SEARCHES * s.piece * sizeof(double));
+    if (!status && !s.found) {
+        status = koksma__fail_memory(SEARCHES * s.piece * sizeof(double));
     }
     status = status ? status : first_set(options, s.run, &out->points);
-    status = status ? status : evaluate(measure, &out->points, &out->value);
+    if (!status && options->keep == KOKSMA_KEEP_SEQUENCE) {
+        status = koksma__sequence_check(&out->points);
+    }
+    status = status ? status : evaluate(measure, options, &out->points, &out->value);
     if (!status) {
         out->value = measure->measure->larger_is_better ? -out->value : out->value;
         out->method = s.method->name;
         status = run_steps(&s, out);
     }
-    for (size_t i = 0; i < SEARCHES; i++) {
-        koksma_points_fini(&s.found[i]);
-    }
+    free(s.found);
     if (status && status != KOKSMA_INTERRUPTED) {
         koksma_optimum_fini(out);
     }

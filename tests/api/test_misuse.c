@@ -346,6 +346,12 @@ static bool first_is_enough(void *context, const koksma_optimum *best)
     return false;
 }
 
+static void *digital_points(void)
+{
+    koksma_points points = test_points("sobol", 16, 2, 0);
+    return a_copy(&points, sizeof points);
+}
+
 static void *optimise_options(void)
 {
     return COPY(koksma_optimise_options, {.n = 8, .dim = 2, .steps = 1, .progress = first_is_enough});

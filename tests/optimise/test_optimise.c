@@ -86,6 +86,16 @@ static void torus_is_where_it_is_said(void **state)
     each_gradient(expect_torus);
 }
 
+/* With KOKSMA_KEEP_SEQUENCE the root of order m of the product of the values of the first 2, 4, ..., 2^m points. */
+static double kept_value(const char *measure, const koksma_points *points, koksma_keep keep)
+{
+    double product = 1, m = 0;
+    for (size_t n = 2; n <= points->n && keep == KOKSMA_KEEP_SEQUENCE; n *= 2, m++) {
+        product *= test_measure(measure, &(koksma_points){n, points->dim, points->xs}).value;
+    }
+    return keep == KOKSMA_KEEP_SEQUENCE ? pow(product, 1 / m) : test_measure(measure, points).value;
+}
+
 static koksma_optimum optimised(const char *measure, koksma_optimise_options options, int threads)
 {
     koksma_spec spec;
@@ -93,7 +103,8 @@ static koksma_optimum optimised(const char *measure, koksma_optimise_options opt
     const koksma_run run = {.threads = threads};
     assert_ok(koksma_measure_spec(measure, &spec));
     assert_ok(koksma_optimise(&spec, &options, &run, &best));
-    assert_near(best.value, test_measure(measure, &best.points).value, 0);
+    assert_near(best.value, kept_value(measure, &best.points, options.keep),
+                options.keep == KOKSMA_KEEP_SEQUENCE ? 1e-14 : 0);
     assert_true(best.steps == options.steps && best.last_gain <= best.steps);
     for (size_t c = 0; c < best.points.n * (size_t)best.points.dim; c++) {
         assert_true(best.points.xs[c] >= 0 && best.points.xs[c] < 1);
@@ -114,7 +125,8 @@ static const struct {
     {"star-space", "star", 8, 3, KOKSMA_KEEP_NONE},       {"witness", "extreme", 8, 3, KOKSMA_KEEP_NONE},
     {"perturb", "star", 8, 2, KOKSMA_KEEP_NET},           {"perturb", "star", 8, 2, KOKSMA_KEEP_LATIN},
     {"perturb", "min-distance", 8, 2, KOKSMA_KEEP_NONE},  {"witness", "edge", 8, 2, KOKSMA_KEEP_NONE},
-    {"witness", "disk", 8, 2, KOKSMA_KEEP_NONE},
+    {"witness", "disk", 8, 2, KOKSMA_KEEP_NONE},          {"digital", "star", 16, 2, KOKSMA_KEEP_SEQUENCE},
+    {"digital", "l2-star", 8, 3, KOKSMA_KEEP_SEQUENCE},   {"digital", "min-distance", 16, 2, KOKSMA_KEEP_SEQUENCE},
 };
 
 static int by_value(const void *a, const void *b)
@@ -132,6 +144,31 @@ static void sorted(const koksma_points *points, int k, double *out)
     qsort(out, points->n, sizeof *out, by_value);
 }
 
+/* Coordinate k is that of a (0,1)-sequence in base 2: each 2^m points from a multiple of 2^m on have one in each interval of
+   length 2^-m. It is digital: the digits of points i and j without a common digit add up to those of point i + j. */
+static void expect_sequence(const koksma_points *points, int k)
+{
+    const size_t n = points->n, dim = (size_t)points->dim;
+    const double *xs = points->xs + k;
+    for (size_t m = 1; m <= n; m *= 2) {
+        for (size_t first = 0; first < n; first += m) {
+            uint64_t seen = 0;
+            for (size_t i = first; i < first + m; i++) {
+                seen |= UINT64_C(1) << (int)(xs[i * dim] * (double)m);
+            }
+            assert_true(seen == (m == 64 ? UINT64_MAX : (UINT64_C(1) << m) - 1));
+        }
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < n; j++) {
+            if (!(i & j)) {
+                const uint64_t sum = (uint64_t)(xs[i * dim] * 0x1p53) ^ (uint64_t)(xs[j * dim] * 0x1p53);
+                assert_true(xs[(i + j) * dim] == (double)sum * 0x1p-53);
+            }
+        }
+    }
+}
+
 static void expect_kept(const koksma_points *before, const koksma_points *after, koksma_keep keep)
 {
     double a[16], b[16];
@@ -143,6 +180,9 @@ static void expect_kept(const koksma_points *before, const koksma_points *after,
     for (size_t c = 0; c < before->n * (size_t)before->dim && keep == KOKSMA_KEEP_NET; c++) {
         assert_true(floor(before->xs[c] * (double)before->n) == floor(after->xs[c] * (double)after->n));
     }
+    for (int k = 0; k < after->dim && keep == KOKSMA_KEEP_SEQUENCE; k++) {
+        expect_sequence(after, k);
+    }
 }
 
 static void methods_gain_and_keep(void **state)
@@ -150,11 +190,11 @@ static void methods_gain_and_keep(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
         const koksma_keep keep = searches[i].keep;
-        koksma_points from =
-            test_points(keep == KOKSMA_KEEP_NET ? "sobol" : "latin-hypercube", searches[i].n, searches[i].dim, 3);
+        const char *pattern = keep == KOKSMA_KEEP_NET || keep == KOKSMA_KEEP_SEQUENCE ? "sobol" : "latin-hypercube";
+        koksma_points from = test_points(pattern, searches[i].n, searches[i].dim, 3);
         const koksma_optimise_options options = {
             .n = searches[i].n, .dim = searches[i].dim, .first = &from, .keep = keep, .seed = 4, .steps = 2};
-        const double before = test_measure(searches[i].measure, &from).value;
+        const double before = kept_value(searches[i].measure, &from, keep);
         koksma_optimum one = optimised(searches[i].measure, options, 1);
         assert_string_equal(one.method, searches[i].method);
         if (!strcmp(searches[i].measure, "min-distance") ? one.value <= before : one.value >= before) {
@@ -190,6 +230,91 @@ static void optima_of_the_star_discrepancy(void **state)
     for (size_t n = 1; n <= sizeof optima / sizeof *optima; n++) {
         koksma_optimum best = optimised("star", (koksma_optimise_options){.n = n, .dim = 2, .steps = 1}, 0);
         assert_near(best.value, optima[n - 1], 1e-9);
+        koksma_optimum_fini(&best);
+    }
+}
+
+/* The value over projections, and what net-file reads of the matrices. */
+static void sequences_of_projections(void **state)
+{
+    (void)state;
+    enum { N = 32 };
+    const uint64_t pairs[] = {3, 6};
+    const char path[] = "optimised-net.txt";
+    koksma_spec measure;
+    koksma_optimum best;
+    koksma_optimise_options options = {
+        .n = N, .dim = 3, .keep = KOKSMA_KEEP_SEQUENCE, .steps = 1, .projections = pairs, .n_projections = 2};
+    assert_ok(koksma_measure_spec("l2-star", &measure));
+    assert_ok(koksma_optimise(&measure, &options, NULL, &best));
+    double product = 1, first = 1;
+    koksma_points sobol = test_points("sobol", N, 3, 0);
+    for (int p = 0; p < 2; p++) {
+        double xs[2 * N], before[2 * N];
+        for (size_t i = 0; i < 2 * N; i++) {
+            xs[i] = best.points.xs[i / 2 * 3 + i % 2 + (size_t)p];
+            before[i] = sobol.xs[i / 2 * 3 + i % 2 + (size_t)p];
+        }
+        product *= kept_value("l2-star", &(koksma_points){N, 2, xs}, KOKSMA_KEEP_SEQUENCE);
+        first *= kept_value("l2-star", &(koksma_points){N, 2, before}, KOKSMA_KEEP_SEQUENCE);
+    }
+    assert_near(best.value, sqrt(product), 1e-14);
+    assert_true(product < first && best.value != best.lower);
+    assert_ok(koksma_net_write(path, &best.points, "two\nlines"));
+    for (size_t n = 1; n <= N; n *= 2) {
+        koksma_points read = test_points("net-file:optimised-net.txt", n, 3, 0);
+        assert_memory_equal(read.xs, best.points.xs, n * 3 * sizeof(double));
+        koksma_points_fini(&read);
+    }
+    assert_int_equal(remove(path), 0);
+    best.points.xs[3 * N - 1] += 0x1p-53;
+    assert_int_equal(koksma_net_write(path, &best.points, NULL), KOKSMA_ARGUMENT);
+    options.projections = &(uint64_t){8};
+    options.n_projections = 1;
+    koksma_optimum_fini(&best);
+    assert_int_equal(koksma_optimise(&measure, &options, NULL, &best), KOKSMA_ARGUMENT);
+    koksma_points_fini(&sobol);
+}
+
+/* The root of the weighted mean of the squares in the projections, by hand; with a gradient and without. */
+static void values_of_projections(void **state)
+{
+    (void)state;
+    enum { N = 8 };
+    static const struct {
+        const char *measure, *method;
+    } rows[] = {{"l2-star", "descent"}, {"l2-wraparound", "descent"}, {"extreme", "perturb"}};
+    for (size_t r = 0; r < 3; r++) {
+        const koksma_optimise_options options = {.n = N,
+                                                 .dim = 2,
+                                                 .steps = 2,
+                                                 .projections = (uint64_t[]){1, 2, 3},
+                                                 .weights = (double[]){1, 2, 5},
+                                                 .n_projections = 3};
+        koksma_spec measure;
+        koksma_optimum best;
+        koksma_points sets[2] = {test_points("latin-hypercube", N, 2, 0)};
+        double values[2];
+        assert_ok(koksma_measure_spec(rows[r].measure, &measure));
+        assert_ok(koksma_optimise(&measure, &options, NULL, &best));
+        assert_string_equal(best.method, rows[r].method);
+        assert_true(best.lower != best.lower && best.last_gain > 0);
+        sets[1] = best.points;
+        for (int s = 0; s < 2; s++) {
+            double sum = 0, axis[N];
+            for (size_t u = 0; u < 3; u++) {
+                for (size_t i = 0; i < N; i++) {
+                    axis[i] = sets[s].xs[2 * i + u % 2];
+                }
+                const double value =
+                    test_measure(rows[r].measure, u < 2 ? &(koksma_points){N, 1, axis} : &sets[s]).value;
+                sum += options.weights[u] * value * value;
+            }
+            values[s] = sqrt(sum / 8);
+        }
+        assert_near(best.value, values[1], 1e-14);
+        assert_true(values[1] < values[0]);
+        koksma_points_fini(&sets[0]);
         koksma_optimum_fini(&best);
     }
 }
@@ -234,6 +359,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gradients_are_differences), cmocka_unit_test(torus_is_where_it_is_said),
         cmocka_unit_test(methods_gain_and_keep),     cmocka_unit_test(optima_of_the_star_discrepancy),
+        cmocka_unit_test(sequences_of_projections),  cmocka_unit_test(values_of_projections),
         cmocka_unit_test(ends_when_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

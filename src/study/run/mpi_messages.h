@@ -9,7 +9,7 @@
  * To rank 0: REQUEST (koksma__request; for the batch after the one in hand, so that nobody waits for an answer),
  * RESULTS (jobs' numbers, each before its results), FAILURE (koksma__failure: a job that is impossible), TILE
  * (koksma__reference_tile, its sums), NEED (a reference), ERROR (status and text of a rank that ends, which ends
- * all). From it: ASSIGNMENTS (what to do; none: request again; the phase, or the run, is over), PIXELS.
+ * all), PIECES (of a shared search: koksma_study_mpi_processes). From it: PIECES (of all), ASSIGNMENTS (what to do; none: request again; the phase, or the run, is over), PIXELS.
  */
 #ifndef KOKSMA_STUDY_RUN_MPI_MESSAGES_H
 #define KOKSMA_STUDY_RUN_MPI_MESSAGES_H
@@ -24,7 +24,8 @@ enum {
     KOKSMA__TAG_NEED,
     KOKSMA__TAG_ERROR,
     KOKSMA__TAG_ASSIGNMENTS,
-    KOKSMA__TAG_PIXELS
+    KOKSMA__TAG_PIXELS,
+    KOKSMA__TAG_PIECES
 };
 
 enum { KOKSMA__PHASES = 2 };

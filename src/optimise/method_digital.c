@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * digital: the generator matrices of a digital sequence in base 2, for any measure by its value. A walk adds in the matrix of
+ * one coordinate a row to one below it, or a column to one on its right. Both leave the rank of the first k columns in the first k
+ * rows, for all k, so that each coordinate of a (0,1)-sequence stays one: its first 2^k points have one in each interval of length
+ * 2^-k. Rows added alone, Matousek's linear scrambling, leave all nets what they are; columns, which
+ * change direction numbers, change how coordinates go together. Columns of coordinate 0 stay: adding them in all coordinates at
+ * once changes no prefix of 2^k points. A move is kept if the value grows by no more than a threshold that falls to 0
+ * (threshold accepting: Dueck & Scheuer 1990). A quarter of the walks start with 8 such moves for each column and coordinate.
+ *
+ * Source: Matousek 1998 for the scrambling; Sobol' sequences with optimised direction numbers: Joe & Kuo 2008.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "optimise/methods.h"
+#include "optimise/sequence.h"
+#include "optimise/value.h"
+
+enum { MOVES = 200, LOWER = 10, DIGITS = KOKSMA__SEQUENCE_DIGITS };
+
+/* Points 2^c hold the columns; all others follow. Coordinate k only. */
+static void fill(koksma_points *points, size_t k)
+{
+    const size_t dim = (size_t)points->dim;
+    for (size_t high = 2; high < points->n; high *= 2) {
+        const uint64_t column = (uint64_t)(points->xs[high * dim + k] * 0x1p53);
+        for (size_t r = 1; r < high; r++) {
+            const uint64_t x = column ^ (uint64_t)(points->xs[r * dim + k] * 0x1p53);
+            points->xs[(high + r) * dim + k] = (double)x * 0x1p-53;
+        }
+    }
+}
+
+/* Adds row `from` to row `to`. */
+static void add_row(koksma_points *points, size_t k, unsigned from, unsigned to)
+{
+    for (size_t high = 1; high < points->n; high *= 2) {
+        double *x = points->xs + high * (size_t)points->dim + k;
+        const uint64_t y = (uint64_t)(*x * 0x1p53);
+        *x = (double)(y ^ (y >> (DIGITS - 1 - from) & 1) << (DIGITS - 1 - to)) * 0x1p-53;
+    }
+}
+
+static void add_column(koksma_points *points, size_t k, unsigned from, unsigned to)
+{
+    const size_t dim = (size_t)points->dim;
+    double *x = points->xs + ((size_t)1 << to) * dim + k;
+    const uint64_t y = (uint64_t)(points->xs[((size_t)1 << from) * dim + k] * 0x1p53);
+    *x = (double)((uint64_t)(*x * 0x1p53) ^ y) * 0x1p-53;
+}
+
+/* One move. Rows down to LOWER below those that tell 2^m points apart change places by too little to matter. */
+static size_t move(koksma_points *points, unsigned m, koksma__stream *random)
+{
+    const size_t k = koksma__next_below(random, (size_t)points->dim);
+    const unsigned rows = m + LOWER < DIGITS ? m + LOWER : DIGITS;
+    if (k > 0 && m > 1 && koksma__next(random) % 2) {
+        const unsigned to = 1 + koksma__next_below(random, m - 1);
+        add_column(points, k, koksma__next_below(random, to), to);
+    } else {
+        const unsigned to = 1 + koksma__next_below(random, rows - 1);
+        add_row(points, k, koksma__next_below(random, to < m ? to : m), to);
+    }
+    fill(points, k);
+    return k;
+}
+
+static koksma_status search(const koksma_spec *measure, const koksma_optimise_options *o, uint64_t seed, double value,
+                            koksma_points *points)
+{
+    koksma__stream random = {.seed = seed};
+    const size_t bytes = points->n * (size_t)points->dim * sizeof(double);
+    const double tolerance = 0.02 * koksma__next_unit(&random);
+    const double sign = measure->measure->larger_is_better ? -1 : 1;
+    unsigned m = 0;
+    double current = sign * log(value), after;
+    koksma_points next;
+    koksma_status status = koksma_points_init(&next, points->n, points->dim);
+    while (points->n >> (m + 1)) {
+        m++;
+    }
+    const bool anew = koksma__next(&random) % 4 == 0;
+    for (size_t i = 0; !status && anew && i < 8 * m * (size_t)points->dim; i++) {
+        move(points, m, &random);
+        current = INFINITY;
+    }
+    for (int i = 0; i < MOVES && !status; i++) {
+        memcpy(next.xs, points->xs, bytes);
+        move(&next, m, &random);
+        status = koksma__search_value(measure, o, &next, &after);
+        after = sign * log(after);
+        if (!status && after <= current + tolerance * (1 - (double)(i + 1) / MOVES)) {
+            current = after;
+            memcpy(points->xs, next.xs, bytes);
+        }
+    }
+    koksma_points_fini(&next);
+    return status;
+}
+
+static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
+{
+    (void)measure;
+    return o->keep == KOKSMA_KEEP_SEQUENCE ? 5 : 0;
+}
+
+const koksma_method koksma__method_digital = {
+    .name = "digital",
+    .title = "generator matrices of a sequence, over all its prefixes of 2^k points (any measure)",
+    .cite = "matousek1998 joe2008 dueck1990",
+    .serves = serves,
+    .search = search,
+};

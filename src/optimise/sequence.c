@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Digital sequences in base 2. Points are the first 2^m of one exactly if point 0 is the origin and, for 0 < r < 2^c, point
+ * 2^c + r has the digits of points 2^c and r added modulo 2: point 2^c is column c of the generator matrices (Niederreiter
+ * 1992). So a search may pass points from hand to hand, and the matrices can be read off them.
+ */
+#include "optimise/sequence.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "core/atomic_file.h"
+#include "core/points_io.h"
+#include "core/status.h"
+
+static uint64_t digits_of(double x)
+{
+    return (uint64_t)(x * 0x1p53);
+}
+
+koksma_status koksma__sequence_check(const koksma_points *points)
+{
+    const size_t n = points->n, dim = (size_t)points->dim;
+    KOKSMA__FAIL_IF(n < 2 || (n & (n - 1)) != 0, KOKSMA_N,
+                    "n = %zu: a sequence takes a power of 2 from 2 on, such as 256", n);
+    for (size_t i = 0, high = 0; i < n; i++) {
+        high = (i & (i - 1)) == 0 ? i : high;
+        for (size_t k = 0; k < dim; k++) {
+            const uint64_t sum = digits_of(points->xs[high * dim + k]) ^ digits_of(points->xs[(i - high) * dim + k]);
+            KOKSMA__FAIL_IF(points->xs[i * dim + k] != (double)sum * 0x1p-53, KOKSMA_ARGUMENT,
+                            "point %zu: the points are not the first ones of a digital sequence in base 2, as those "
+                            "of sobol and net-file are",
+                            i);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_net_write(const char *path, const koksma_points *points, const char *comment)
+{
+    KOKSMA__REQUIRE(path, points);
+    KOKSMA__TRY(koksma__points_check(points));
+    KOKSMA__TRY(koksma__sequence_check(points));
+    koksma__atomic_file file;
+    int columns = 0;
+    for (size_t n = points->n; n > 1; n /= 2) {
+        columns++;
+    }
+    KOKSMA__TRY(koksma__atomic_open(NULL, path, &file));
+    fputs("# dnet\n", file.stream);
+    for (const char *line = comment; line && *line;) {
+        const size_t length = strcspn(line, "\n");
+        fprintf(file.stream, "# %.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+    fprintf(file.stream, "2 # base\n%d # dimensions\n%d # columns: 2^%d points\n%d # digits\n", points->dim, columns,
+            columns, KOKSMA__SEQUENCE_DIGITS);
+    for (size_t k = 0; k < (size_t)points->dim; k++) {
+        for (int c = 0; c < columns; c++) {
+            const double x = points->xs[((size_t)1 << c) * (size_t)points->dim + k];
+            fprintf(file.stream, "%" PRIu64 "%c", digits_of(x), c + 1 < columns ? ' ' : '\n');
+        }
+    }
+    return koksma__atomic_close(&file, true);
+}

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The value of a search. With projections u of weights w_u it is the root of
+ *
+ *     sum_u w_u D_u^2 / sum_u w_u,   D_u the measure of the points in the coordinates u,
+ *
+ * the weighted discrepancy of Sloan & Wozniakowski (1998) for the L2 family, so that its square has a gradient where the measure's has.
+ * A sequence has the geometric mean instead, over its prefixes of 2, 4, ..., n points and the projections with their weights: a gain
+ * of 1 % counts as much at 2 points as at n, although measures fall with n at their own rates.
+ */
+#include "optimise/value.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/spec.h"
+#include "core/status.h"
+
+static const koksma_run one_thread = {.threads = 1};
+
+koksma_status koksma__search_check(const koksma_optimise_options *o)
+{
+    KOKSMA__FAIL_IF((o->n_projections && !o->projections) || (o->weights && !o->n_projections), KOKSMA_ARGUMENT,
+                    "options->projections is NULL or empty, and %s",
+                    o->weights ? "there are weights" : "n_projections is not 0");
+    KOKSMA__FAIL_IF(o->n_projections && o->dim > 64, KOKSMA_DIM, "dim = %d: projections are of at most 64 dimensions",
+                    o->dim);
+    for (size_t p = 0; p < o->n_projections; p++) {
+        const uint64_t u = o->projections[p];
+        KOKSMA__FAIL_IF(!u || (o->dim < 64 && u >> o->dim), KOKSMA_ARGUMENT, "projection %zu has %s", p,
+                        u ? "a coordinate that the points have not" : "no coordinate");
+        KOKSMA__FAIL_IF(o->weights && !(o->weights[p] > 0 && isfinite(o->weights[p])), KOKSMA_ARGUMENT,
+                        "the weight of projection %zu is %g: weights are above 0", p, o->weights[p]);
+    }
+    return KOKSMA_OK;
+}
+
+static double weight(const koksma_optimise_options *o, size_t p)
+{
+    return o->weights ? o->weights[p] : 1;
+}
+
+/* Points in the coordinates of a projection. */
+static void project(const koksma_points *points, uint64_t u, koksma_points *out)
+{
+    const size_t dim = (size_t)points->dim;
+    double *to = out->xs;
+    out->dim = 0;
+    for (size_t c = 0; c < points->n * dim; c++) {
+        if (u >> c % dim & 1) {
+            *to++ = points->xs[c];
+            out->dim += c < dim;
+        }
+    }
+}
+
+/* The mean of the logarithms of the values of all prefixes. */
+static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_points *points, double *mean)
+{
+    double count = 0;
+    *mean = 0;
+    for (size_t n = 2; n <= points->n; n *= 2, count++) {
+        const koksma_points prefix = {.n = n, .dim = points->dim, .xs = points->xs};
+        koksma_value value;
+        KOKSMA__TRY(koksma_evaluate(measure, &prefix, &one_thread, &value));
+        KOKSMA__FAIL_IF(!(value.value > 0), KOKSMA_ARGUMENT,
+                        "%s of the first %zu points is %g: the geometric mean over all prefixes takes values above 0",
+                        measure->measure->name, n, value.value);
+        *mean += log(value.value);
+    }
+    *mean /= count;
+    return KOKSMA_OK;
+}
+
+/* The square of a value, or its logarithm: what is averaged over projections. */
+static koksma_status term(const koksma_spec *measure, const koksma_optimise_options *o, const koksma_points *points,
+                          double *out)
+{
+    koksma_value value = {0};
+    if (o->keep == KOKSMA_KEEP_SEQUENCE) {
+        return mean_of_prefixes(measure, points, out);
+    }
+    KOKSMA__TRY(koksma_evaluate(measure, points, &one_thread, &value));
+    *out = value.value * value.value;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__search_value(const koksma_spec *measure, const koksma_optimise_options *o,
+                                   const koksma_points *points, double *value)
+{
+    double mean = 0, weights = 0;
+    koksma_value whole = {.value = NAN};
+    koksma_status status = KOKSMA_OK;
+    if (!o->n_projections && o->keep != KOKSMA_KEEP_SEQUENCE) {
+        status = koksma_evaluate(measure, points, &one_thread, &whole);
+        *value = whole.value;
+        return status;
+    }
+    if (!o->n_projections) {
+        status = term(measure, o, points, &mean);
+    } else {
+        koksma_points projected;
+        KOKSMA__TRY(koksma_points_init(&projected, points->n, points->dim));
+        for (size_t p = 0; p < o->n_projections && !status; p++) {
+            double one;
+            project(points, o->projections[p], &projected);
+            status = term(measure, o, &projected, &one);
+            mean += status ? 0 : weight(o, p) * one;
+            weights += weight(o, p);
+        }
+        mean /= weights;
+        koksma_points_fini(&projected);
+    }
+    *value = o->keep == KOKSMA_KEEP_SEQUENCE ? exp(mean) : sqrt(mean);
+    return status;
+}
+
+koksma_status koksma__search_square(const koksma_spec *measure, const koksma_optimise_options *o,
+                                    const koksma_points *points, double *square, double *gradient)
+{
+    const koksma_args args = koksma__spec_arguments(measure, &one_thread);
+    const size_t dim = (size_t)points->dim;
+    koksma_points projected;
+    koksma_status status = KOKSMA_OK;
+    double weights = 0;
+    if (!o->n_projections) {
+        return measure->measure->gradient(points, &args, square, gradient);
+    }
+    KOKSMA__TRY(koksma_points_init(&projected, points->n, 2 * points->dim));
+    double *own = projected.xs + points->n * dim;
+    *square = 0;
+    for (size_t p = 0; p < o->n_projections; p++) {
+        weights += weight(o, p);
+    }
+    for (size_t c = 0; c < points->n * dim; c++) {
+        gradient[c] = 0;
+    }
+    for (size_t p = 0; p < o->n_projections && !status; p++) {
+        double one = 0;
+        const double *from = own, share = weight(o, p) / weights;
+        project(points, o->projections[p], &projected);
+        status = measure->measure->gradient(&projected, &args, &one, own);
+        *square += share * one;
+        for (size_t c = 0; c < points->n * dim && !status; c++) {
+            gradient[c] += o->projections[p] >> c % dim & 1 ? share * *from++ : 0;
+        }
+    }
+    koksma_points_fini(&projected);
+    return status;
+}
