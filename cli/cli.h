@@ -72,7 +72,7 @@ bool cli_flag(const cli_arguments *arguments, const char *name);
 /* An option as a number in [min, max]; false after an error that names it. */
 bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,
                uint64_t *out);
-/* The same of a text that is the option's or a part of it. */
+/* A text, which is the value of the option `name` or a part of it, as a number in [min, max]; false after an error. */
 bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *text, uint64_t min, uint64_t max,
                   uint64_t *out);
 /* --size WxH; without it both stay as they are. */
@@ -90,13 +90,13 @@ const char *cli_filter_name(const void *table, size_t i);
 /* "koksma NAME: text" on stderr, as one line of UTF-8 whatever the names in it hold. command: "" for none. */
 void cli_say(const char *command, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* The same of an error; returns the exit code of a wrong command line. */
+/* Says what is wrong with the command line, as cli_say does; returns its exit code, 2. */
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* The library's error text on stderr; returns the exit code of status. */
 int cli_fail(const cli_arguments *arguments, koksma_status status);
 
-/* The same for the program's own memory; silent after another error, of which it may be a part. */
+/* Says that memory is exhausted, unless an error was said already, of which that may be a part; returns the exit code. */
 int cli_no_memory(void);
 
 /* Item i (0..) of a list "a,b:x=1,y=2,c": commas inside a spec's parameters don't split, because a parameter has '='

@@ -40,7 +40,8 @@ typedef struct cli_source {
 /* Reads no file. Returns the exit code, after an error on stderr unless it is 0. */
 int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source);
 
-/* The same of "[pattern:]SPEC[@N[@DIM]]", which is no file; n and dim are 0 where they are not given. */
+/* Reads "[pattern:]SPEC[@N[@DIM]]", never as the name of a file; n and dim are 0 where they are not given. Returns the
+   exit code, after an error on stderr unless it is 0. */
 int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_source *source);
 
 /* Completes the operands by -p, -n and -d, for the parser of options, and frees them. Returns the exit code. */

@@ -64,7 +64,8 @@ typedef struct koksma_function {
    Errors: UNKNOWN (the name; the message suggests the nearest one), ARGUMENT (a parameter), DIM, MEMORY. */
 KOKSMA_API koksma_status koksma_integral_open(const char *text, int dim, koksma_integral **out);
 
-/* The same for a function of the caller, which is copied. Errors: ARGUMENT (no name or function), DIM, MEMORY. */
+/* Opens a function of the caller as an integrand in dim dimensions; *function is copied. Errors: ARGUMENT (no name or
+   function), DIM, MEMORY. */
 KOKSMA_API koksma_status koksma_integral_of_function(const koksma_function *function, int dim, koksma_integral **out);
 
 /* integral may be NULL. */

@@ -68,7 +68,8 @@ koksma_status koksma__json_text(const koksma__json_node *node, const char **out)
 /* An array of exactly n numbers. */
 koksma_status koksma__json_numbers(const koksma__json_node *node, double min, double max, size_t n, double *out);
 
-/* The same for the member `key`; *out is left alone when it is not there and needed is false. */
+/* Read the member `key` of an object as the functions above read a node. Without it *out keeps its value; where the
+   member is needed, that is an error. */
 koksma_status koksma__json_get_number(const koksma__json_node *node, const char *key, bool needed, double min,
                                       double max, double *out);
 koksma_status koksma__json_get_whole(const koksma__json_node *node, const char *key, bool needed, long long min,

@@ -42,12 +42,12 @@ static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
 }
 #endif
 
-/* The same lanes as unsigned integers and as doubles, for the operators of the compiler's vector types. */
+/* Lanes of 64 bits as unsigned and signed integers and as doubles, for the operators of the compiler's vector types. */
 typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
 typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
 
-/* The same in every lane. */
+/* x in every lane. */
 static inline lanes64_u lanes64_splat(uint64_t x)
 {
     return x - (lanes64_u){0};
@@ -133,7 +133,7 @@ static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
 #endif
 }
 
-/* The same words in the upper halves; the lower ones are garbage. */
+/* The even words of the lanes, in the upper halves; what is in the lower halves has no meaning. */
 static inline lanes64_u lanes64_even_upper(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__

@@ -23,7 +23,7 @@ double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double dis
 /* The mean over the law of the area's square. */
 double koksma__disk_square(koksma__disk_law law, double r);
 
-/* The same of the volumes of balls. */
+/* For balls: the overlap of two of them, the mean over the law of the squared volume. */
 double koksma__ball_overlap(koksma__disk_law law, double r, double distance2);
 double koksma__ball_square(koksma__disk_law law, double r);
 

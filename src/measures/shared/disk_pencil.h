@@ -27,7 +27,8 @@ void koksma__disk_try(const koksma__disk_set *set, koksma__disk_best *best, bool
 /* Tries the critical disks with points i and any j > i on their rim. Errors: MEMORY. */
 koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma__disk_best *best);
 
-/* The same for point j seen at (dx, dy) from point i. */
+/* Tries the critical disks with points i and j on their rim, j being seen at (dx, dy) from i on the torus. Errors:
+   MEMORY. */
 koksma_status koksma__disk_pair(const koksma__disk_set *set, size_t i, size_t j, double dx, double dy,
                                 koksma__disk_best *best);
 

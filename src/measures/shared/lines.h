@@ -21,7 +21,7 @@ koksma_status koksma__fail_law_of_plane(const char *measure);
 /* The area of the square where a x + b y <= c. */
 double koksma__area_below(double a, double b, double c);
 
-/* The same for the line through p, whose distance from the origin need not be rounded. */
+/* The area of the square where a x + b y <= a p[0] + b p[1]: computed from p, so that no rounded sum enters. */
 double koksma__area_below_through(double a, double b, const double p[2]);
 
 /* sigma(|dx|, |dy|): the probability that a line separates two points at that distance; symmetric, homogeneous. */

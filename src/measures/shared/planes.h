@@ -10,7 +10,7 @@
 /* The volume of the cube where a . x <= c; a is not 0. */
 KOKSMA__LAB double koksma__volume_below(const double a[3], double c);
 
-/* The same for the plane through p, whose distance from the origin need not be rounded. */
+/* The volume of the cube where a . x <= a . p: computed from p, so that no rounded product a . p enters. */
 KOKSMA__LAB double koksma__volume_below_through(const double a[3], const double p[3]);
 
 /* A random plane that hits the cube, by the measure that moving and turning does not change, separates two points

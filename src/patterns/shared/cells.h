@@ -21,7 +21,7 @@ static inline double koksma__in_cell(double cell, double u, double m)
         "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true   \
     }
 
-/* The same for patterns that make any n. */
+/* `columns` for patterns of cells that make any number of points. */
 #define KOKSMA__PARAM_DIVISOR                                                                                        \
     {                                                                                                                \
         "columns", "cells along x, a divisor of n; 0: the one nearest to the root of n from below", 0, 0, 1 << 28,   \

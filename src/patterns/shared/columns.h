@@ -12,7 +12,7 @@ enum { KOKSMA__COLUMN_BLOCK = 512 };
    at most the block; xs has room for a whole block. */
 typedef void (*koksma__column)(const void *context, int k, uint64_t first, size_t count, double *xs);
 
-/* The same for coordinates k .. k + some - 1 at once, some <= 8: xs[c][i] is coordinate k + c of point first + i. */
+/* Coordinates k .. k + some - 1 at once, some <= 8: xs[c][i] = coordinate k + c of point first + i. */
 typedef double (*koksma__columns)[KOKSMA__COLUMN_BLOCK];
 typedef void (*koksma__block)(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs);
 

@@ -21,7 +21,7 @@ void koksma__number_lines_close(koksma__number_lines *lines);
    than `most` numbers, something else than whole numbers below 2^64). */
 koksma_status koksma__number_lines_next(koksma__number_lines *lines, size_t most, uint64_t *numbers, size_t *count);
 
-/* The same where just `needed` numbers must stand: `what` names them in the error. */
+/* The numbers of the next line that has any; it must have `needed` of them, which `what` names in the error. */
 koksma_status koksma__number_lines_take(koksma__number_lines *lines, const char *what, size_t needed,
                                         uint64_t *numbers);
 

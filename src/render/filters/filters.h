@@ -20,7 +20,7 @@ bool koksma__filter_is_signed(const koksma__filter_table *table);
    1. What is filtered with is f in 1024 steps, each the mean over a cell. */
 float koksma__filter_sample(const koksma__filter_table *table, float u, float *weight);
 
-/* The same with the density of the positive part of f, where every weight is 1. */
+/* u in [0,1) to a position with density in proportion to the positive part of f; every weight is 1. */
 float koksma__filter_sample_positive(const koksma__filter_table *table, float u);
 
 /* Draws that a pixel has all together, so that weights of both signs keep a constant: w[i] becomes

@@ -24,7 +24,7 @@ koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 /* "error of SPEC" of an integrand. */
 koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
-/* The same for a spec, checked, in its canonical form. */
+/* The member `key` as a spec that `parser` checks; *out is its canonical form, which the caller frees. */
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                 bool needed, char **out);
 

@@ -59,7 +59,8 @@ void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA25
 koksma_status koksma__replicates_done(koksma__replicates *sums, koksma__reference_image *reference,
                                       koksma__reference_row *row);
 
-/* The same, with its file and its row in the store; or for the study's sink. */
+/* As koksma__replicates_done; then writes the reference's file and its row of the store, or hands both to the study's
+   sink. */
 koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
                                         koksma__reference_image *reference);
 

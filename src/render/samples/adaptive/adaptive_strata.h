@@ -80,7 +80,8 @@ void koksma__use_cells_init(const koksma__adaptive *run, size_t pixel, uint32_t 
 void koksma__stratum_cell(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum,
                           uint32_t cell[2]);
 
-/* The same in another use, in units of the level that its cells have; stage: which pairing of the parts. */
+/* The cell of a stratum in another use, in units of the level of that use's cells. stage: which pairing of the parts
+   applies. */
 void koksma__stratum_cell_in(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
                              const koksma__stratum *stratum, uint32_t stage, uint32_t cell[2]);
 
