@@ -20,7 +20,7 @@ SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
-           "latin-prefixes", "independent")  # by their bits
+           "latin-prefixes", "independent", "pairs", "quadruples")  # by their bits
 
 
 @dataclass(frozen=True)
