@@ -15,10 +15,11 @@ typedef struct koksma__rank_case {
 /* Prediction of one scene's errors by models that were fitted to all other scenes: the models, and the mean Spearman
    correlation of each one's predicted order with the order of the errors. */
 typedef struct koksma__held_out {
-    size_t cases;     /* 0: nothing else of this is set */
-    size_t single;    /* the measure chosen in the other scenes */
-    size_t pair[2];   /* the pair; without one (k = 1) twice the single */
-    double penalty;   /* of the ridge regression on all measures */
+    size_t cases;               /* 0: nothing else of this is set */
+    size_t single;              /* the measure chosen in the other scenes */
+    size_t pair[2];             /* the pair; without one (k = 1) twice the single */
+    _Alignas(8) double penalty; /* of the ridge regression on all measures; aligned also where a double needs less, so
+                                   that statistics can step over results by doubles */
     size_t hindsight; /* the single measure that is best in this very scene, and its correlation: no prediction */
     double rho_single, rho_pair, rho_all, rho_hindsight;
 } koksma__held_out;
