@@ -112,7 +112,7 @@ const cli_command cli_command_plot = {
                 "koksma plot --curve power pattern:jittered@256 --trials 10 -o power.svg\n"
                 "koksma plot --curve radial pattern:random@256 pattern:jittered@256 -o r.pdf\n"
                 "koksma plot --curve pairs pattern:jittered@256 -o pairs.svg --size 400x300\n"
-                "koksma plot --curve anisotropy pattern:regular@256 -o a.svg --theme dark\n"
+                "koksma plot --curve anisotropy pattern:n-rooks@256 -t 10 -o a.svg --theme dark\n"
                 "koksma plot --curve convergence pattern:random@256 pattern:sobol@256 -o c.svg\n"
                 "koksma plot --curve filter-response box tent mitchell -o response.svg\n",
     .options = options,

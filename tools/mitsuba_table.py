@@ -4,10 +4,10 @@
 docs/renderers.md, as Markdown: Mitsuba's Cornell box with its own samplers and six of our patterns, at equal samples and at
 equal time. The limit of time holds for each table.
 
-Run it in the environment that scripts/try_mitsuba makes (PYTHONPATH=python, DRJIT_LIBLLVM_PATH). In the second table a sampler
-has the samples that fit into the time of `independent`, at least one. The time is processor time of all threads, which other
-programs on the machine change little, the least of several pictures of 256 x 256 pixels. In each some 0.25 s are Dr.Jit's
-tracing of a sampler in Python; in pictures of 64 x 64 they would be most of the time.
+Run it in the environment that scripts/try_mitsuba makes (PYTHONPATH=python, DRJIT_LIBLLVM_PATH). In the second table a
+sampler has the samples that fit into the time of `independent`, at least one. The time is processor time of all threads,
+which other programs on the machine change less than seconds of the clock, the least of several pictures of 256 x 256 pixels.
+In each some 0.25 s are Dr.Jit's tracing of a sampler in Python; in pictures of 64 x 64 they would be most of the time.
 """
 import argparse
 import time

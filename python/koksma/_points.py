@@ -111,7 +111,7 @@ class Value:
 
 @dataclass(frozen=True)
 class Modifier:
-    """What every pattern takes behind its own parameters, as in "file:set.txt,shift=1" (see `koksma list modifiers`)."""
+    """What every pattern takes behind its own parameters, as in "file:set.txt,shift=1" (koksma.modifiers() names them)."""
 
     name: str
     title: str
@@ -332,7 +332,7 @@ def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None,
     else:
         found = core().koksma_warp_find(text(warp))
         if not found:
-            raise ArgumentError(f"no warp '{warp}'; 'koksma list warps' names them")
+            raise ArgumentError(f"no warp '{warp}'; koksma.warps() names them")
         call(core().koksma_warp_evaluate, found, byref(parsed), byref(c_points), byref(value), threads=threads,
              time_limit=time_limit, run_at=3)
     w = value.witness

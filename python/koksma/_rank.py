@@ -146,7 +146,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
          reference: Optional[str] = None) -> Ranking:
     """Ranks patterns by the error of the pictures that they make of a scene, as `koksma rank` does.
 
-    metric: of the error; mae is the mean absolute error in luminance (`koksma list metrics`).
+    metric: of the error; mae is the mean absolute error in luminance (koksma.metrics() names them).
 
     size: (width, height); without it the scene's own, halved until it has 19,200 pixels at most. time_limit: seconds, None
     for none; it cuts the work short and changes nothing else, so that a longer one names the same best pattern, or one

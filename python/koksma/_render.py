@@ -115,8 +115,9 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     total dimension samples together, with ';' between: "random;lens=sobol;pixel+time=scan-time".
     size: (width, height); the scene's own when left out. adaptive: a method, such as "hierarchical:levels=2", that takes
     more samples than spp where it needs them, until it needs none or `budget` (0: no limit) is spent: samples a pixel,
-    averaged over the image; some methods draw strata of their own, and take no pattern. The other arguments are those of `koksma render`, and give the same bits. Returns linear light
-    of shape (height, width, channels), channels 1 or 3; row 0 is on top; with layers=True a `Layers`, whose image it is.
+    averaged over the image; some methods draw strata of their own, and take no pattern. The other arguments are those of
+    `koksma render`, and give the same bits. Returns linear light of shape (height, width, channels), channels 1 or 3; row
+    0 is on top; with layers=True a `Layers`, whose image it is.
     """
     handle, options, image, every, report = c_void_p(), s.RenderOptions(), s.Image(), s.Layers(), s.AdaptiveReport()
     choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),

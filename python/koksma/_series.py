@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from ctypes import byref, c_double, c_size_t
 from dataclasses import dataclass
-from typing import Optional, Sequence, SupportsIndex
+from typing import Any, Optional, Sequence, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, call, core, spec, whole
+from ._matplotlib import curve
 from ._points import as_points, canonical, generate, is_sequence, value_of, view
 
 
@@ -114,6 +115,16 @@ class Convergence:
     def __repr__(self) -> str:
         return (f"Convergence({self.pattern!r}, {self.measure!r}, n={self.sizes[0]}..{self.sizes[-1]}: "
                 f"slope {self.slope:.3f} +- {self.slope_error:.2g})")
+
+    def draw(self, ax: Any = None, **style: Any) -> Any:
+        """Draws the means on logarithmic axes of matplotlib, or on new ones, labelled by pattern and slope; returns them. style
+        goes to Axes.errorbar."""
+        style.setdefault("label", f"{self.pattern}: slope {self.slope:.3g}")
+        ax = curve(ax, self.sizes, self.mean, error=self.standard_error, labels=("n", self.measure), **{"marker": "o", **style})
+        ax.loglog()
+        ax.set_xticks(self.sizes, [str(n) for n in self.sizes])
+        ax.minorticks_off()
+        return ax
 
     def _repr_svg_(self) -> str:
         from ._plot import plot_convergence

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from ctypes import byref, c_double
 from dataclasses import dataclass
-from typing import Iterable, Sequence, SupportsIndex
+from typing import Any, Iterable, Sequence, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, call, check, core, whole
+from ._matplotlib import curve
 from ._points import as_points, shown, view
 
 
@@ -34,6 +35,10 @@ class Spectrum:
     relative_nyquist: float
     oscillation: float
     sets: int
+
+    def draw(self, ax: Any = None, **style: Any) -> Any:
+        """Draws the mean power of the rings on axes of matplotlib, or on new ones; returns them. style goes to Axes.errorbar."""
+        return curve(ax, self.frequency, self.ring_power, error=self.standard_error, level=1, labels=("frequency", "power"), **style)
 
     def _repr_svg_(self) -> str:
         from ._display import chart
@@ -126,6 +131,10 @@ class PairCorrelation:
     distance: npt.NDArray[np.float64]
     density: npt.NDArray[np.float64]
     sets: int
+
+    def draw(self, ax: Any = None, **style: Any) -> Any:
+        """Draws the density on axes of matplotlib, or on new ones; returns them. style goes to Axes.errorbar."""
+        return curve(ax, self.distance, self.density, level=1, labels=("distance", "pair correlation"), **style)
 
     def _repr_svg_(self) -> str:
         from ._display import chart

@@ -7,7 +7,7 @@
 set -u
 here=$(readlink -f "$(dirname "$0")")
 program=$(readlink -f "$1")
-KOKSMA_NODE=$2
+KOKSMA_NODE=$(readlink -f "$2")
 export KOKSMA_NODE
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -112,6 +113,43 @@ class Rendering(unittest.TestCase):
                 self.assertEqual(np.array_equal(read, image), exact)
             with self.assertRaises(koksma.Error):
                 koksma.write_image(os.path.join(folder, "image.xyz"), image)
+
+
+class Axes(unittest.TestCase):
+    """Curves on matplotlib's axes: the numbers of the results; without matplotlib, or with other axes, a sentence or those."""
+
+    def results(self):
+        sets = [koksma.generate("jittered", 64, seed=seed) for seed in range(4)]
+        convergence, spectrum, pairs = koksma.convergence("sobol", "l2-star", [16, 64, 256]), koksma.spectrum(sets, 8), koksma.pair_correlation(sets)
+        return ((convergence, convergence.sizes, convergence.mean), (spectrum, spectrum.frequency, spectrum.ring_power),
+                (pairs, pairs.distance, pairs.density))
+
+    def test_axes_given(self):
+        for result, x, y in self.results():
+            ax = unittest.mock.MagicMock()
+            self.assertIs(result.draw(ax, color="red"), ax)
+            drawn, style = ax.errorbar.call_args
+            np.testing.assert_array_equal(drawn[0], x)
+            np.testing.assert_array_equal(drawn[1], y)
+            self.assertEqual(style["color"], "red")
+            self.assertEqual(ax.loglog.called, isinstance(result, koksma.Convergence))
+
+    def test_without(self):
+        with unittest.mock.patch.dict(sys.modules, {"matplotlib": None}):
+            for result, _, _ in self.results():
+                with self.assertRaisesRegex(koksma.UnsupportedError, "pip install matplotlib"):
+                    result.draw()
+
+    def test_with(self):
+        try:
+            import matplotlib
+        except ModuleNotFoundError:
+            self.skipTest("matplotlib is not installed")
+        matplotlib.use("agg")
+        for result, x, y in self.results():
+            ax = result.draw()
+            np.testing.assert_array_equal(ax.lines[0].get_xydata(), np.column_stack([x, y]))
+            ax.figure.canvas.draw()
 
 
 class Pairs(unittest.TestCase):
