@@ -47,13 +47,15 @@ typedef struct region {
 
 typedef struct searcher {
     problem *p;
-    region *levels;    /* dim + 1 */
-    double *lo, *hi;   /* the region's slabs */
-    double *cuts;      /* dim rows of n + 2 */
-    uint32_t *sorted;  /* dim rows of n: `inside` in order of the next coordinate */
-    bool *flags;       /* n */
-    double *sides;     /* the leaf's sides: 2 rows of n + dim */
-    double **products; /* dim pairs of rows of n + 2 dim + 8: of the coordinates up to k */
+    region *levels;       /* dim + 1 */
+    double *lo, *hi;      /* the region's slabs */
+    double *cuts;         /* dim rows of n + 2 */
+    uint32_t *sorted;     /* dim rows of n: `inside` in order of the next coordinate */
+    double *sorted_at;    /* dim rows of n: that coordinate of these points */
+    double *undecided_at; /* dim rows of n: that of the child's undecided points */
+    bool *flags;          /* n */
+    double *sides;        /* the leaf's sides: 2 rows of n + dim */
+    double **products;    /* dim pairs of rows of n + 2 dim + 8: of the coordinates up to k */
     size_t leaves;
     bool stop;
     koksma_value *best;
@@ -196,37 +198,69 @@ static void sort_inside(searcher *s, size_t k, uint32_t *sorted)
     }
 }
 
-/* The child of level k for the slab (a, b]. */
-static void enter(searcher *s, size_t k, const uint32_t *sorted, double a, double b)
+/* Before the slabs of coordinate k of a region: its child gets the region's undecided points, and both kinds of points
+   their coordinates, once for all slabs. */
+static void begin_slabs(searcher *s, size_t k, const uint32_t *sorted)
 {
     const region *r = &s->levels[k];
     region *child = &s->levels[k + 1];
-    size_t used = 0, i = 0;
-    for (size_t m = 0; m < k; m++) {
-        child->first[m] = used;
-        for (size_t u = r->first[m]; u < r->first[m + 1]; u++) {
-            child->undecided[used] = r->undecided[u];
-            used += coordinate(s, r->undecided[u], k) < b;
-        }
+    double *inside_at = s->sorted_at + k * s->p->n, *undecided_at = s->undecided_at + k * s->p->n;
+    memcpy(child->first, r->first, (k + 1) * sizeof *child->first);
+    memcpy(child->undecided, r->undecided, r->first[k] * sizeof *child->undecided);
+    for (size_t u = 0; u < r->first[k]; u++) {
+        undecided_at[u] = coordinate(s, r->undecided[u], k);
     }
-    size_t low = 0, high = r->n_inside;
+    for (size_t i = 0; i < r->n_inside; i++) {
+        inside_at[i] = coordinate(s, sorted[i], k);
+    }
+}
+
+/* The child of level k for the slab (a, b], but for its undecided points; how many of them are of coordinate k. */
+static size_t place_slab(searcher *s, size_t k, const uint32_t *sorted, double a, double b)
+{
+    const double *at = s->sorted_at + k * s->p->n;
+    const size_t n_inside = s->levels[k].n_inside;
+    region *child = &s->levels[k + 1];
+    size_t low = 0, high = n_inside;
     while (low < high) {
         const size_t middle = (low + high) / 2;
-        if (coordinate(s, sorted[middle], k) <= a) {
+        if (at[middle] <= a) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
+    while (high < n_inside && at[high] < b) {
+        high++;
+    }
     child->inside = (uint32_t *)sorted; /* a prefix; only read */
     child->n_inside = low;
-    child->first[k] = used;
-    for (i = low; i < r->n_inside && coordinate(s, sorted[i], k) < b; i++) {
-        child->undecided[used++] = sorted[i];
-    }
-    child->first[k + 1] = used;
     s->lo[k] = a;
     s->hi[k] = b;
+    return high - low;
+}
+
+/* The child's undecided points. Slabs come from the last to the first, so that those of coordinates before k are among
+   the ones of the slab before. */
+static void fill_slab(searcher *s, size_t k, const uint32_t *sorted, size_t of_k)
+{
+    region *child = &s->levels[k + 1];
+    double *at = s->undecided_at + k * s->p->n;
+    const double b = s->hi[k];
+    size_t used = 0, from = 0;
+    for (size_t m = 0; m < k; m++) {
+        const size_t end = child->first[m + 1];
+        child->first[m] = used;
+        for (; from < end; from++) {
+            const double x = at[from];
+            child->undecided[used] = child->undecided[from];
+            at[used] = x;
+            used += x < b;
+        }
+    }
+    child->first[k] = used;
+    memcpy(child->undecided + used, sorted + child->n_inside, of_k * sizeof *sorted);
+    child->first[k + 1] = used + of_k;
 }
 
 static void check_stop(searcher *s)
@@ -241,22 +275,29 @@ static void check_stop(searcher *s)
 
 static void search(searcher *s, size_t k);
 
+/* Of a leaf that can't have a better value, the undecided points are not looked for. */
 static void descend(searcher *s, size_t k, const uint32_t *sorted, double a, double b)
 {
-    double high = 1;
-    enter(s, k, sorted, a, b);
+    const bool is_leaf = k + 1 == s->p->dim;
+    const size_t of_k = place_slab(s, k, sorted, a, b);
+    const region *child = &s->levels[k + 1];
+    const double n = (double)s->p->n;
+    double high = 1, low = 1;
     for (size_t m = 0; m <= k; m++) {
         high *= s->hi[m] < 1 ? s->hi[m] : 1;
+        low *= s->lo[m];
     }
-    const region *child = &s->levels[k + 1];
-    const double count = (double)(child->n_inside + child->first[k + 1]);
-    if (k + 1 < s->p->dim && fmax(high, count / (double)s->p->n) > s->best->value) {
-        search(s, k + 1);
-    } else if (k + 1 == s->p->dim) {
-        leaf(s);
-        if (++s->leaves % LEAVES_PER_CHECK == 0) {
-            check_stop(s);
+    const double fewest = (double)child->n_inside, most = (double)(child->n_inside + child->first[k] + of_k);
+    if (!is_leaf || fmax(high - fewest / n, most / n - low) > s->best->value) {
+        fill_slab(s, k, sorted, of_k);
+        if (is_leaf) {
+            leaf(s);
+        } else if (fmax(high, (double)(child->n_inside + child->first[k + 1]) / n) > s->best->value) {
+            search(s, k + 1);
         }
+    }
+    if (is_leaf && ++s->leaves % LEAVES_PER_CHECK == 0) {
+        check_stop(s);
     }
 }
 
@@ -266,6 +307,7 @@ static void search(searcher *s, size_t k)
     double *cuts = s->cuts + k * (s->p->n + 2);
     sort_inside(s, k, sorted);
     const size_t count = find_cuts(s->p, k, &s->levels[k], sorted, cuts);
+    begin_slabs(s, k, sorted);
     for (size_t c = count; c-- > 0 && !s->stop;) {
         descend(s, k, sorted, cuts[c], cuts[c + 1]);
     }
@@ -275,7 +317,7 @@ static bool open_searcher(problem *p, searcher *s)
 {
     const size_t n = p->n, dim = p->dim, room = n + 2 * dim + 8;
     *s = (searcher){.p = p};
-    const size_t doubles = 2 * dim + dim * (n + 2) + room + 2 * dim * room;
+    const size_t doubles = 2 * dim + dim * (n + 2) + room + 2 * dim * room + 2 * dim * n;
     const size_t bytes = doubles * sizeof(double) + (dim + 1) * (sizeof(region) + (dim + 1) * sizeof(size_t)) +
                          2 * dim * sizeof(double *) + (2 * dim + 1) * n * sizeof(uint32_t) + n;
     s->memory = malloc(bytes);
@@ -288,7 +330,9 @@ static bool open_searcher(problem *p, searcher *s)
     s->cuts = s->hi + dim;
     s->sides = s->cuts + dim * (n + 2);
     double *rows = s->sides + room;
-    s->levels = (region *)(rows + 2 * dim * room);
+    s->sorted_at = rows + 2 * dim * room;
+    s->undecided_at = s->sorted_at + dim * n;
+    s->levels = (region *)(s->undecided_at + dim * n);
     size_t *firsts = (size_t *)(s->levels + dim + 1);
     s->products = (double **)(firsts + (dim + 1) * (dim + 1));
     s->sorted = (uint32_t *)(s->products + 2 * dim);
@@ -316,6 +360,7 @@ static koksma_status search_slab(void *context, size_t block)
     s.best = &p->values[block];
     check_stop(&s);
     if (!s.stop) {
+        begin_slabs(&s, 0, p->orders);
         descend(&s, 0, p->orders, p->cuts[c], p->cuts[c + 1]);
     }
     p->cut_short[block] = s.stop;
