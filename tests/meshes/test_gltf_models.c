@@ -10,6 +10,7 @@
 
 #include "meshes.h"
 #include "meshes/mesh_read.h"
+#include "render/lights/lights.h"
 #include "scene/scene.h"
 
 static void write_bytes(const char *path, const void *bytes, size_t size)
@@ -195,6 +196,49 @@ static void emission_is_multiplied_with_its_texture(void **state)
     unlink("texture.pfm");
     expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, " GLOW, NULL, NULL, 1, 1, 1,
            "material 0 emits no light, because its emissive texture is missing: texture.pfm: there is no such file");
+}
+
+/* The light of an image whose halves add to 1 at every point, sampled from above its middle: half of the solid angle of a
+   square (arcsines of its corners), and each sample has the density that a ray to its position gets. */
+static void glow_is_sampled_by_its_texture(void **state)
+{
+    (void)state;
+    need_meshes();
+    koksma_scene *scene;
+    koksma__lights lights;
+    write_image("texture.pfm", 4, (const float[]){0, 0, 1, 1});
+    write_model("square.gltf",
+                &(model){.nodes = "{\"mesh\": 0}, " LAMP_AT("0", "3"), .roots = "0, 1, 2", .material = GLOW});
+    assert_ok(koksma_scene_open("square.gltf", &scene));
+    assert_ok(koksma__lights_init(scene, &lights));
+    const koksma__shading_light *light = &lights.lights[0];
+    assert_ptr_equal(light->kind, &koksma__light_mesh);
+    const float p[3] = {0, 0, 2};
+    double sum[3] = {0};
+    enum { N = 200 };
+    for (int i = 0; i < N * N; i++) {
+        const float u[2] = {((float)(i / N) + 0.5f) / N, ((float)(i % N) + 0.5f) / N};
+        koksma__beam beam;
+        assert_true(light->kind->sample(light, p, u, &beam));
+        /* where it meets the square, whose triangles are above and below the diagonal */
+        const float x = -2 * beam.w[0] / beam.w[2], y = -2 * beam.w[1] / beam.w[2];
+        const float uv[2] = {0.5f + 0.5f * x, 0.5f + 0.5f * y}, t = -2 / beam.w[2];
+        float radiance[3];
+        if (fabsf(x - y) > 1e-4f) {
+            const float density = light->kind->met(light, x > y ? 0 : 1, uv, radiance);
+            assert_near((double)(t * t * density / -beam.w[2]), (double)beam.pdf, 1e-3 * (double)beam.pdf);
+        }
+        for (int k = 0; k < 3; k++) {
+            sum[k] += (double)beam.value[k] / (N * N);
+        }
+    }
+    assert_near(sum[0], 2 * asin(0.2), 5e-4);
+    assert_near(sum[2], asin(0.2), 3e-4);
+    koksma__lights_fini(&lights);
+    koksma_scene_close(scene);
+    unlink("square.gltf");
+    unlink("my square.bin");
+    unlink("texture.pfm");
 }
 
 /* KHR_texture_transform; the camera sees texture coordinates (1/2, 1/2). */
@@ -409,10 +453,15 @@ static void mirrored_normals_stay_outside(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(textures_are_multiplied_with_colours),    cmocka_unit_test(names_of_files_are_decoded),
-        cmocka_unit_test(emission_is_multiplied_with_its_texture), cmocka_unit_test(what_is_not_read_is_said),
-        cmocka_unit_test(every_node_with_a_light_has_one),         cmocka_unit_test(mirrored_squares_glow_in_front),
-        cmocka_unit_test(mirrored_normals_stay_outside),           cmocka_unit_test(textures_are_moved),
+        cmocka_unit_test(textures_are_multiplied_with_colours),
+        cmocka_unit_test(names_of_files_are_decoded),
+        cmocka_unit_test(emission_is_multiplied_with_its_texture),
+        cmocka_unit_test(what_is_not_read_is_said),
+        cmocka_unit_test(every_node_with_a_light_has_one),
+        cmocka_unit_test(mirrored_squares_glow_in_front),
+        cmocka_unit_test(mirrored_normals_stay_outside),
+        cmocka_unit_test(textures_are_moved),
+        cmocka_unit_test(glow_is_sampled_by_its_texture),
         cmocka_unit_test(alpha_below_the_cutoff_is_not_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
