@@ -133,6 +133,32 @@ static koksma_status add_sky(koksma_scene *scene, double radiance)
     return KOKSMA_OK;
 }
 
+/* Lights of glTF are in lux and candela, and whoever shows them chooses an exposure: those that make a white surface in the
+   centre more than ten times white are dimmed together, to white, with a warning. */
+static koksma_status expose(koksma_scene *scene, const double centre[3])
+{
+    double sum = 0;
+    char text[128];
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        const koksma__light *l = &scene->lights[i];
+        double d[3];
+        koksma__subtract(l->centre, centre, d);
+        const bool near = l->kind->distance == KOKSMA__LIGHT_NEAR;
+        const double largest = fmax(fmax(l->radiance[0], l->radiance[1]), l->radiance[2]);
+        sum += l->kind == &koksma__light_mesh ? 0 : largest / (near ? fmax(koksma__dot(d, d), TINY) : 1) / M_PI;
+    }
+    if (!(sum > 10)) {
+        return KOKSMA_OK;
+    }
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        for (int k = 0; k < 3 && scene->lights[i].kind != &koksma__light_mesh; k++) {
+            scene->lights[i].radiance[k] /= sum;
+        }
+    }
+    snprintf(text, sizeof text, "lights that nodes have are dimmed together, by %llu", (unsigned long long)sum);
+    return koksma__scene_note(scene, text);
+}
+
 /* The studio: what a model lacks. Its lights and its ground are the scene's last, for koksma_scene_set_sky(). */
 static koksma_status complete(koksma_scene *scene, bool has_camera)
 {
@@ -146,7 +172,7 @@ static koksma_status complete(koksma_scene *scene, bool has_camera)
         frame_all(scene, centre, radius);
     }
     if (lit) {
-        return KOKSMA_OK;
+        return expose(scene, centre);
     }
     scene->studio.lights = 2;
     KOKSMA__TRY(add_key(scene, centre, radius));

@@ -369,6 +369,24 @@ static void every_node_with_a_light_has_one(void **state)
     unlink("my square.bin");
 }
 
+/* Lights of a real scene, in candela: exposed so that white in the centre, which is 3 away, would be 1. */
+static void bright_lights_are_exposed(void **state)
+{
+    (void)state;
+    need_meshes();
+    double rgb[3];
+    char warnings[2048];
+    write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("0", "3"),
+                                     .roots = "0, 1, 2",
+                                     .material = plain,
+                                     .lights = "{\"type\": \"point\", \"intensity\": 90000}"});
+    look("lit.gltf", rgb, warnings, sizeof warnings);
+    assert_near(rgb[0], seen(1, 1), 1e-4);
+    assert_string_equal(warnings, "lights that nodes have are dimmed together, by 3183\n");
+    unlink("lit.gltf");
+    unlink("my square.bin");
+}
+
 /* A node that swaps left and right leaves the front in front (glTF 2.0, 3.7.4). */
 static void mirrored_squares_glow_in_front(void **state)
 {
@@ -463,6 +481,7 @@ int main(void)
         cmocka_unit_test(textures_are_moved),
         cmocka_unit_test(glow_is_sampled_by_its_texture),
         cmocka_unit_test(alpha_below_the_cutoff_is_not_there),
+        cmocka_unit_test(bright_lights_are_exposed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
