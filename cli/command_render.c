@@ -156,6 +156,23 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
                              : put_row(arguments, options, adaptive, layers.rays, seconds);
 }
 
+/* The options --sky and --environment. */
+static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *code)
+{
+    const char *image = cli_text(arguments, "environment", NULL);
+    double radiance = 1;
+    if (!image && !cli_text(arguments, "sky", NULL)) {
+        return true;
+    }
+    *code = CLI_USAGE;
+    if (!cli_real(arguments, "sky", 1, 0, 1e6, &radiance)) {
+        return false;
+    }
+    const koksma_status status = koksma_scene_set_sky(scene, image, radiance);
+    *code = status ? cli_fail(arguments, status) : CLI_USAGE;
+    return !status;
+}
+
 static int run(const cli_arguments *arguments)
 {
     koksma_scene *scene;
@@ -172,9 +189,9 @@ static int run(const cli_arguments *arguments)
     if (status) {
         return cli_fail(arguments, status);
     }
-    koksma_render_options_init(&options, scene);
     int code = CLI_USAGE;
-    if (cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) &&
+    koksma_render_options_init(&options, scene);
+    if (set_sky(arguments, scene, &code) && cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) &&
         cli_size(arguments, &options.width, &options.height) && cli_sampling_options(arguments, &options) &&
         cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
         cli_adaptive_options(arguments, &adaptive, &code)) {
@@ -196,6 +213,8 @@ static const cli_option options[] = {
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
+    {0, "sky", "L", "light of this radiance from all around, in place of the scene's sky or a bare model's studio"},
+    {0, "environment", "FILE", "the same of an image of latitude and longitude, times --sky"},
     {'o', "output", "FILE", "{image-formats} by its ending; an .exr has all layers"},
     CLI_SAMPLING_OPTIONS,
     CLI_ADAPTIVE_OPTIONS,

@@ -86,6 +86,12 @@ typedef struct koksma_scene_part {
 /* Finds part i of a scene: its shapes, then its placed meshes. Returns false past the last one. */
 KOKSMA_API bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma_scene_part *out);
 
+/* Sets the light that comes from far away, in place of the scene's environment, if it has one, and of the key light, the sky
+   and the ground that a bare mesh file gets. image: a file of latitude and longitude, times radiance; NULL: the same
+   radiance from everywhere, 0 to 1e6. The scene's hash changes. The scene must not have been rendered before. Errors:
+   ARGUMENT, MISSING, MALFORMED, UNSUPPORTED, MEMORY. */
+KOKSMA_API koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, double radiance);
+
 /* Returns a 64-bit hash of the scene's text, which changes when the file changes. */
 KOKSMA_API uint64_t koksma_scene_hash(const koksma_scene *scene);
 

@@ -23,6 +23,8 @@ typedef struct koksma__image_format {
     bool (*recognises)(const unsigned char *bytes, size_t size);
     /* Errors name no file: the caller puts its name in front. On failure *out is left for the caller to release. */
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
+    /* NULL, or: the transparency, 1 where a pixel is opaque, as an image of one channel; none where the file has none. */
+    koksma_status (*read_alpha)(const unsigned char *bytes, size_t size, koksma_image *out);
     /* Of n layers those that it has a place for: the first at least. */
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
     bool has_layers; /* a file holds all layers; else the first alone */

@@ -4,7 +4,7 @@
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
  * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
  * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is what writers of sRGB say, and is taken
- * for sRGB. Transparency is dropped: albedos and comparisons take a pixel's own colour. Files are written as sRGB
+ * for sRGB. Transparency is dropped, but for who asks for it alone: albedos and comparisons take a pixel's own colour. Files are written as sRGB
  * with 8 bits.
  */
 #ifdef KOKSMA_PNG
@@ -89,6 +89,7 @@ static void get(png_structp png, png_bytep data, size_t size)
 
 typedef struct head {
     png_uint_32 width, height;
+    bool alpha; /* the transparency is wanted, and nothing else */
     int channels, level_bytes, passes;
     double power; /* of the curve; 0: sRGB's */
 } head;
@@ -108,19 +109,23 @@ static double power_of(png_const_structp png, png_const_infop info)
    releasing. */
 static bool get_head(png_structp png, png_infop info, head *h)
 {
-    static const png_byte wanted[] = "gAMA\0iCCP\0sRGB"; /* texts may be huge once unpacked */
+    static const png_byte wanted[] = "gAMA\0iCCP\0sRGB\0tRNS"; /* texts may be huge once unpacked */
     if (setjmp(png_jmpbuf(png))) {
         return false;
     }
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, wanted, 3);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, wanted, h->alpha ? 4 : 3);
     png_read_info(png, info);
     h->width = png_get_image_width(png, info);
     h->height = png_get_image_height(png, info);
     h->power = power_of(png, info);
     png_set_palette_to_rgb(png);
     png_set_expand_gray_1_2_4_to_8(png);
-    png_set_strip_alpha(png);
+    if (h->alpha) {
+        png_set_tRNS_to_alpha(png);
+    } else {
+        png_set_strip_alpha(png);
+    }
     h->passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     h->channels = png_get_channels(png, info);
@@ -160,30 +165,48 @@ static koksma_status to_linear(const unsigned char *levels, const head *h, size_
     return KOKSMA_OK;
 }
 
+/* The last channel, as it is. */
+static void to_alpha(const unsigned char *levels, const head *h, size_t pixels, float *out)
+{
+    const size_t bytes = (size_t)h->level_bytes, step = (size_t)h->channels * bytes;
+    for (size_t i = 0; i < pixels; i++) {
+        const unsigned char *level = levels + (i + 1) * step - bytes;
+        out[i] = bytes == 1 ? (float)level[0] / 255 : (float)(level[0] << 8 | level[1]) / 65535;
+    }
+}
+
 static koksma_status fail(const stream *s)
 {
     return koksma__fail(s->no_memory ? KOKSMA_MEMORY : KOKSMA_MALFORMED, "as a PNG: %s",
                         *s->message ? s->message : "out of memory");
 }
 
-static koksma_status read_image(png_structp png, png_infop info, const stream *s, koksma_image *out)
+static koksma_status read_image(png_structp png, png_infop info, const stream *s, bool alpha, koksma_image *out)
 {
-    head h = {0};
+    head h = {.alpha = alpha};
     const size_t size = s->left;
     if (!get_head(png, info, &h)) {
         return fail(s);
     }
+    if (alpha && h.channels % 2) {
+        return KOKSMA_OK;
+    }
     /* Deflate packs 1032 bytes into one at most, and a pixel has 1 bit at least. */
-    KOKSMA__TRY(koksma__image_claim(h.width, h.height, h.channels, size, 8 * 1032, out));
+    KOKSMA__TRY(koksma__image_claim(h.width, h.height, alpha ? 1 : h.channels, size, 8 * 1032, out));
     const size_t count = (size_t)h.width * h.height * (size_t)h.channels;
     unsigned char *levels = calloc(count, (size_t)h.level_bytes);
     KOKSMA__REQUIRE_MEMORY(levels, count * (size_t)h.level_bytes);
-    const koksma_status status = get_rows(png, &h, levels) ? to_linear(levels, &h, count, out->pixels) : fail(s);
+    koksma_status status = get_rows(png, &h, levels) ? KOKSMA_OK : fail(s);
+    if (!status && alpha) {
+        to_alpha(levels, &h, count / (size_t)h.channels, out->pixels);
+    } else if (!status) {
+        status = to_linear(levels, &h, count, out->pixels);
+    }
     free(levels);
     return status;
 }
 
-static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+static koksma_status read_part(const unsigned char *bytes, size_t size, bool alpha, koksma_image *out)
 {
     stream s = {.in = bytes, .left = size};
     KOKSMA__TRY(check_chunks(bytes, size));
@@ -193,13 +216,23 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (info) {
         png_set_read_fn(png, &s, get);
-        status = read_image(png, info, &s, out);
+        status = read_image(png, info, &s, alpha, out);
     } else {
         s.no_memory = true;
         status = fail(&s);
     }
     png_destroy_read_struct(&png, &info, NULL);
     return status;
+}
+
+static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    return read_part(bytes, size, false, out);
+}
+
+static koksma_status read_alpha(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    return read_part(bytes, size, true, out);
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------ */
@@ -286,6 +319,7 @@ const koksma__image_format koksma__format_png = {
     .name = "png",
     .recognises = recognises,
     .read = read,
+    .read_alpha = read_alpha,
     .write = write,
     .error = 0.5 / 255 * 2.4 / 1.055, /* half a level where the curve is steepest, at 1 */
 };

@@ -160,6 +160,37 @@ koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, 
     return status;
 }
 
+/* The curve of sRGB backwards: what png.c and jpeg_turbo.c did is undone. */
+static void uncurve(koksma_image *image)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    for (size_t i = 0; i < n; i++) {
+        const double x = (double)image->pixels[i];
+        image->pixels[i] = (float)(x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055);
+    }
+}
+
+koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, koksma__image_part part,
+                                      koksma_image *out)
+{
+    const koksma__image_format *format;
+    *out = (koksma_image){0};
+    koksma_status status = find_format(bytes, size, &format);
+    if (!status && part == KOKSMA__IMAGE_ALPHA) {
+        most_pixels = KOKSMA__TEXTURE_PIXELS;
+        status = format->read_alpha ? format->read_alpha(bytes, size, out) : KOKSMA_OK;
+        if (status) {
+            koksma_image_fini(out);
+        }
+        return status;
+    }
+    status = status ? status : koksma__image_read_bytes(bytes, size, KOKSMA__FILE_TEXTURE, out);
+    if (!status && part == KOKSMA__IMAGE_NUMBERS && format->error > 0) {
+        uncurve(out);
+    }
+    return status;
+}
+
 koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out)
 {
     KOKSMA__REQUIRE(path, out);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* glTF 2.0 as JSON and buffers. gltf_check.c sees that the parts fit together; gltf_read.c opens the file and its
-   materials, gltf_buffers.c its buffers and accessors, gltf_meshes.c makes meshes of primitives, gltf_nodes.c places
+/* glTF 2.0 as JSON and buffers. gltf_check.c sees that the parts fit together; gltf_read.c opens the file,
+   gltf_materials.c reads its materials, gltf_buffers.c its buffers and accessors, gltf_meshes.c makes meshes of primitives, gltf_nodes.c places
    them, and finds lights and the camera. Here is what these share. */
 #ifndef KOKSMA_MESHES_GLTF_H
 #define KOKSMA_MESHES_GLTF_H
@@ -42,8 +42,9 @@ typedef struct koksma__gltf {
     koksma__gltf_bytes *images;  /* those that the file holds, once they were needed */
     koksma__list shown;          /* placements of the file's meshes */
     bool *mesh_shown;
-    bool *material_used; /* by a mesh that is shown; the last is for primitives that name none */
-    size_t *beyond;      /* of an accessor of indices: 1 + the largest; 0: not looked at yet */
+    bool *material_used;   /* by a mesh that is shown; the last is for primitives that name none */
+    bool *material_tinted; /* likewise, by one with colours of vertices */
+    size_t *beyond;        /* of an accessor of indices: 1 + the largest; 0: not looked at yet */
 } koksma__gltf;
 
 /* The list `key` of an object, which may have none: then *n is 0. */

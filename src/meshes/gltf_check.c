@@ -128,7 +128,6 @@ static koksma_status check_primitive(const koksma__gltf *g, const field *f)
     for (size_t i = 0; !status && i < sizeof attributes / sizeof *attributes; i++) {
         status = names(&list, attributes[i], "accessor", g->n[KOKSMA__GLTF_ACCESSORS]);
     }
-    KOKSMA__JSON_FAIL_IF(!status && koksma__json_has(f, "targets"), f, "morph targets are not read");
     return status;
 }
 
@@ -204,19 +203,27 @@ static koksma_status check_tree(const koksma__gltf *g, unsigned char *has_parent
     return status;
 }
 
+bool koksma__gltf_reads(const char *extension)
+{
+    static const char *const known[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
+                                        "KHR_texture_transform"};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (!strcmp(extension, known[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* A reader that lacks one of these must not show the file (glTF 2.0, section 3.12). */
 static koksma_status check_extension(const koksma__gltf *g, const field *item)
 {
-    static const char *const known[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength"};
     const char *name;
     const koksma_status status = koksma__json_text(item, &name);
     (void)g;
-    for (size_t i = 0; !status && i < sizeof known / sizeof *known; i++) {
-        if (!strcmp(name, known[i])) {
-            return KOKSMA_OK;
-        }
-    }
-    return status ? status : koksma__json_fail(item, "the file requires extension '%s', which is not read", name);
+    return status || koksma__gltf_reads(name)
+               ? status
+               : koksma__json_fail(item, "the file requires extension '%s', which is not read", name);
 }
 
 koksma_status koksma__gltf_check(koksma__gltf *g)

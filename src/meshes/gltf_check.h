@@ -9,4 +9,7 @@
    within what holds it, and nodes are trees. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_check(koksma__gltf *g);
 
+/* Whether the extension of this name is read. */
+bool koksma__gltf_reads(const char *extension);
+
 #endif

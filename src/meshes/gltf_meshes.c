@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The meshes of a glTF file: each primitive of triangles, strips or fans becomes one. POSITION, NORMAL, TEXCOORD_0
- * and the indices are read; texture coordinates have their origin at the upper left in glTF and at the lower left
+ * The meshes of a glTF file: each primitive of triangles, strips or fans becomes one. POSITION, NORMAL, COLOR_0, one
+ * set of texture coordinates and the indices are read; texture coordinates have their origin at the upper left in glTF and at the lower left
  * here, so v becomes 1 - v. All meshes are checked: attributes have as many elements as there are positions, and
  * every index names one (glTF 2.0, section 3.7.2). Only meshes that a node of the scene shows are kept.
  */
@@ -11,6 +11,7 @@
 
 #include "core/status.h"
 #include "meshes/gltf_buffers.h"
+#include "meshes/gltf_materials.h"
 
 typedef koksma__json_node field;
 
@@ -97,7 +98,8 @@ static koksma_status take_primitive(const koksma__gltf *g, const field *f, primi
     status = status ? status : koksma__json_get_whole(f, "material", false, 0, p->material, &p->material);
     status = status ? status : take_attribute(g, &list, "POSITION", 3, true, false, NULL, &p->positions);
     status = status ? status : take_attribute(g, &list, "NORMAL", 3, true, false, p, &p->normals);
-    status = status ? status : take_attribute(g, &list, "TEXCOORD_0", 2, false, false, p, &p->uvs);
+    const char *const uvs = koksma__gltf_uv_set(g, (size_t)p->material) ? "TEXCOORD_1" : "TEXCOORD_0";
+    status = status ? status : take_attribute(g, &list, uvs, 2, false, false, p, &p->uvs);
     status = status ? status : take_attribute(g, &list, "COLOR_0", 3, false, true, p, &p->colours);
     return status ? status : take_indices(g, f, &list, p);
 }
@@ -128,6 +130,9 @@ static void fill(const primitive *p, koksma__mesh *mesh)
             mesh->uvs[2 * i + 1] = 1 - koksma__gltf_real(&p->uvs, i, 1);
         }
     }
+    for (size_t i = 0; mesh->colours && i < 3 * p->positions.n; i++) {
+        mesh->colours[i] = koksma__gltf_real(&p->colours, i / 3, (int)(i % 3));
+    }
     for (size_t i = 0; i < 3 * mesh->n_triangles; i++) {
         mesh->indices[i] = corner(p, i / 3, i % 3);
     }
@@ -151,10 +156,16 @@ static koksma_status keep_primitive(koksma__gltf *g, const primitive *p)
     const size_t corners = p->indices.n ? p->indices.n : p->positions.n;
     const size_t n = p->mode == TRIANGLES ? corners / 3 : p->mode >= STRIP && corners > 2 ? corners - 2 : 0;
     koksma__mesh mesh = {0};
+    g->out->unread.lines += p->positions.n && p->mode < TRIANGLES;
     if (!n) {
         return KOKSMA_OK;
     }
     koksma_status status = koksma__mesh_init(p->positions.n, n, p->normals.n > 0, p->uvs.n > 0, &mesh);
+    if (!status && is_coloured(p)) {
+        mesh.colours = calloc(3 * p->positions.n + 1, sizeof *mesh.colours);
+        status = mesh.colours ? KOKSMA_OK : koksma__fail_memory(3 * p->positions.n * sizeof *mesh.colours);
+        g->material_tinted[p->material] = true;
+    }
     if (!status) {
         fill(p, &mesh);
         status = koksma__file_take_mesh(g->out, &mesh, (size_t)p->material);
@@ -163,7 +174,6 @@ static koksma_status keep_primitive(koksma__gltf *g, const primitive *p)
     }
     koksma__mesh_fini(&mesh);
     g->material_used[p->material] = true;
-    g->out->unread.vertex_colours += is_coloured(p);
     return status;
 }
 
@@ -181,6 +191,7 @@ koksma_status koksma__gltf_read_meshes(koksma__gltf *g)
             const field item = koksma__json_item(&primitives, k);
             primitive p;
             status = take_primitive(g, &item, &p);
+            g->out->unread.morphs += g->mesh_shown[i] && koksma__json_has(&item, "targets");
             status = status || !g->mesh_shown[i] ? status : keep_primitive(g, &p);
         }
         first[i + 1] = g->out->meshes.n;

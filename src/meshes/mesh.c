@@ -35,7 +35,7 @@ koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool norm
 
 void koksma__mesh_fini(koksma__mesh *mesh)
 {
-    KOKSMA__FREE(mesh->vertices, mesh->normals, mesh->uvs, mesh->indices);
+    KOKSMA__FREE(mesh->vertices, mesh->normals, mesh->uvs, mesh->colours, mesh->indices);
     *mesh = (koksma__mesh){0};
 }
 
@@ -72,6 +72,9 @@ static koksma_status check_vertices(koksma__mesh *m)
     for (size_t i = 0; m->uvs && i < 2 * m->n_vertices; i++) {
         KOKSMA__FAIL_IF(!(fabs((double)m->uvs[i]) <= FAR), KOKSMA_MALFORMED,
                         "vertex %zu has a texture coordinate of %g", i / 2, (double)m->uvs[i]);
+    }
+    for (size_t i = 0; m->colours && i < 3 * m->n_vertices; i++) {
+        m->colours[i] = m->colours[i] > 0 ? fminf(m->colours[i], 1) : 0;
     }
     for (size_t i = 0; m->normals && i < m->n_vertices; i++) {
         float *n = m->normals + 3 * i;

@@ -15,6 +15,7 @@ typedef struct koksma__mesh {
     float *vertices;   /* 3 a vertex, and room for one number more, which Embree may read */
     float *normals;    /* 3 a vertex, or NULL */
     float *uvs;        /* 2 a vertex, or NULL */
+    float *colours;    /* 3 a vertex, linear, or NULL; whoever wants them makes them after koksma__mesh_init */
     uint32_t *indices; /* 3 a triangle, counterclockwise seen from outside */
     double low[3], high[3];
     size_t n_degenerate; /* triangles without area */
@@ -70,12 +71,15 @@ void koksma__matrix_multiply(const double a[12], const double b[12], double out[
 /* What a file has that is not read, by number. */
 typedef struct koksma__unread {
     size_t animations, skins;
-    size_t vertex_colours;         /* meshes */
-    size_t second_uvs, transforms; /* textures of base colour by other coordinates than the first, or by moved ones */
-    size_t too_bright;             /* lights, or materials that glow */
-    size_t see_through;            /* materials */
-    size_t libraries, materials;   /* material files that are not there; materials that no such file makes */
+    size_t vertex_colours;            /* meshes */
+    size_t second_uvs;                /* textures by other coordinates than the first */
+    size_t morphs, lines;             /* primitives with morph targets; of points or lines */
+    size_t too_bright;                /* lights, or materials that glow */
+    size_t see_through;               /* materials */
+    size_t libraries, materials;      /* material files that are not there; materials that no such file makes */
     char library[256], material[256]; /* the first of each */
+    size_t extensions;                /* of the file, which are not read; their names, as far as there is room */
+    char extension[256];
 } koksma__unread;
 
 #endif

@@ -172,7 +172,8 @@ void koksma__mesh_file_fini(koksma__mesh_file *f)
     }
     for (size_t i = 0; i < f->materials.n; i++) {
         free(koksma__file_material_at(f, i)->colour_map.name);
-        free(koksma__file_material_at(f, i)->glow_map.name);
+        koksma__file_material *m = koksma__file_material_at(f, i);
+        KOKSMA__FREE(m->glow_map.name, m->surface_map.name, m->normal_map.name);
     }
     for (size_t i = 0; i < f->owned.n; i++) {
         free(((void **)f->owned.items)[i]);

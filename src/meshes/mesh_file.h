@@ -27,6 +27,9 @@ typedef struct koksma__file_texture {
     bool within;
     const unsigned char *bytes; /* NULL: the model holds it in a way that is not read */
     size_t size;
+    bool moved, nearest; /* of texture coordinates with v upwards: at matrix (u, v, 1) */
+    float matrix[6], scale;
+    int wrap[2]; /* of glTF: 10497 repeated, 33071 held at the edge, 33648 mirrored; 0: repeated */
 } koksma__file_texture;
 
 /* Textures are multiplied by colour and glow. */
@@ -34,7 +37,11 @@ typedef struct koksma__file_material {
     float colour[3], metallic, roughness;
     double glow[3];
     koksma__file_texture colour_map, glow_map;
-    bool see_through;
+    bool see_through; /* it has a transparency that is not read */
+    /* of glTF: metal and roughness mix, and there are more textures */
+    bool principled, blends, tinted; /* blends: by alpha and the transparency of colour_map; tinted: by vertices */
+    double ior, alpha, cutoff;       /* cutoff 0: a share of the rays */
+    koksma__file_texture surface_map, normal_map;
 } koksma__file_material;
 
 /* A mesh in its file's coordinates, not yet checked, and the number of its material. */

@@ -4,6 +4,7 @@
  * and shapes) appends here. koksma__scene_finish() derives what depends on all parts: whether pictures have one
  * channel, whether anything moves, and the part of the hash that comes from images in other files.
  */
+#include <stdio.h>
 #include <string.h>
 
 #include "core/capacity.h"
@@ -38,6 +39,14 @@ koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out)
     return KOKSMA_OK;
 }
 
+koksma_status koksma__scene_note(koksma_scene *scene, const char *text)
+{
+    char(*note)[256] = koksma__add_one(&scene->notes, &scene->n_notes, sizeof *note);
+    KOKSMA__TRY(note ? KOKSMA_OK : KOKSMA_MEMORY);
+    snprintf(*note, sizeof *note, "%s", text);
+    return KOKSMA_OK;
+}
+
 static bool is_grey(const double rgb[3])
 {
     return rgb[0] == rgb[1] && rgb[1] == rgb[2];
@@ -62,7 +71,12 @@ static uint64_t image_hash(const koksma_image *image)
 static void add_pixels(koksma_scene *scene)
 {
     for (size_t i = 0; i < scene->n_materials; i++) {
-        scene->hash ^= scene->materials[i].image ? image_hash(scene->materials[i].image) + i : 0;
+        const koksma__material *m = &scene->materials[i];
+        scene->hash ^= m->image ? image_hash(m->image) + i : 0;
+        for (size_t k = 0; k < KOKSMA__N_MAPS; k++) {
+            const uint64_t key = 1 + i + KOKSMA__MAX_MATERIALS * (k + 1);
+            scene->hash ^= m->maps[k].image ? image_hash(m->maps[k].image) * (2 * key + 1) : 0;
+        }
     }
     for (size_t i = 0; i < scene->n_lights; i++) {
         scene->hash ^= scene->lights[i].image ? image_hash(scene->lights[i].image) + scene->n_materials + i : 0;
@@ -76,7 +90,8 @@ void koksma__scene_finish(koksma_scene *scene)
     for (size_t i = 0; i < scene->n_materials; i++) {
         const koksma__material *m = &scene->materials[i];
         scene->grey &= is_grey(m->albedo[0]) && is_grey(m->albedo[1]) && has_grey_values(m) &&
-                       !(m->image && m->image->channels == 3);
+                       !(m->image && m->image->channels == 3) && !m->tinted &&
+                       !(m->maps[KOKSMA__MAP_EMISSION].image && m->maps[KOKSMA__MAP_EMISSION].image->channels == 3);
     }
     for (size_t i = 0; i < scene->n_lights; i++) {
         const koksma__light *l = &scene->lights[i];

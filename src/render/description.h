@@ -27,6 +27,29 @@ typedef struct koksma__shape {
 
 enum { KOKSMA__MAX_VALUES = 16 }; /* numbers of a kind's parameters; a colour takes 3 */
 
+/* How an image lies over a surface's coordinates (u, v): at matrix (u, v, 1), if it is moved. */
+typedef enum koksma__wrap { KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR } koksma__wrap;
+typedef struct koksma__mapping {
+    bool moved, nearest;
+    float matrix[6];
+    koksma__wrap wrap[2]; /* along u and v */
+} koksma__mapping;
+
+/* Images over a surface beside that of its albedo. */
+typedef enum koksma__map_use {
+    KOKSMA__MAP_SURFACE,  /* green times the roughness, blue times how metallic it is */
+    KOKSMA__MAP_NORMAL,   /* 2 rgb - 1 is the normal along u, along v and outwards; scale: of the first two */
+    KOKSMA__MAP_ALPHA,    /* grey times material.alpha */
+    KOKSMA__MAP_EMISSION, /* times the radiance of the mesh's light */
+    KOKSMA__N_MAPS
+} koksma__map_use;
+
+typedef struct koksma__map {
+    koksma_image *image; /* or NULL */
+    koksma__mapping mapping;
+    float scale;
+} koksma__map;
+
 /* Colours are red, green and blue in linear light. A checker has two albedos, in squares of side `period` of a flat
    shape's own u, v: (floor(s + phase[0]) + floor(t + phase[1])) odd has the second, (s, t) = (u, v) turned by
    angle_rad / period. */
@@ -38,10 +61,15 @@ typedef struct koksma__material {
     double period, phase[2], angle_rad;
     double values[KOKSMA__MAX_VALUES]; /* of the kind's parameters, where its file puts them */
     koksma_image *image;               /* the albedo over a surface's coordinates, in place of albedo; or NULL */
+    koksma__mapping mapping;           /* of image, over meshes */
+    koksma__map maps[KOKSMA__N_MAPS];
+    bool tinted; /* the albedo is multiplied by the colours of a mesh's vertices, where it has them */
+    /* see_through: the surface is there for this share of the rays; with a cutoff, wherever alpha is not below it */
+    bool see_through;
+    double alpha, cutoff;
     /* warnings about a model file's material; "": none */
-    char lost[256];   /* why its texture is left out */
-    char dark[256];   /* why its emission is left out */
-    char evened[256]; /* the emissive texture whose mean the light has */
+    char lost[256]; /* why its texture is left out */
+    char dark[256]; /* why its emission is left out */
 } koksma__material;
 
 /* A flat light shines from the side that its normal points to. What a surface of albedo a reflects of a rectangle
@@ -95,6 +123,12 @@ struct koksma_scene {
     bool moves;            /* something depends on time */
     bool is_model;         /* a bare mesh file: nobody wrote its materials for this program */
     koksma__unread unread; /* of a bare mesh file */
+    bool glows;            /* a placement with a material is a light, too */
+    struct {
+        size_t lights, shapes;
+    } studio; /* how many of the last lights and shapes a bare mesh file got; each shape has one of the last materials */
+    size_t n_notes; /* further warnings about a bare mesh file */
+    char (*notes)[256];
     koksma__scene_cache *cache;
 };
 
@@ -108,6 +142,9 @@ koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *
 
 /* One more light, zeroed. Errors: MALFORMED (too many). */
 koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);
+
+/* One more warning about a bare mesh file. Errors: MEMORY. */
+koksma_status koksma__scene_note(koksma_scene *scene, const char *text);
 
 /* What follows from the rest: grey, moves and the pixels' part of the hash. */
 void koksma__scene_finish(koksma_scene *scene);

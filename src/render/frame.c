@@ -103,8 +103,8 @@ static koksma_status make_lane_materials(koksma__frame *f)
                                  b->t0};
         t->form[i] = (int32_t)m->bsdf->form;
         t->traits[i] = 1 << m->bsdf->form | (int32_t)m->bsdf->lobes << KOKSMA__LOBES_AT |
-                       (m->bsdf->takes_choice ? KOKSMA__TAKES_CHOICE : 0) | (m->image ? KOKSMA__HAS_IMAGE : 0) |
-                       (b->checker ? KOKSMA__IS_CHECKER : 0);
+                       (m->bsdf->takes_choice ? KOKSMA__TAKES_CHOICE : 0) |
+                       (koksma__is_textured(m) ? KOKSMA__HAS_IMAGE : 0) | (b->checker ? KOKSMA__IS_CHECKER : 0);
         for (size_t k = 0; k < n_columns; k++) {
             (*columns[k])[i] = numbers[k];
         }

@@ -133,9 +133,10 @@ static bool of_materials(const koksma_scene *scene, asked *a)
                      m->dark);
             return true;
         }
-        if (*m->evened && here(a)) {
-            snprintf(a->text, a->size, "material %zu glows evenly, with its emissive texture's mean: %s", i,
-                     m->evened);
+    }
+    for (size_t i = 0; i < scene->n_notes; i++) {
+        if (here(a)) {
+            snprintf(a->text, a->size, "%s", scene->notes[i]);
             return true;
         }
     }
@@ -151,8 +152,9 @@ static bool of_unread(const koksma__unread *u, asked *a)
         {u->animations, "animations", "everything stays where its node puts it"},
         {u->skins, "skins", "their meshes stand as they were modelled"},
         {u->vertex_colours, "meshes' vertex colours", "materials alone say the colour"},
-        {u->second_uvs, "other texture coordinates than the first", "textures use the first"},
-        {u->transforms, "transforms of textures", "textures are placed without them"},
+        {u->second_uvs, "textures' own texture coordinates", "they use those of their material's first texture"},
+        {u->morphs, "morph targets", "meshes stand as they were modelled"},
+        {u->lines, "points and lines", "triangles alone are shown"},
         {u->see_through, "materials' transparencies", "they are opaque"},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
@@ -160,6 +162,10 @@ static bool of_unread(const koksma__unread *u, asked *a)
             snprintf(a->text, a->size, "%s (%zu) are not read: %s", all[i].what, all[i].n, all[i].so);
             return true;
         }
+    }
+    if (u->extensions && here(a)) {
+        snprintf(a->text, a->size, "extensions (%zu) are not read: %s", u->extensions, u->extension);
+        return true;
     }
     return false;
 }

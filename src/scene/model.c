@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a bare mesh file lacks as a scene: a picture's size, and where it has none a camera and light. */
+/*
+ * What a bare mesh file lacks as a scene: a picture's size, where it has none a camera, and where it has no lights but
+ * meshes that glow a studio: a key light, a dim sky, and, if the camera is ours too, a ground. And the sky that a user
+ * wants in place of what any scene has.
+ */
 #include "scene/model.h"
 #include "render/lights/lights.h"
 
@@ -7,9 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/hash.h"
 #include "core/status.h"
 #include "core/vector.h"
+#include "image/formats.h"
+#include "image/registry.h"
+#include "render/materials/materials.h"
+#include "render/shapes/shapes.h"
 #include "scene/parse.h"
+
+/* Part of the hash of bare models: raised when the same file gives another picture. */
+#define MODEL_REVISION 2
 
 bool koksma__camera_aim(const double eye[3], const double forward[3], const double up[3], double fov_rad,
                         koksma__camera *camera)
@@ -31,12 +43,10 @@ bool koksma__camera_aim(const double eye[3], const double forward[3], const doub
     return true;
 }
 
-/* From the front, a little from above and the right, so far that a ball around everything fills the height. */
-static void frame_all(koksma_scene *scene)
+/* The ball around the box around everything; low: the box's lowest height. */
+static double surround(const koksma_scene *scene, double centre[3], double *low_y)
 {
-    static const double direction[3] = {-0.5, -0.4, -1}, up[3] = {0, 1, 0};
-    const double fov = 40 * M_PI / 180;
-    double low[3], high[3], eye[3], square = 0, forward[3] = {direction[0], direction[1], direction[2]};
+    double low[3], high[3], square = 0;
     for (int k = 0; k < 3; k++) {
         low[k] = scene->placements[0].low[k];
         high[k] = scene->placements[0].high[k];
@@ -44,13 +54,180 @@ static void frame_all(koksma_scene *scene)
             low[k] = fmin(low[k], scene->placements[i].low[k]);
             high[k] = fmax(high[k], scene->placements[i].high[k]);
         }
+        centre[k] = (low[k] + high[k]) / 2;
         square += (high[k] - low[k]) * (high[k] - low[k]) / 4;
     }
+    *low_y = low[1];
+    return sqrt(square);
+}
+
+/* From the front, a little from above and the right, so far that a ball around everything fills the height. */
+static void frame_all(koksma_scene *scene, const double centre[3], double radius)
+{
+    static const double up[3] = {0, 1, 0};
+    const double fov = 40 * M_PI / 180;
+    double eye[3], forward[3] = {-0.5, -0.4, -1};
     koksma__normalise(forward);
     for (int k = 0; k < 3; k++) {
-        eye[k] = (low[k] + high[k]) / 2 - forward[k] * sqrt(square) / sin(fov / 2);
+        eye[k] = centre[k] - forward[k] * radius / sin(fov / 2);
     }
     koksma__camera_aim(eye, forward, up, fov, &scene->camera);
+}
+
+/* A grey plane just below everything. */
+static koksma_status add_ground(koksma_scene *scene, const double centre[3], double low_y, double radius)
+{
+    koksma__material *grey = &scene->materials[scene->n_materials];
+    size_t kind = 0;
+    while (strcmp(koksma__shape_kinds[kind]->name, "plane") != 0) {
+        kind++;
+    }
+    koksma__shape plane = {.type = koksma__shape_types[kind],
+                           .centre = {centre[0], low_y - 1e-4 * radius, centre[2]},
+                           .normal = {0, 1, 0},
+                           .axis_u = {1, 0, 0},
+                           .axis_v = {0, 0, -1},
+                           .half = {INFINITY, INFINITY},
+                           .material = (int)scene->n_materials++,
+                           .light = -1},
+                  *added;
+    snprintf(grey->name, sizeof grey->name, "ground");
+    grey->bsdf = &koksma__bsdf_lambert;
+    for (int k = 0; k < 6; k++) {
+        grey->albedo[k / 3][k % 3] = 0.4;
+    }
+    scene->studio.shapes = 1;
+    return koksma__scene_add_shape(scene, &plane, &added);
+}
+
+/* A square that no ray sees, from the upper left in front, as large as the model, five of its radii away; a surface in
+   the centre that faces it has an irradiance of 2. */
+static koksma_status add_key(koksma_scene *scene, const double centre[3], double radius)
+{
+    static const double up[3] = {0, 1, 0};
+    double from[3] = {-0.5, 0.9, 0.6};
+    koksma__light *key = NULL;
+    KOKSMA__TRY(koksma__scene_add_light(scene, &key));
+    koksma__normalise(from);
+    key->kind = &koksma__light_rectangle;
+    key->half[0] = key->half[1] = radius;
+    for (int k = 0; k < 3; k++) {
+        key->centre[k] = centre[k] + 5 * radius * from[k];
+        key->normal[k] = -from[k];
+        key->radiance[k] = 2 * 25.0 / 4;
+    }
+    koksma__cross(up, key->normal, key->axis_u);
+    koksma__normalise(key->axis_u);
+    koksma__cross(key->normal, key->axis_u, key->axis_v);
+    key->power = key->radiance[0] * 4 * radius * radius / M_PI;
+    return KOKSMA_OK;
+}
+
+static koksma_status add_sky(koksma_scene *scene, double radiance)
+{
+    koksma__light *sky = NULL;
+    KOKSMA__TRY(koksma__scene_add_light(scene, &sky));
+    sky->kind = &koksma__light_environment;
+    sky->visible = true;
+    sky->radiance[0] = sky->radiance[1] = sky->radiance[2] = radiance;
+    return KOKSMA_OK;
+}
+
+/* Lights of glTF are in lux and candela, and whoever shows them chooses an exposure: those that make a white surface in the
+   centre more than ten times white are dimmed together, to white, with a warning. */
+static koksma_status expose(koksma_scene *scene, const double centre[3])
+{
+    double sum = 0;
+    char text[128];
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        const koksma__light *l = &scene->lights[i];
+        double d[3];
+        koksma__subtract(l->centre, centre, d);
+        const bool near = l->kind->distance == KOKSMA__LIGHT_NEAR;
+        const double largest = fmax(fmax(l->radiance[0], l->radiance[1]), l->radiance[2]);
+        sum += l->kind == &koksma__light_mesh ? 0 : largest / (near ? fmax(koksma__dot(d, d), TINY) : 1) / M_PI;
+    }
+    if (!(sum > 10)) {
+        return KOKSMA_OK;
+    }
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        for (int k = 0; k < 3 && scene->lights[i].kind != &koksma__light_mesh; k++) {
+            scene->lights[i].radiance[k] /= sum;
+        }
+    }
+    snprintf(text, sizeof text, "lights that nodes have are dimmed together, by %llu", (unsigned long long)sum);
+    return koksma__scene_note(scene, text);
+}
+
+/* The studio: what a model lacks. Its lights and its ground are the scene's last, for koksma_scene_set_sky(). */
+static koksma_status complete(koksma_scene *scene, bool has_camera)
+{
+    double centre[3], low_y;
+    const double radius = surround(scene, centre, &low_y);
+    bool lit = false;
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        lit |= scene->lights[i].kind != &koksma__light_mesh;
+    }
+    if (!has_camera) {
+        frame_all(scene, centre, radius);
+    }
+    if (lit) {
+        return expose(scene, centre);
+    }
+    scene->studio.lights = 2;
+    KOKSMA__TRY(add_key(scene, centre, radius));
+    KOKSMA__TRY(add_sky(scene, 0.4));
+    return has_camera ? KOKSMA_OK : add_ground(scene, centre, low_y, radius);
+}
+
+/* The studio's lights and shapes are the last. */
+static void take_down(koksma_scene *scene)
+{
+    scene->n_lights -= scene->studio.lights;
+    scene->n_shapes -= scene->studio.shapes;
+    scene->n_materials -= scene->studio.shapes;
+    memset(&scene->studio, 0, sizeof scene->studio);
+}
+
+koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, double radiance)
+{
+    KOKSMA__REQUIRE(scene);
+    koksma__light *sky = NULL;
+    koksma_image *pixels = NULL;
+    KOKSMA__FAIL_IF(!(radiance >= 0 && radiance <= BRIGHT), KOKSMA_ARGUMENT, "a sky of radiance %g: it takes 0 to %g",
+                    radiance, BRIGHT);
+    KOKSMA__FAIL_IF(scene->cache->made, KOKSMA_ARGUMENT, "the scene was rendered already: its sky is set before");
+    if (image) {
+        pixels = calloc(1, sizeof *pixels);
+        KOKSMA__REQUIRE_MEMORY(pixels, sizeof *pixels);
+        koksma_status status = koksma__image_read(image, KOKSMA__FILE_TEXTURE, KOKSMA__BY_USER, pixels);
+        status = status ? status : koksma__image_check(pixels, image);
+        if (status) {
+            koksma_image_fini(pixels);
+            free(pixels);
+            return status;
+        }
+    }
+    take_down(scene);
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        sky = scene->lights[i].kind == &koksma__light_environment ? &scene->lights[i] : sky;
+    }
+    const koksma_status status = sky ? KOKSMA_OK : koksma__scene_add_light(scene, &sky);
+    if (status) {
+        koksma_image_fini(pixels);
+        free(pixels);
+        return status;
+    }
+    koksma_image_fini(sky->image);
+    free(sky->image);
+    *sky = (koksma__light){.kind = &koksma__light_environment,
+                           .visible = true,
+                           .radiance = {radiance, radiance, radiance},
+                           .image = pixels};
+    const uint64_t parts[2] = {scene->hash, koksma__hash(&radiance, sizeof radiance)};
+    scene->hash = koksma__hash(parts, sizeof parts);
+    koksma__scene_finish(scene);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_scene *scene)
@@ -68,15 +245,8 @@ koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_sce
     scene->height = 384;
     scene->clamp = INFINITY;
     KOKSMA__TRY(koksma__model_read(path, by, scene, &has_camera));
-    if (!has_camera) {
-        frame_all(scene);
-    }
-    koksma__light *sky = NULL;
-    if (!scene->n_lights && !koksma__scene_add_light(scene, &sky)) {
-        sky->kind = &koksma__light_environment;
-        sky->visible = true;
-        sky->radiance[0] = sky->radiance[1] = sky->radiance[2] = 1;
-    }
+    scene->hash += MODEL_REVISION;
+    KOKSMA__TRY(complete(scene, has_camera));
     koksma__scene_finish(scene);
     return KOKSMA_OK;
 }

@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 /* Fills an empty scene from a mesh file; where it has no camera, one is set up that sees all of it; where it has no
-   light, there is a white sky. Whatever comes of it, the caller calls fini. */
+   light, there is a studio (model.c). Whatever comes of it, the caller calls fini. */
 koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_scene *scene);
 
 /* Everything in a file, as a scene: meshes where its nodes place them, materials, cameras, lights. scene is empty;

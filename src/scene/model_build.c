@@ -25,6 +25,7 @@ typedef struct builder {
     koksma__mesh_file *file;
     int (*meshes)[2];     /* the scene's, by the file's numbers, and mirrored; -1: not yet */
     double (*glows)[3];   /* by material */
+    size_t n_dark;        /* meshes that should glow */
     koksma_status status; /* of the materials so far */
 } builder;
 
@@ -35,22 +36,26 @@ static double clamp01(float x)
     return x > 0 ? fmin((double)x, 1) : 0;
 }
 
-/* Reads an image that is embedded in the model file (glb) or stands beside it. Errors: MALFORMED (there is no such
-   file, or it is no image that we read), MISSING (the file exists and can't be opened), MEMORY. */
-static koksma_status read_texture(const builder *build, const koksma__file_texture *from, koksma_image *image)
+/* Reads a part of an image that is embedded in the model file (glb) or stands beside it. Errors: MALFORMED (there is no
+   such file, or it is no image that we read), MISSING (the file exists and can't be opened), MEMORY. */
+static koksma_status read_texture(const builder *build, const koksma__file_texture *from, koksma__image_part part,
+                                  koksma_image *image)
 {
     char full[KOKSMA__MAX_PATH];
+    unsigned char *bytes = NULL;
+    size_t size = from->size;
+    koksma_status status = KOKSMA_OK;
     *image = (koksma_image){0};
-    if (from->bytes) {
-        koksma_status status = koksma__image_read_bytes(from->bytes, from->size, KOKSMA__FILE_TEXTURE, image);
-        status = status ? koksma__fail_in(status, from->name) : koksma__image_check(image, from->name);
-        return status;
+    KOKSMA__FAIL_IF(from->within && !from->bytes, KOKSMA_MALFORMED, "%s: no bytes", from->name);
+    if (!from->bytes) {
+        KOKSMA__FAIL_IF(!koksma__find_named(build->file->path, from->name, full), KOKSMA_MALFORMED,
+                        "%s: there is no such file", from->name);
+        KOKSMA__TRY(koksma__read_file(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, NULL, &bytes, &size));
     }
-    KOKSMA__FAIL_IF(from->within, KOKSMA_MALFORMED, "%s: no bytes", from->name);
-    KOKSMA__FAIL_IF(!koksma__find_named(build->file->path, from->name, full), KOKSMA_MALFORMED,
-                    "%s: there is no such file", from->name);
-    const koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, image);
-    return status ? status : koksma__image_check(image, from->name);
+    status = koksma__image_read_part(from->bytes ? from->bytes : bytes, size, part, image);
+    status = status ? koksma__fail_in(status, from->bytes ? from->name : full) : KOKSMA_OK;
+    free(bytes);
+    return status || !image->pixels ? status : koksma__image_check(image, from->name);
 }
 
 /* Radiance beyond what scenes take is dimmed, in its own colour. */
@@ -95,50 +100,93 @@ static koksma_status tint(koksma_image *image, const double colour[3])
     return KOKSMA_OK;
 }
 
+/* Reads a texture into *out, which stays NULL where it isn't there, for a reason in text, or has no such part. */
+static void take_map(builder *build, const koksma__file_texture *from, koksma__image_part part, koksma_image **out,
+                     koksma__mapping *mapping, char text[256])
+{
+    static const int wraps[] = {[KOKSMA__WRAP_CLAMP] = 33071, [KOKSMA__WRAP_MIRROR] = 33648};
+    *text = '\0';
+    if (!from->name || build->status) {
+        return;
+    }
+    koksma_image *image = calloc(1, sizeof *image);
+    const koksma_status status = image ? read_texture(build, from, part, image) : koksma__fail_memory(sizeof *image);
+    if (status) {
+        note(build, status, text);
+    }
+    if (status || !image->pixels) {
+        koksma_image_fini(image);
+        free(image);
+        return;
+    }
+    *out = image;
+    *mapping = (koksma__mapping){.moved = from->moved, .nearest = from->nearest};
+    memcpy(mapping->matrix, from->matrix, sizeof mapping->matrix);
+    for (int k = 0; k < 2; k++) {
+        for (int w = KOKSMA__WRAP_CLAMP; w <= KOKSMA__WRAP_MIRROR; w++) {
+            mapping->wrap[k] = from->wrap[k] == wraps[w] ? (koksma__wrap)w : mapping->wrap[k];
+        }
+    }
+}
+
 /* A texture that isn't there leaves the colour alone. */
 static void take_colour_map(builder *build, const koksma__file_texture *from, koksma__material *m)
 {
-    if (m->bsdf != &koksma__bsdf_lambert) {
+    if (from->name && m->bsdf == &koksma__bsdf_ggx) {
         snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->name);
         return;
     }
-    m->image = calloc(1, sizeof *m->image);
-    koksma_status status = m->image ? read_texture(build, from, m->image) : koksma__fail_memory(sizeof *m->image);
-    status = status ? status : tint(m->image, m->albedo[0]);
-    if (!status) {
+    take_map(build, from, KOKSMA__IMAGE_COLOURS, &m->image, &m->mapping, m->lost);
+    if (m->image && !build->status) {
+        build->status = tint(m->image, m->albedo[0]);
         koksma__material_mean(m);
-        return;
     }
-    koksma_image_fini(m->image);
-    free(m->image);
-    m->image = NULL;
-    note(build, status, m->lost);
 }
 
-/* Lights shine evenly: with the texture's mean. One that isn't there leaves the surface dark, as most of such a
-   texture is. */
+/* One that isn't there leaves the surface dark, as most of such a texture is. */
 static void take_glow_map(builder *build, const koksma__file_texture *from, double glow[3], koksma__material *m)
 {
-    koksma_image image;
-    const koksma_status status = read_texture(build, from, &image);
-    const size_t n = status ? 0 : (size_t)image.width * (size_t)image.height;
-    const size_t channels = (size_t)image.channels;
-    bool even = true;
-    for (size_t k = 0; k < 3; k++) {
-        double sum = 0;
-        for (size_t i = 0; i < n; i++) {
-            const double value = (double)image.pixels[i * channels + k % channels];
-            sum += value > 0 ? fmin(value, BRIGHT) : 0;
-            even &= value == (double)image.pixels[k % channels];
+    koksma__map *map = &m->maps[KOKSMA__MAP_EMISSION];
+    bool dark = true;
+    take_map(build, from, KOKSMA__IMAGE_COLOURS, &map->image, &map->mapping, m->dark);
+    const size_t n = map->image ? (size_t)map->image->width * (size_t)map->image->height : 0;
+    for (size_t i = 0; i < n * (size_t)(map->image ? map->image->channels : 0) && dark; i++) {
+        dark = !(map->image->pixels[i] > 0);
+    }
+    for (int k = 0; k < 3 && dark; k++) {
+        glow[k] = 0;
+    }
+}
+
+/* What only glTF has: metal and roughness, normals, alpha. */
+static void take_principled(builder *build, const koksma__file_material *from, koksma__material *m)
+{
+    const struct {
+        const koksma__file_texture *from;
+        koksma__image_part part;
+        koksma__map_use use;
+        const char *what;
+    } all[] = {{&from->surface_map, KOKSMA__IMAGE_NUMBERS, KOKSMA__MAP_SURFACE, "metal and roughness"},
+               {&from->normal_map, KOKSMA__IMAGE_NUMBERS, KOKSMA__MAP_NORMAL, "normals"},
+               {&from->colour_map, KOKSMA__IMAGE_ALPHA, KOKSMA__MAP_ALPHA, "alpha"}};
+    char text[256];
+    *koksma__material_value(m, "metallic") = clamp01(from->metallic);
+    *koksma__material_value(m, "ior") = from->ior < 1 ? 1.5 : fmin(from->ior, 4);
+    for (size_t i = 0; i < sizeof all / sizeof *all - (from->blends ? 0 : 1); i++) {
+        koksma__map *map = &m->maps[all[i].use];
+        take_map(build, all[i].from, all[i].part, &map->image, &map->mapping, text);
+        map->scale = all[i].from->scale;
+        if (*text && all[i].part == KOKSMA__IMAGE_NUMBERS && !build->status) {
+            char note_text[256];
+            snprintf(note_text, sizeof note_text, "material %.8s is without its texture of %s: %.150s", m->name,
+                     all[i].what, text);
+            build->status = koksma__scene_note(build->scene, note_text);
         }
-        glow[k] = n ? glow[k] * sum / (double)n : 0;
     }
-    koksma_image_fini(&image);
-    if (status) {
-        note(build, status, m->dark);
-    } else if (!even) {
-        snprintf(m->evened, sizeof m->evened, "%s", from->name);
-    }
+    m->alpha = fmin(fmax(from->alpha, 0), 1);
+    m->cutoff = from->cutoff;
+    m->see_through = from->blends && (m->alpha < 1 || m->maps[KOKSMA__MAP_ALPHA].image);
+    m->tinted = from->tinted;
 }
 
 static void build_material(builder *build, size_t i)
@@ -148,9 +196,13 @@ static void build_material(builder *build, size_t i)
     double *glow = build->glows[i];
     snprintf(m->name, sizeof m->name, "%zu", i);
     double *to = m->albedo[0];
-    m->bsdf = from->metallic > 0.5f ? &koksma__bsdf_ggx : &koksma__bsdf_lambert;
-    if (m->bsdf == &koksma__bsdf_ggx) {
+    m->bsdf = from->principled        ? &koksma__bsdf_principled
+              : from->metallic > 0.5f ? &koksma__bsdf_ggx
+                                      : &koksma__bsdf_lambert;
+    if (m->bsdf != &koksma__bsdf_lambert) {
         *koksma__material_value(m, "roughness") = fmin(fmax((double)from->roughness, 0.03), 1);
+    }
+    if (m->bsdf == &koksma__bsdf_ggx) {
         to = koksma__material_value(m, "reflectance");
     }
     for (int k = 0; k < 3; k++) {
@@ -159,10 +211,11 @@ static void build_material(builder *build, size_t i)
     }
     memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
     build->scene->unread.see_through += from->see_through;
-    if (from->colour_map.name && !build->status) {
-        take_colour_map(build, &from->colour_map, m);
+    take_colour_map(build, &from->colour_map, m);
+    if (from->principled) {
+        take_principled(build, from, m);
     }
-    if (from->glow_map.name && !build->status && (glow[0] > 0 || glow[1] > 0 || glow[2] > 0)) {
+    if (from->glow_map.name && (glow[0] > 0 || glow[1] > 0 || glow[2] > 0)) {
         take_glow_map(build, &from->glow_map, glow, m);
     }
     dim(build, glow);
@@ -198,6 +251,11 @@ static koksma_status copy(const koksma__mesh *from, koksma__mesh *to)
     if (from->uvs) {
         memcpy(to->uvs, from->uvs, 2 * from->n_vertices * sizeof *to->uvs);
     }
+    if (from->colours) {
+        to->colours = malloc(3 * from->n_vertices * sizeof *to->colours);
+        KOKSMA__REQUIRE_MEMORY(to->colours, 3 * from->n_vertices * sizeof *to->colours);
+        memcpy(to->colours, from->colours, 3 * from->n_vertices * sizeof *to->colours);
+    }
     return KOKSMA_OK;
 }
 
@@ -226,6 +284,22 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
     return status ? status : koksma__mesh_check(to);
 }
 
+/* A light that reflects, too. There is room for those of the file and for two more. */
+static koksma_status add_glow(builder *build, koksma__placement *p, const double glow[3])
+{
+    koksma_scene *scene = build->scene;
+    const int material = p->material;
+    if (scene->n_lights + build->file->lights.n + 2 >= KOKSMA__MAX_LIGHTS) {
+        return build->n_dark++
+                   ? KOKSMA_OK
+                   : koksma__scene_note(scene, "more meshes glow than there is room for lights: some are dark");
+    }
+    KOKSMA__TRY(koksma__scene_add_glow(scene, p, glow));
+    p->material = material;
+    scene->glows = true;
+    return KOKSMA_OK;
+}
+
 static koksma_status place(builder *build, const koksma__file_placement *from)
 {
     koksma_scene *scene = build->scene;
@@ -248,14 +322,10 @@ static koksma_status place(builder *build, const koksma__file_placement *from)
                         "a node places a mesh beyond 1e6");
     }
     const double *glow = build->glows[material];
-    if (glow[0] > 0 || glow[1] > 0 || glow[2] > 0) {
-        p->smooth = false;
-        status = koksma__scene_add_glow(scene, p, glow);
+    if (scene->materials[material].image && !scene->meshes[mesh].uvs) {
+        return koksma__fail(KOKSMA_MALFORMED, "a mesh with a texture has no texture coordinates");
     }
-    if (!status && scene->materials[material].image && !scene->meshes[mesh].uvs) {
-        status = koksma__fail(KOKSMA_MALFORMED, "a mesh with a texture has no texture coordinates");
-    }
-    return status;
+    return glow[0] > 0 || glow[1] > 0 || glow[2] > 0 ? add_glow(build, p, glow) : KOKSMA_OK;
 }
 
 static void transform(const double m[12], const double v[3], double w, double out[3])

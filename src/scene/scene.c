@@ -118,7 +118,12 @@ void koksma__scene_fini(koksma_scene *scene)
     for (size_t i = 0; i < scene->n_materials; i++) {
         koksma_image_fini(scene->materials[i].image);
         free(scene->materials[i].image);
+        for (int k = 0; k < KOKSMA__N_MAPS; k++) {
+            koksma_image_fini(scene->materials[i].maps[k].image);
+            free(scene->materials[i].maps[k].image);
+        }
     }
+    free(scene->notes);
     free(scene->materials);
     free(scene->shapes);
     free(scene->lights);

@@ -41,7 +41,7 @@ VALID = {
     "koksma_metric_spec *": "a_metric()", "koksma_metric_value *": "a_buffer(sizeof(koksma_metric_value))", "koksma_metric_find.name": "\"rmse\"",
     "koksma_metric_parse.text": "\"hdr-flip:ppd=40\"", "koksma_metric_parse.spec": "a_buffer(sizeof(koksma_metric_spec))",
     "koksma_scene_part *": "a_buffer(sizeof(koksma_scene_part))", "koksma_coherence *": "a_coherence()", "koksma_coherence_values *": "a_buffer(sizeof(koksma_coherence_values))",
-    "koksma_scene *": "a_scene()", "koksma_scene **": "a_buffer(sizeof(void *))",
+    "koksma_scene_set_sky.image": "NULL", "koksma_scene *": "a_scene()", "koksma_scene **": "a_buffer(sizeof(void *))",
     "koksma_render_options *": ["render_options(\"gaussian-jittered\")", "render_options(\"random;pixel=gaussian-jittered;lens+time=random\")"],
     "koksma_use_group *": "a_group()", "koksma_layers *": "a_buffer(sizeof(koksma_layers))",
     "koksma_strata *": "a_buffer(sizeof(koksma_strata))", "koksma_adaptive_options *": "adaptive_options()",
@@ -139,7 +139,7 @@ def words(label):
 
 # Values that the headers allow, or whose wrongness nobody can see: "FUNCTION PLACE = VALUE".
 ALLOWED = [
-    r"\w+ (run|comment|metadata|left_out) = .*", r"\w+_(fini|close) \w+ = NULL", r"\w+ (summary|report) = NULL",
+    r"\w+ (run|comment|metadata|left_out) = .*", r"koksma_scene_set_sky (image = NULL|radiance = 0)", r"\w+_(fini|close) \w+ = NULL", r"\w+ (summary|report) = NULL",
     r"\w+ run->(threads = (0|INT_MAX)|time_limit_s = (INFINITY|0|1e308)) .*", r"\w+ seed = .*",
     # A pattern has no measure, a measure no pattern; the path is of patterns that read a file, which have no parameters.
     r"\w+ (spec|pattern)->measure = NULL .*", r"\w+ (spec|measure)->pattern = NULL .*l2-disk.*", r"\w+ measure->pattern = NULL .*",

@@ -10,6 +10,7 @@
 
 #include "meshes.h"
 #include "meshes/mesh_read.h"
+#include "render/lights/lights.h"
 #include "scene/scene.h"
 
 static void write_bytes(const char *path, const void *bytes, size_t size)
@@ -106,7 +107,19 @@ static void look(const char *path, double rgb[3], char *warnings, size_t size)
     koksma_scene_close(scene);
 }
 
-/* The square's node and light 0 at z = 3, of irradiance 1, are nodes 1 and 2; what is seen is the colour / pi. */
+/* What a principled surface of this base colour, no metal and roughness 1 reflects straight up of an irradiance of 1 on a
+   plane that faces the light, whose cosine this is, times pi: Schlick from .04, D = 1 / pi, Smith's G with tan = sine /
+   cosine. */
+static double seen(double colour, double cosine)
+{
+    const double half = sqrt((1 + cosine) / 2), masking = 1 / (1 + (1 / cosine - 1) / 2);
+    const double below = 0.96 * (1 - (0.04 + 0.96 * pow(1 - cosine, 5))) * cosine;
+    return colour * below + (0.04 + 0.96 * pow(1 - half, 5)) * masking / 4;
+}
+
+#define WHITE_METAL 0.25 /* the same of a white metal: D G / 4 */
+
+/* The square's node and light 0 at z = 3, of irradiance 1, are nodes 1 and 2; what is seen is seen() of the colour, over pi. */
 static void expect(const char *material, const char *image, const char *attributes, double r, double g, double b,
                    const char *warning)
 {
@@ -118,9 +131,11 @@ static void expect(const char *material, const char *image, const char *attribut
                                         .attributes = attributes,
                                         .image = image});
     look("square.gltf", rgb, warnings, sizeof warnings);
-    assert_near(rgb[0] * M_PI, r, 1e-5);
-    assert_near(rgb[1] * M_PI, g, 1e-5);
-    assert_near(rgb[2] * M_PI, b, 1e-5);
+    const double wanted[3] = {r, g, b};
+    for (int k = 0; k < 3; k++) { /* what glows is metal, the others are not */
+        const bool glows = strstr(material, "emissive") && !strstr(material, "pbr");
+        assert_near(rgb[k] * M_PI, glows ? wanted[k] + WHITE_METAL : seen(wanted[k], 1), 3e-4);
+    }
     if (*warning ? !strstr(warnings, warning) : *warnings) {
         fail_msg("'%s' wanted, and there is: %s", warning, warnings);
     }
@@ -174,8 +189,8 @@ static void emission_is_multiplied_with_its_texture(void **state)
 #define GLOW "\"emissiveFactor\": [1, 1, 0.5], \"emissiveTexture\": {\"index\": 0}"
     write_image("texture.pfm", 1, (const float[]){0.25f});
     expect(GLOW, NULL, NULL, M_PI / 4, M_PI / 4, M_PI / 8, "");
-    write_image("texture.pfm", 4, (const float[]){0, 0, 0, 1});
-    expect(GLOW, NULL, NULL, M_PI / 4, M_PI / 4, M_PI / 8, "material 0 glows evenly");
+    write_image("texture.pfm", 4, (const float[]){0, 0.25f, 0.75f, 1});
+    expect(GLOW, NULL, NULL, M_PI / 2, M_PI / 2, M_PI / 4, ""); /* the camera sees its middle */
     write_image("texture.pfm", 1, (const float[]){0});
     expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, " GLOW, NULL, NULL, 1, 1, 1, "");
     unlink("texture.pfm");
@@ -183,20 +198,117 @@ static void emission_is_multiplied_with_its_texture(void **state)
            "material 0 emits no light, because its emissive texture is missing: texture.pfm: there is no such file");
 }
 
+/* The light of an image whose halves add to 1 at every point, sampled from above its middle: half of the solid angle of a
+   square (arcsines of its corners), and each sample has the density that a ray to its position gets. */
+static void glow_is_sampled_by_its_texture(void **state)
+{
+    (void)state;
+    need_meshes();
+    koksma_scene *scene;
+    koksma__lights lights;
+    write_image("texture.pfm", 4, (const float[]){0, 0, 1, 1});
+    write_model("square.gltf",
+                &(model){.nodes = "{\"mesh\": 0}, " LAMP_AT("0", "3"), .roots = "0, 1, 2", .material = GLOW});
+    assert_ok(koksma_scene_open("square.gltf", &scene));
+    assert_ok(koksma__lights_init(scene, &lights));
+    const koksma__shading_light *light = &lights.lights[0];
+    assert_ptr_equal(light->kind, &koksma__light_mesh);
+    const float p[3] = {0, 0, 2};
+    double sum[3] = {0};
+    enum { N = 200 };
+    for (int i = 0; i < N * N; i++) {
+        const float u[2] = {((float)(i / N) + 0.5f) / N, ((float)(i % N) + 0.5f) / N};
+        koksma__beam beam;
+        assert_true(light->kind->sample(light, p, u, &beam));
+        /* where it meets the square, whose triangles are above and below the diagonal */
+        const float x = -2 * beam.w[0] / beam.w[2], y = -2 * beam.w[1] / beam.w[2];
+        const float uv[2] = {0.5f + 0.5f * x, 0.5f + 0.5f * y}, t = -2 / beam.w[2];
+        float radiance[3];
+        if (fabsf(x - y) > 1e-4f) {
+            const float density = light->kind->met(light, x > y ? 0 : 1, uv, radiance);
+            assert_near((double)(t * t * density / -beam.w[2]), (double)beam.pdf, 1e-3 * (double)beam.pdf);
+        }
+        for (int k = 0; k < 3; k++) {
+            sum[k] += (double)beam.value[k] / (N * N);
+        }
+    }
+    assert_near(sum[0], 2 * asin(0.2), 5e-4);
+    assert_near(sum[2], asin(0.2), 3e-4);
+    koksma__lights_fini(&lights);
+    koksma_scene_close(scene);
+    unlink("square.gltf");
+    unlink("my square.bin");
+    unlink("texture.pfm");
+}
+
+/* KHR_texture_transform; the camera sees texture coordinates (1/2, 1/2). */
+static void textures_are_moved(void **state)
+{
+    (void)state;
+    need_meshes();
+    static const struct {
+        const char *how;
+        double seen;
+    } all[] = {{"\"offset\": [0.25, 0]", 0.75},
+               {"\"offset\": [-0.25, 0.5]", 0.25},
+               {"\"scale\": [0.5, 9]", 0.25},
+               {"\"scale\": [1.5, 1]", 0.75},
+               {"\"rotation\": 1.57079632679, \"scale\": [1, 0.5]", 0.25},
+               {"\"rotation\": -1.57079632679, \"scale\": [1, 0.5]", 0.75}, /* u' = -v' = -1/4 */
+               {"\"rotation\": 1.57079632679, \"scale\": [1, 1.5]", 0.75}};
+    write_image("texture.pfm", 2, (const float[]){0.25f, 0.75f});
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        char material[512];
+        snprintf(material, sizeof material,
+                 TEXTURED("[1, 1, 1, 1]", ", \"extensions\": {\"KHR_texture_transform\": {%s}}"), all[i].how);
+        expect(material, NULL, NULL, all[i].seen, all[i].seen, all[i].seen, "");
+    }
+    unlink("texture.pfm");
+}
+
+static void alpha_below_the_cutoff_is_not_there(void **state)
+{
+    (void)state;
+    need_meshes();
+    static const char *const materials[] = {TEXTURED("[1, 1, 1, 0.4]", "") ", \"alphaMode\": \"MASK\"",
+                                            TEXTURED("[1, 1, 1, 0.6]", "") ", \"alphaMode\": \"MASK\"",
+                                            TEXTURED("[1, 1, 1, 0.6]", "") ", \"alphaMode\": \"MASK\", "
+                                                                           "\"alphaCutoff\": 0.7",
+                                            TEXTURED("[1, 1, 1, 0]", "") ", \"alphaMode\": \"BLEND\"",
+                                            TEXTURED("[1, 1, 1, 0.1]", "")};
+    static const bool there[] = {false, true, false, false, true};
+    write_image("texture.pfm", 1, (const float[]){0.5f});
+    for (size_t i = 0; i < sizeof there / sizeof *there; i++) {
+        double rgb[3];
+        char warnings[2048];
+        write_model(
+            "square.gltf",
+            &(model){.nodes = "{\"mesh\": 0}, " LAMP_AT("0", "3"), .roots = "0, 1, 2", .material = materials[i]});
+        look("square.gltf", rgb, warnings, sizeof warnings);
+        assert_near(rgb[0] * M_PI, there[i] ? seen(0.5, 1) : 0, 1e-5);
+        assert_string_equal(warnings, "");
+    }
+    unlink("square.gltf");
+    unlink("my square.bin");
+    unlink("texture.pfm");
+}
+
 static void what_is_not_read_is_said(void **state)
 {
     (void)state;
     need_meshes();
     write_image("texture.pfm", 1, (const float[]){0.5f});
-    expect(TEXTURED("[1, 1, 1, 1]", ", \"texCoord\": 1"), NULL, ", \"TEXCOORD_1\": 1", 0.5, 0.5, 0.5,
-           "other texture coordinates than the first (1) are not read");
-    expect(TEXTURED("[1, 1, 1, 1]", ", \"extensions\": {\"KHR_texture_transform\": {\"scale\": [2, 2]}}"), NULL, NULL,
-           0.5, 0.5, 0.5, "transforms of textures (1) are not read");
-    expect(TEXTURED("[1, 1, 1, 0.5]", "") ", \"alphaMode\": \"BLEND\"", NULL, NULL, 0.5, 0.5, 0.5,
-           "materials' transparencies (1) are not read");
+    expect(TEXTURED("[1, 1, 1, 1]", ", \"texCoord\": 1"), NULL, ", \"TEXCOORD_1\": 1", 0.5, 0.5, 0.5, "");
+    expect(TEXTURED("[1, 1, 1, 1]", "") ", \"normalTexture\": {\"index\": 0, \"scale\": 0, \"texCoord\": 1}", NULL,
+           NULL, 0.5, 0.5, 0.5, "textures' own texture coordinates (1) are not read");
     expect(TEXTURED("[1, 1, 1, 0.5]", ""), NULL, NULL, 0.5, 0.5, 0.5, "");
-    expect(plain, NULL, ", \"COLOR_0\": 2", 1, 1, 1, "meshes' vertex colours (1) are not read");
+    expect(plain, NULL, ", \"COLOR_0\": 2", 1, 0, 0, "");
     unlink("texture.pfm");
+    expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0, \"metallicRoughnessTexture\": {\"index\": 0}}", NULL,
+           NULL, 1, 1, 1,
+           "material 0 is without its texture of metal and roughness: texture.pfm: there is no such file");
+    expect(TEXTURED("[1, 1, 1, 1]", "") ", \"normalTexture\": {\"index\": 0}", NULL, NULL, 1, 1, 1,
+           "material 0 is without its texture of normals: texture.pfm: there is no such file");
 }
 
 /* What is seen of the square lit by these nodes, times pi: the irradiance, or of a glowing one the radiance. */
@@ -216,39 +328,61 @@ static void every_node_with_a_light_has_one(void **state)
     (void)state;
     need_meshes();
 #define SQUARE "{\"mesh\": 0}, "
+#define DARK "{\"type\": \"directional\", \"intensity\": 0}" /* so that there is no studio */
     const char *two =
         "{\"type\": \"point\", \"intensity\": 9}, {\"type\": \"spot\", \"spot\": {}, \"intensity\": 4.5}";
     const char *sun = "{\"type\": \"directional\", \"intensity\": 2, \"color\": [0.5, 1, 1]}";
-    assert_near(lit(SQUARE LAMP_AT("0", "3"), "0, 1, 2", plain, NULL), 1, 1e-5);
-    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("0", "1.5"), "0, 1, 2, 3", plain, NULL), 5, 1e-5);
+    assert_near(lit(SQUARE LAMP_AT("0", "3"), "0, 1, 2", plain, NULL), 1 * seen(1, 1), 1e-5);
+    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("0", "1.5"), "0, 1, 2, 3", plain, NULL), 5 * seen(1, 1),
+                1e-5);
     /* one name for two */
-    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("1", "1.5"), "0, 1, 2, 3", plain, two), 3, 1e-5);
+    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("1", "1.5"), "0, 1, 2, 3", plain, two), 3 * seen(1, 1),
+                1e-5);
     /* not in the scene */
-    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("0", "1.5"), "0, 1, 2", plain, NULL), 1, 1e-5);
+    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("0", "1.5"), "0, 1, 2", plain, NULL), 1 * seen(1, 1), 1e-5);
     /* below others: z = 1 + 2 x 1, and turned about y by a half circle */
     assert_near(
         lit(SQUARE LAMP_AT("0", "1") ", {\"children\": [2], \"translation\": [0, 0, 1], \"scale\": [2, 2, 2]}",
             "0, 1, 3", plain, NULL),
-        1, 1e-5);
+        seen(1, 1), 1e-5);
     assert_near(
         lit(SQUARE LAMP_AT("0", "-1.5") ", {\"children\": [2], \"rotation\": [0, 1, 0, 0]}", "0, 1, 3", plain, NULL),
-        4, 1e-5);
+        4 * seen(1, 1), 1e-5);
     assert_near(lit(SQUARE "{\"matrix\": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1.5, 1], " LAMP("0") "}",
                     "0, 1, 2", plain, NULL),
-                4, 1e-5);
+                4 * seen(1, 1), 1e-5);
     /* down the node's -z: from the front, and turned by 60 degrees about x */
-    assert_near(lit(SQUARE "{" LAMP("0") "}", "0, 1, 2", plain, sun), 1, 1e-5);
-    assert_near(lit(SQUARE "{\"rotation\": [0.5, 0, 0, 0.8660254], " LAMP("0") "}", "0, 1, 2", plain, sun), 0.5,
-                1e-5);
+    assert_near(lit(SQUARE "{" LAMP("0") "}", "0, 1, 2", plain, sun), seen(1, 1), 1e-5);
+    assert_near(lit(SQUARE "{\"rotation\": [0.5, 0, 0, 0.8660254], " LAMP("0") "}", "0, 1, 2", plain, sun),
+                seen(1, 0.5), 1e-5);
     /* and every node with a camera: from the back where the scene has not the one in front */
-    const char *behind = SQUARE "{\"camera\": 0, \"translation\": [0, 0, -3], \"rotation\": [0, 1, 0, 0]}";
-    assert_near(lit(behind, "0, 1, 2", "\"emissiveFactor\": [1, 1, 1]", NULL), M_PI, 1e-5);
-    assert_near(lit(behind, "1, 2", "\"emissiveFactor\": [1, 1, 1]", NULL), 0, 0);
+    const char *behind =
+        SQUARE "{\"camera\": 0, \"translation\": [0, 0, -3], \"rotation\": [0, 1, 0, 0]}, {" LAMP("0") "}";
+    assert_near(lit(behind, "0, 1, 2, 3", "\"emissiveFactor\": [1, 1, 1]", DARK), M_PI, 1e-5);
+    assert_near(lit(behind, "1, 2, 3", "\"emissiveFactor\": [1, 1, 1]", DARK), 0, 0);
     /* a light that isn't there */
     koksma_scene *scene;
     write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("1", "3"), .roots = "0, 1, 2", .material = plain});
     assert_int_equal(koksma_scene_open("lit.gltf", &scene), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "light is 1 of 1"));
+    unlink("lit.gltf");
+    unlink("my square.bin");
+}
+
+/* Lights of a real scene, in candela: exposed so that white in the centre, which is 3 away, would be 1. */
+static void bright_lights_are_exposed(void **state)
+{
+    (void)state;
+    need_meshes();
+    double rgb[3];
+    char warnings[2048];
+    write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("0", "3"),
+                                     .roots = "0, 1, 2",
+                                     .material = plain,
+                                     .lights = "{\"type\": \"point\", \"intensity\": 90000}"});
+    look("lit.gltf", rgb, warnings, sizeof warnings);
+    assert_near(rgb[0], seen(1, 1), 1e-4);
+    assert_string_equal(warnings, "lights that nodes have are dimmed together, by 3183\n");
     unlink("lit.gltf");
     unlink("my square.bin");
 }
@@ -262,9 +396,10 @@ static void mirrored_squares_glow_in_front(void **state)
     static const double seen[] = {M_PI, M_PI, M_PI, M_PI, 0};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         char nodes[256], json[512];
-        snprintf(nodes, sizeof nodes, "{\"mesh\": 0, \"scale\": [%s]}, {\"mesh\": 0, \"translation\": [8, 0, 0]}",
-                 scales[i]);
-        assert_near(lit(nodes, "0, 1, 2", "\"emissiveFactor\": [1, 1, 1]", NULL), seen[i], 1e-5);
+        snprintf(nodes, sizeof nodes,
+                 "{\"mesh\": 0, \"scale\": [%s]}, {\"mesh\": 0, \"translation\": [8, 0, 0]}, {%s}", scales[i],
+                 LAMP("0"));
+        assert_near(lit(nodes, "0, 1, 2, 3", "\"emissiveFactor\": [1, 1, 1]", DARK), seen[i], 1e-5);
         /* the same as a mesh of a scene */
         write_model("lit.gltf", &(model){.nodes = nodes, .roots = "0, 1, 2", .material = plain});
         snprintf(json, sizeof json,
@@ -336,10 +471,17 @@ static void mirrored_normals_stay_outside(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(textures_are_multiplied_with_colours),    cmocka_unit_test(names_of_files_are_decoded),
-        cmocka_unit_test(emission_is_multiplied_with_its_texture), cmocka_unit_test(what_is_not_read_is_said),
-        cmocka_unit_test(every_node_with_a_light_has_one),         cmocka_unit_test(mirrored_squares_glow_in_front),
+        cmocka_unit_test(textures_are_multiplied_with_colours),
+        cmocka_unit_test(names_of_files_are_decoded),
+        cmocka_unit_test(emission_is_multiplied_with_its_texture),
+        cmocka_unit_test(what_is_not_read_is_said),
+        cmocka_unit_test(every_node_with_a_light_has_one),
+        cmocka_unit_test(mirrored_squares_glow_in_front),
         cmocka_unit_test(mirrored_normals_stay_outside),
+        cmocka_unit_test(textures_are_moved),
+        cmocka_unit_test(glow_is_sampled_by_its_texture),
+        cmocka_unit_test(alpha_below_the_cutoff_is_not_there),
+        cmocka_unit_test(bright_lights_are_exposed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -196,8 +196,10 @@ static const char *const gltf =
    that was turned to it. No aspectRatio: yfov is of the height all the same. */
 static const char *const glowing =
     "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_materials_emissive_strength\"], \"scene\": 0,"
-    "\"scenes\": [{\"nodes\": [0, 1]}], \"nodes\": [{\"mesh\": 0, \"rotation\": [0, 0.38268343, 0, 0.92387953]},"
-    "{\"camera\": 0, \"name\": \"eye\", \"translation\": [3, 0, 3], \"rotation\": [0, 0.38268343, 0, 0.92387953]}],"
+    "\"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"directional\", \"intensity\": 0}]}},"
+    "\"scenes\": [{\"nodes\": [0, 1, 2]}], \"nodes\": [{\"mesh\": 0, \"rotation\": [0, 0.38268343, 0, 0.92387953]},"
+    "{\"camera\": 0, \"name\": \"eye\", \"translation\": [3, 0, 3], \"rotation\": [0, 0.38268343, 0, 0.92387953]},"
+    "{\"extensions\": {\"KHR_lights_punctual\": {\"light\": 0}}}],"
     "\"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 0.88137359, \"znear\": 0.1}}], "
     "\"materials\":"
     "[{\"emissiveFactor\": [0.5, 0.5, 0.5], \"extensions\": {\"KHR_materials_emissive_strength\": "
@@ -216,17 +218,51 @@ static void bare_files_bring_or_get_cameras_and_lights(void **state)
     fwrite(indices, sizeof indices, 1, file);
     fclose(file);
     write_text("square.gltf", gltf);
-    /* albedo / pi x intensity / distance^2 */
-    assert_near(mean(NULL, "square.gltf", "distribution", 1, 1), 0.5 / M_PI * 9 / 9, 1e-3);
+    /* intensity / distance^2 times base colour below a surface that reflects .04, and that over 4 pi */
+    assert_near(mean(NULL, "square.gltf", "distribution", 1, 1), (0.5 * 0.96 * 0.96 + 0.04 / 4) / M_PI * 9 / 9, 1e-3);
     write_text("glowing.gltf", glowing);
     assert_near(mean(NULL, "glowing.gltf", "distribution", 1, 16), 4.5 / 4, 1e-6);
     unlink("glowing.gltf");
-    /* a square alone under a white sky that half of it sees: its albedo, and white beside it */
-    write_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
-    const double value = mean(NULL, "square.obj", "distribution", 32, 16);
-    assert_true(value > 0.7 && value < 0.98);
     unlink("square.gltf");
     unlink("square.bin");
+}
+
+/* A square alone gets a ground, a key light and a sky; a white sky in their place, that half of it sees, shows its albedo,
+   and white beside it. */
+static void bare_files_without_light_get_a_studio(void **state)
+{
+    (void)state;
+    need_meshes();
+    koksma_scene *scene;
+    koksma_scene_part part;
+    koksma_render_options options;
+    koksma_image image;
+    write_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    assert_ok(koksma_scene_open("square.obj", &scene));
+    koksma_scene_counts counts = koksma_scene_count(scene);
+    assert_true(counts.lights == 2 && counts.shapes == 1 && counts.placements == 1 && counts.materials == 2);
+    const uint64_t hash = koksma_scene_hash(scene);
+    assert_true(koksma_scene_part_at(scene, 0, &part) && part.low[1] == -1 - 1e-4 * sqrt(2) && isinf(part.high[0]));
+    assert_int_equal(koksma_scene_set_sky(scene, NULL, -1), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_scene_set_sky(scene, "no.pfm", 1), KOKSMA_MISSING);
+    assert_ok(koksma_scene_set_sky(scene, NULL, 1));
+    counts = koksma_scene_count(scene);
+    assert_true(counts.lights == 1 && counts.shapes == 0 && counts.materials == 1 &&
+                hash != koksma_scene_hash(scene));
+    koksma_render_options_init(&options, scene);
+    options.width = options.height = 32;
+    options.spp = 16;
+    assert_ok(koksma_pattern_spec("random", &options.pattern));
+    assert_ok(koksma_render(scene, &options, NULL, &image));
+    double sum = 0;
+    for (int i = 0; i < 64; i++) { /* in the middle of the picture */
+        sum += (double)image.pixels[(12 + i / 8) * 32 + 12 + i % 8] / 64;
+    }
+    assert_near((double)image.pixels[0], 1, 1e-6);
+    assert_near(sum, 0.6, 0.06);
+    koksma_image_fini(&image);
+    assert_int_equal(koksma_scene_set_sky(scene, NULL, 1), KOKSMA_ARGUMENT);
+    koksma_scene_close(scene);
     unlink("square.obj");
 }
 
@@ -303,6 +339,7 @@ int main(void)
         cmocka_unit_test(images_are_albedos),
         cmocka_unit_test(images_stand_upright_on_boxes),
         cmocka_unit_test(bare_files_bring_or_get_cameras_and_lights),
+        cmocka_unit_test(bare_files_without_light_get_a_studio),
         cmocka_unit_test(hashes_cover_the_files_that_a_scene_names),
         cmocka_unit_test(textures_of_models_are_read),
     };

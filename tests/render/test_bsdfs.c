@@ -52,6 +52,21 @@ static koksma_scene *made(const koksma__bsdf *bsdf, uint64_t stream)
     return NULL;
 }
 
+/* Of kinds with images: in half of the cases what an image says here, by its factors and a base colour. */
+static void draw_texture(uint64_t stream, koksma__surface *s)
+{
+    static float local[KOKSMA__LOCAL];
+    const koksma__shading_material *m = s->material;
+    if (m->bsdf->texture && draw(stream, 950) < 0.5) {
+        const float factors[2] = {(float)draw(stream, 951), draw(stream, 952) < 0.3 ? 1 : (float)draw(stream, 953)};
+        for (uint64_t k = 0; k < 3; k++) {
+            s->albedo[k] = draw(stream, 960) < 0.3 ? 1 : (float)draw(stream, 954 + k);
+        }
+        m->bsdf->texture(m, factors, s->albedo, local);
+        s->local = local;
+    }
+}
+
 /* A point with a random normal, seen at a cosine that is 1, small, or anything. */
 static koksma__surface surface_of(const koksma__shading_material *m, uint64_t stream, uint64_t i)
 {
@@ -65,6 +80,7 @@ static koksma__surface surface_of(const koksma__shading_material *m, uint64_t st
         s.out[k] = (float)(cosine * (double)s.n[k] + sine * (double)side[k]);
         s.albedo[k] = m->albedo[u < 0.7][k];
     }
+    draw_texture(stream, &s);
     return s;
 }
 
@@ -153,7 +169,7 @@ static void check_density(const koksma__surface *s, unsigned lobes, uint64_t str
             n++;
         }
     }
-    if (highest < SHARPEST) {
+    if (highest < (lobes & (lobes - 1) ? SHARPEST / 10 : SHARPEST)) { /* of two lobes one may have a tenth */
         make_cells(&t, points, n, CELL);
         integrate(&t, s, lobes, &density, energy);
         for (uint64_t i = 0; i < SAMPLES; i++) { /* others than those that the cells were made of */

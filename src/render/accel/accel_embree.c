@@ -4,9 +4,11 @@
  * the closest of both, the shadow of both. Rays go in packets of 16 where the machine has them and else of 8; a hit's
  * position and normal are made from its triangle, not from the ray, so that they are as exact as the vertices.
  *
+ * Triangles that are not there for some rays (glTF's alpha) are left out by a filter, which Embree asks at each hit.
+ *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
  * threads, but not between versions of Embree or the instruction sets that it chooses by itself. The floating-point
- * mode (Embree would like denormals to be 0) is left as it is.
+ * mode (Embree would like denormals to be 0) is left as it is. Long because one file includes Embree.
  */
 #if KOKSMA_EMBREE == 3
 #include <embree3/rtcore.h>
@@ -21,6 +23,7 @@
 #include "modules/module_side.h"
 #include "render/accel/accel_meshes.h"
 #include "render/pipelines/batch.h"
+#include "render/texture.h"
 #include "render/vector3.h"
 
 #define HOST ((const koksma__mesh_host *)koksma__own_host->functions)
@@ -37,7 +40,8 @@ typedef struct part {
     bool is_instance, smooth, moves;
     float matrix[12], normal_matrix[9], motion[3];
     int32_t material, light;
-    int32_t first; /* number of its first triangle, as a primitive */
+    int32_t first;                       /* number of its first triangle, as a primitive */
+    const koksma__material *see_through; /* its material, if rays may pass by where it isn't there; or NULL */
 } part;
 
 static void place(const part *p, const float v[3], float out[3])
@@ -373,6 +377,112 @@ static int light_of(const koksma__geometry *geometry, int32_t primitive)
     return primitive < e->n_shapes ? e->shapes.light(&e->shapes, primitive) : part_of(e, primitive)->light;
 }
 
+/* ---- What textures ask --------------------------------------------------------------------------------------- */
+
+/* The share of triangle t's corners in a position, from the areas of the parts that it divides the triangle into. */
+static void weights_at(const koksma__landings *l, const float edges[2][3], const float p[3], float w[3])
+{
+    float d[3];
+    for (int k = 0; k < 3; k++) {
+        d[k] = p[k] - l->corners[k][0] - l->shift[k][0];
+    }
+    const float aa = koksma__dot3(edges[0], edges[0]), ab = koksma__dot3(edges[0], edges[1]);
+    const float bb = koksma__dot3(edges[1], edges[1]), determinant = aa * bb - ab * ab;
+    const float da = koksma__dot3(d, edges[0]), db = koksma__dot3(d, edges[1]);
+    const float scale = determinant > 0 ? 1 / determinant : 0;
+    w[1] = (bb * da - ab * db) * scale;
+    w[2] = (aa * db - ab * da) * scale;
+    w[0] = 1 - w[1] - w[2];
+}
+
+static bool triangle_of(const koksma__geometry *geometry, int32_t primitive, const float p[3], float time,
+                        koksma__triangle *out)
+{
+    const embree *e = geometry->made;
+    koksma__landings l;
+    float edges[2][3], w[3], turns[2][2] = {{0}};
+    if (primitive < e->n_shapes) {
+        return false;
+    }
+    const part *from = part_of(e, primitive);
+    const koksma__mesh *mesh = from->mesh;
+    *out = (koksma__triangle){.number = (uint32_t)(primitive - from->first)};
+    const uint32_t *index = mesh->indices + 3 * (size_t)out->number;
+    set_lane(from, out->number, e->moves ? time : 0, 0, &l);
+    for (int k = 0; k < 3; k++) {
+        edges[0][k] = l.corners[3 + k][0] - l.corners[k][0];
+        edges[1][k] = l.corners[6 + k][0] - l.corners[k][0];
+    }
+    weights_at(&l, (const float(*)[3])edges, p, w);
+    for (int c = 0; mesh->uvs && c < 2; c++) {
+        for (int k = 0; k < 2; k++) {
+            turns[c][k] =
+                mesh->uvs[2 * (size_t)index[c + 1] + (size_t)k] - mesh->uvs[2 * (size_t)index[0] + (size_t)k];
+        }
+    }
+    const float area = turns[0][0] * turns[1][1] - turns[1][0] * turns[0][1];
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        out->normal[k] = edges[0][i] * edges[1][j] - edges[0][j] * edges[1][i];
+        out->along_u[k] = area != 0 ? (turns[1][1] * edges[0][k] - turns[0][1] * edges[1][k]) / area : 0;
+        out->along_v[k] = area != 0 ? (turns[0][0] * edges[1][k] - turns[1][0] * edges[0][k]) / area : 0;
+        out->colour[k] = 1;
+        for (int c = 0; mesh->colours && c < 3; c++) {
+            out->colour[k] += (c ? 0 : -1) + w[c] * mesh->colours[3 * (size_t)index[c] + (size_t)k];
+        }
+    }
+    koksma__unit3(out->normal);
+    return true;
+}
+
+/* Whether triangle t is there for a ray that meets it at (u, v). One that is half there is for half of the rays, by
+   a hash of where they meet it, so that the answer depends on nothing else. */
+static bool is_there(const part *p, uint32_t t, float u, float v)
+{
+    const koksma__material *m = p->see_through;
+    const koksma__map *map = &m->maps[KOKSMA__MAP_ALPHA];
+    const uint32_t *index = p->mesh->indices + 3 * (size_t)t;
+    float alpha[3] = {1, 1, 1};
+    if (map->image && p->mesh->uvs) {
+        const float w[3] = {1 - u - v, u, v};
+        float at[2] = {0, 0};
+        for (int c = 0; c < 3; c++) {
+            at[0] += w[c] * p->mesh->uvs[2 * (size_t)index[c]];
+            at[1] += w[c] * p->mesh->uvs[2 * (size_t)index[c] + 1];
+        }
+        koksma__texture(map->image, &map->mapping, at[0], at[1], 1, alpha);
+    }
+    const float share = alpha[0] * (float)m->alpha;
+    uint32_t words[2];
+    if (m->cutoff > 0) {
+        return share >= (float)m->cutoff;
+    }
+    memcpy(&words[0], &u, sizeof u);
+    memcpy(&words[1], &v, sizeof v);
+    uint32_t hash = t * 0x9e3779b9u + words[0];
+    for (int round = 0; round < 2; round++) {
+        hash = (hash ^ hash >> 16) * 0x7feb352du;
+        hash = (hash ^ hash >> 15) * 0x846ca68bu;
+        hash ^= hash >> 16;
+        hash += round ? 0 : words[1];
+    }
+    return (float)(hash >> 8) * 0x1p-24f < share;
+}
+
+/* A hit of N is arrays of N numbers: the normal (three), u, v, the triangle, and others; C has no names for them. */
+static void pass_by(const struct RTCFilterFunctionNArguments *a)
+{
+    const part *p = a->geometryUserPtr;
+    const float *numbers = (const float *)(const void *)a->hit;
+    for (unsigned i = 0; i < a->N; i++) {
+        uint32_t triangle;
+        memcpy(&triangle, numbers + 5 * a->N + i, sizeof triangle);
+        if (a->valid[i] == -1 && !is_there(p, triangle, numbers[3 * a->N + i], numbers[4 * a->N + i])) {
+            a->valid[i] = 0;
+        }
+    }
+}
+
 /* ---- Building --------------------------------------------------------------------------------------------- */
 
 static void release(koksma__geometry *geometry)
@@ -415,6 +525,8 @@ static part make_part(const koksma_scene *scene, const koksma__placement *from, 
               .light = from->light,
               .first = first};
     double normals[9];
+    const koksma__material *material = from->material < 0 ? NULL : &scene->materials[from->material];
+    p.see_through = material && material->see_through ? material : NULL;
     HOST->normal_matrix(from->matrix, normals);
     for (int i = 0; i < 12; i++) {
         p.matrix[i] = (float)from->matrix[i];
@@ -434,6 +546,11 @@ static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGe
 {
     const koksma__mesh *m = p->mesh;
     RTCGeometry g = *out = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (p->see_through) {
+        rtcSetGeometryUserData(g, p);
+        rtcSetGeometryIntersectFilterFunction(g, pass_by);
+        rtcSetGeometryOccludedFilterFunction(g, pass_by);
+    }
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, m->indices, 0, 3 * sizeof *m->indices,
                                m->n_triangles);
     if (!placed) {
@@ -516,7 +633,7 @@ static koksma_status build(const koksma_scene *scene, embree *e)
         *p = make_part(scene, &scene->placements[i], (int32_t)first);
         e->moves |= p->moves;
         first += scene->meshes[m].n_triangles;
-        status = uses[m] > 1 ? make_instance(e, p, m, &g) : make_triangles(e, p, true, &g);
+        status = uses[m] > 1 && !p->see_through ? make_instance(e, p, m, &g) : make_triangles(e, p, true, &g);
         if (g) {
             rtcAttachGeometryByID(e->scene, g, (unsigned)i);
             rtcReleaseGeometry(g);
@@ -534,7 +651,7 @@ static koksma_status make(const koksma_scene *scene, koksma__geometry *out)
 {
     const size_t size = sizeof(embree) + scene->n_placements * sizeof(part);
     embree *e = calloc(1, size);
-    *out = (koksma__geometry){e, NULL, closest, occlude, light_of, release};
+    *out = (koksma__geometry){e, NULL, closest, occlude, light_of, triangle_of, release};
     KOKSMA__REQUIRE_MEMORY(e, size);
     fenv_t mode; /* Embree may change it while it builds */
     fegetenv(&mode);

@@ -10,6 +10,13 @@
 #include "render/description.h"
 #include "render/pipelines/batch.h"
 
+/* What textures need of a triangle beside texture coordinates: its number in its mesh, its own normal outwards, how
+   positions change along its texture coordinates (0: it has none), and the colour of its vertices at a position. */
+typedef struct koksma__triangle {
+    uint32_t number;
+    float normal[3], along_u[3], along_v[3], colour[3];
+} koksma__triangle;
+
 typedef struct koksma__geometry {
     void *made;
     const koksma__batch_shapes *shapes; /* the analytic shapes, if the scene has no meshes; else NULL */
@@ -22,6 +29,9 @@ typedef struct koksma__geometry {
                     koksma__shadows *shadows);
     /* The light whose surface a primitive is, or -1. */
     int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
+    /* Of the triangle that p lies on at this time; false: the primitive is an analytic shape. */
+    bool (*triangle)(const struct koksma__geometry *geometry, int32_t primitive, const float p[3], float time,
+                     koksma__triangle *out);
     void (*release)(struct koksma__geometry *geometry);
 } koksma__geometry;
 

@@ -2,17 +2,25 @@
 /*
  * mesh: a Lambert emitter that is a placed mesh, made by "emission" of a shape. A triangle is chosen in proportion
  * to its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that positions are
- * uniform over the whole area. A shadow ray ends before the triangle by 2^-20 of its largest coordinate (rays that
+ * uniform over the whole area. With an image of the emission a triangle weighs what it sends instead, by 16 positions
+ * on it, and a twentieth more as if it sent the mean, so that nothing that shines is never chosen; the image is looked
+ * up where the position is. A shadow ray ends before the triangle by 2^-20 of its largest coordinate (rays that
  * leave a triangle start as far off it, batch_triangles.c); otherwise rounding could make the ray hit the light that
  * it is aimed at.
  */
 #include <stdlib.h>
 
 #include "render/lights/surface_lights.h"
+#include "render/texture.h"
+
+#define BRIGHT_F 1e6f /* the most that a pixel of the image counts */
 
 typedef struct mesh_light {
     size_t n;
-    double *cdf; /* of the areas; n + 1 */
+    double *cdf; /* of the areas, or of what the triangles send; n + 1 */
+    const koksma__mesh *mesh;
+    const koksma__map *map; /* of the emission, or NULL */
+    float *densities;       /* with a map: over area, of positions on each triangle; else NULL */
     float corners[][9];
 } mesh_light;
 
@@ -22,6 +30,55 @@ static void fill(const koksma__mesh *mesh, const koksma__placement *placement, m
     for (size_t t = 0; t < m->n; t++) {
         m->cdf[t + 1] = m->cdf[t] + koksma__placed_triangle(mesh, placement->matrix, t, m->corners[t]);
     }
+}
+
+/* What the image has at weights a and b of the second and third corner of triangle t. */
+static void glow_at(const mesh_light *m, size_t t, float a, float b, float rgb[3])
+{
+    const float *uvs = m->mesh->uvs, w[3] = {1 - a - b, a, b};
+    const uint32_t *index = m->mesh->indices + 3 * t;
+    float at[2] = {0, 0};
+    for (int c = 0; c < 3; c++) {
+        at[0] += w[c] * uvs[2 * (size_t)index[c]];
+        at[1] += w[c] * uvs[2 * (size_t)index[c] + 1];
+    }
+    koksma__texture(m->map->image, &m->map->mapping, at[0], at[1], BRIGHT_F, rgb);
+}
+
+/* Weighs the triangles by what they send; returns the mean of the image over the area, as luminance. Errors: MEMORY. */
+static koksma_status weigh(mesh_light *m, double *mean)
+{
+    const double area = m->cdf[m->n];
+    double sum = 0;
+    m->densities = calloc(m->n + 1, sizeof *m->densities);
+    KOKSMA__REQUIRE_MEMORY(m->densities, m->n * sizeof *m->densities);
+    for (size_t t = 0; t < m->n; t++) {
+        double luminance = 0;
+        for (int i = 0; i < 16; i++) { /* the centres of 16 equal triangles */
+            float rgb[3], a = (float)(i / 4) / 4 + 1 / 12.0f, b = (float)(i % 4) / 4 + 1 / 12.0f;
+            if (a + b > 1) {
+                a = 1 - a;
+                b = 1 - b;
+            }
+            glow_at(m, t, a, b, rgb);
+            luminance += (double)koksma__luminance3(rgb) / 16;
+        }
+        m->densities[t] = (float)luminance;
+        sum += luminance * (m->cdf[t + 1] - m->cdf[t]);
+    }
+    *mean = sum / area;
+    double before = 0, total = 0;
+    for (size_t t = 0; t < m->n; t++) {
+        const double size = m->cdf[t + 1] - before, each = (double)m->densities[t] + 0.05 * *mean + 1e-6;
+        before = m->cdf[t + 1];
+        total += each * size;
+        m->densities[t] = (float)each;
+        m->cdf[t + 1] = total;
+    }
+    for (size_t t = 0; t < m->n; t++) {
+        m->densities[t] = (float)((double)m->densities[t] / total);
+    }
+    return KOKSMA_OK;
 }
 
 static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
@@ -38,15 +95,25 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
     }
     m->n = mesh->n_triangles;
     m->cdf = cdf;
+    m->mesh = mesh;
+    light->data = m;
     fill(mesh, placement, m);
+    const double area = cdf[m->n];
+    const koksma__map *map =
+        placement->material < 0 ? NULL : &scene->materials[placement->material].maps[KOKSMA__MAP_EMISSION];
+    double mean = 1;
+    if (map && map->image && mesh->uvs && area > 0) {
+        m->map = map;
+        KOKSMA__TRY(weigh(m, &mean));
+    }
     for (int k = 0; k < 3; k++) {
         const double half = (placement->high[k] - placement->low[k]) / 2;
         light->centre[k] = (float)((placement->high[k] + placement->low[k]) / 2);
         square += half * half;
     }
-    light->data = m;
     light->half[0] = light->half[1] = (float)sqrt(square);
-    koksma__emitter_open(light, cdf[m->n], light->half[0]);
+    koksma__emitter_open(light, area, light->half[0]);
+    light->power *= (float)mean;
     return light->area > 0 ? KOKSMA_OK : koksma__fail(KOKSMA_MALFORMED, "a luminous mesh without area");
 }
 
@@ -54,6 +121,7 @@ static void close_light(void *data)
 {
     mesh_light *m = data;
     free(m->cdf);
+    free(m->densities);
     free(m);
 }
 
@@ -87,13 +155,31 @@ static bool sample(const koksma__shading_light *light, const float p[3], const f
     if (!(at_light > 0)) {
         return false; /* from behind, or no triangle at all */
     }
+    float glow[3] = {1, 1, 1};
     out->pdf = square * length / (at_light * light->area);
+    if (m->map) {
+        out->pdf = square * length * m->densities[low] / at_light;
+        glow_at(m, low, a, b, glow);
+    }
     for (int k = 0; k < 3; k++) {
         out->w[k] = out->d[k] / length;
-        out->value[k] = light->radiance[k] / out->pdf;
+        out->value[k] = light->radiance[k] * glow[k] / out->pdf;
         out->d[k] += 0x1p-20f * largest * n[k];
     }
     return true;
+}
+
+static float met(const koksma__shading_light *light, uint32_t triangle, const float uv[2], float radiance[3])
+{
+    const mesh_light *m = light->data;
+    float glow[3] = {1, 1, 1};
+    if (m->map) {
+        koksma__texture(m->map->image, &m->map->mapping, uv[0], uv[1], BRIGHT_F, glow);
+    }
+    for (int k = 0; k < 3; k++) {
+        radiance[k] = light->radiance[k] * glow[k];
+    }
+    return m->map ? m->densities[triangle] : 1 / light->area;
 }
 
 /* A convex body shows a quarter of its surface in the mean (Cauchy). */
@@ -116,4 +202,5 @@ const koksma__light_kind koksma__light_mesh = {
     .sample = sample,
     .centre = centre,
     .pdf = koksma__area_pdf,
+    .met = met,
 };

@@ -73,6 +73,8 @@ typedef struct koksma__light_kind {
     /* The density with which sample() would choose the direction w (of length 1) from p, which meets the light at
        distance t, where its normal is n (unused far away). NULL: 0 everywhere. */
     float (*pdf)(const koksma__shading_light *light, const float p[3], const float w[3], float t, const float n[3]);
+    /* NULL, or, of a mesh: what it sends from (u, v) of a triangle, and the density of sampling that position, over area. */
+    float (*met)(const koksma__shading_light *light, uint32_t triangle, const float uv[2], float radiance[3]);
     /* NULL, or, of light from all around: the radiance along w. */
     void (*radiance)(const koksma__shading_light *light, const float w[3], float out[3]);
     /* NULL, or: sets what lambert_lanes.c samples, if the light is seen by no ray. */

@@ -15,19 +15,6 @@ static float value(const koksma__surface *s, const float w[3], unsigned lobes, f
     return 0;
 }
 
-/* Fresnel's reflected share; the cosine of the refracted ray in *inner, 0 with total reflection. */
-static float reflected_share(float cosine, float ratio, float *inner)
-{
-    const float square = 1 - (1 - cosine * cosine) * ratio * ratio;
-    *inner = square > 0 ? sqrtf(square) : 0;
-    if (!(square > 0)) {
-        return 1;
-    }
-    const float across = (ratio * cosine - *inner) / (ratio * cosine + *inner);
-    const float along = (cosine - ratio * *inner) / (cosine + ratio * *inner);
-    return 0.5f * (across * across + along * along);
-}
-
 static void set(const koksma__surface *s, float share, koksma__scatter *out)
 {
     out->pdf = 0;
@@ -49,7 +36,7 @@ static void split(const koksma__surface *s, koksma__scatter *reflected, koksma__
     const float ior = s->material->values[IOR], ratio = s->inside ? ior : 1 / ior; /* from this side to the other */
     const float cosine = koksma__dot3(s->n, s->out);
     float inner;
-    const float share = reflected_share(cosine, ratio, &inner);
+    const float share = koksma__reflected_share(cosine, ratio, &inner);
     set(s, share, reflected);
     set(s, 1 - share, refracted);
     koksma__mirror3(s->out, s->n, reflected->w);
@@ -66,7 +53,7 @@ static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], f
     split(s, &reflected, &refracted);
     const float ior = s->material->values[IOR], ratio = s->inside ? ior : 1 / ior;
     float inner;
-    const float share = reflected_share(koksma__dot3(s->n, s->out), ratio, &inner);
+    const float share = koksma__reflected_share(koksma__dot3(s->n, s->out), ratio, &inner);
     *out = choice < share ? reflected : refracted;
     set(s, 1, out);
     return true;

@@ -45,6 +45,19 @@ static inline bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigne
     return out->pdf > 0;
 }
 
+/* Fresnel's reflected share of unpolarised light, by the index on this side over that on the other; the cosine of the refracted ray in *inner, 0 with total reflection. */
+static inline float koksma__reflected_share(float cosine, float ratio, float *inner)
+{
+    const float square = 1 - (1 - cosine * cosine) * ratio * ratio;
+    *inner = square > 0 ? sqrtf(square) : 0;
+    if (!(square > 0)) {
+        return 1;
+    }
+    const float across = (ratio * cosine - *inner) / (ratio * cosine + *inner);
+    const float along = (cosine - ratio * *inner) / (cosine + ratio * *inner);
+    return 0.5f * (across * across + along * along);
+}
+
 /* The cosine lobe of Shirley (1991, section 5.5.6): directions about the mirror's with density (e + 1) / (2 pi)
    cos^e, each weighing `reflectance`; those under the surface are lost. Times the cosine the material is reflectance
    x density.

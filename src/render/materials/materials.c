@@ -43,7 +43,7 @@ double *koksma__material_value(koksma__material *material, const char *name)
 
 koksma__shading_material koksma__shading_material_of(const koksma__material *from)
 {
-    koksma__shading_material m = {.bsdf = from->bsdf, .image = from->image};
+    koksma__shading_material m = {.bsdf = from->bsdf, .image = from->image, .from = from};
     for (int k = 0; k < 3; k++) {
         m.albedo[0][k] = (float)from->albedo[0][k];
         m.albedo[1][k] = (float)from->albedo[1][k];

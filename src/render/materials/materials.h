@@ -37,15 +37,26 @@ typedef struct koksma__shading_material {
     float values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
     float derived;                    /* what prepare() makes of them */
     const koksma_image *image;        /* of the albedo, or NULL */
+    const koksma__material *from;     /* what it is made of: it has the images */
 } koksma__shading_material;
+
+/* Whether anything of it depends on where on the surface a point is, beside a checker. */
+static inline bool koksma__is_textured(const koksma__shading_material *m)
+{
+    return m->image || m->from->tinted || m->from->maps[KOKSMA__MAP_SURFACE].image ||
+           m->from->maps[KOKSMA__MAP_NORMAL].image;
+}
+
+enum { KOKSMA__LOCAL = 4 }; /* numbers of a kind that images decide: what its texture() makes of them */
 
 /* A point on it, seen from `out`. */
 typedef struct koksma__surface {
     const koksma__shading_material *material;
     float p[3], n[3]; /* n towards the side that it is seen from */
     float out[3];
-    float albedo[3]; /* of the diffuse part, here */
-    bool inside;     /* seen from within a closed shape, or from a flat one's back */
+    float albedo[3];    /* of the diffuse part, here */
+    const float *local; /* of kinds with texture(), of textured materials: the numbers here; else NULL */
+    bool inside;        /* seen from within a closed shape, or from a flat one's back */
     int32_t primitive;
 } koksma__surface;
 
@@ -73,6 +84,9 @@ typedef struct koksma__bsdf {
     float (*value)(const koksma__surface *s, const float w[3], unsigned lobes, float value[3]);
     /* Chooses a direction among these lobes: u for the direction, choice for the lobe. False: the light is lost. */
     bool (*sample)(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out);
+    /* NULL, or: what becomes of an albedo here, and of roughness and metal by the factors of an image. Sets local[0] to
+       [KOKSMA__LOCAL - 1], and albedo to that of the diffuse part. */
+    void (*texture)(const koksma__shading_material *material, const float factors[2], float albedo[3], float *local);
     /* NULL, or, for integrators that follow both directions of glass: both, weighed by Fresnel's share. */
     void (*split)(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted);
 } koksma__bsdf;

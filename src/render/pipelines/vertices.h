@@ -35,8 +35,9 @@ typedef struct koksma__surfaces {
     KOKSMA__LANES(int32_t, form);
     _Alignas(64) koksma__lanes out[3];
     _Alignas(64) koksma__lanes albedo[3];
-    _Alignas(64) koksma__lanes parameters[4]; /* of lobes and facets */
-    _Alignas(64) koksma__lanes diffuse;       /* of lobes: koksma__shading_material.derived */
+    _Alignas(64) koksma__lanes parameters[4];  /* of lobes and facets */
+    _Alignas(64) koksma__lanes diffuse;        /* of lobes: koksma__shading_material.derived */
+    float local[KOKSMA__BLOCK][KOKSMA__LOCAL]; /* of lanes with images whose kinds have texture() */
 } koksma__surfaces;
 
 /* Material times cosine, and the density. */
@@ -112,6 +113,8 @@ static inline koksma__surface koksma__surface_at(const koksma__surfaces *s, int 
                                .n = {h->nx[i], h->ny[i], h->nz[i]},
                                .inside = h->back[i] != 0,
                                .primitive = h->primitive[i]};
+    const koksma__bsdf *bsdf = surface.material->bsdf;
+    surface.local = bsdf->texture && koksma__is_textured(surface.material) ? s->local[i] : NULL;
     for (int k = 0; k < 3; k++) {
         surface.out[k] = s->out[k][i];
         surface.albedo[k] = s->albedo[k][i];

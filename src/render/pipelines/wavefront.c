@@ -39,44 +39,8 @@
 
 #include "core/status.h"
 #include "render/pipelines/pipelines.h"
+#include "render/texture.h"
 #include "render/vector3.h"
-
-/* ---- Textures ------------------------------------------------------------------------------------------- */
-
-/*
- * Colours of an image at texture coordinates: bilinear between the four nearest pixels, whose centres are at half
- * numbers; repeated or, beyond the edge, the edge's own.
- */
-
-/* x - 0.5 as a pixel, the one after it (both round the edge, or held at it), and the weight of the second. */
-static float split(float x, int n, bool repeated, size_t pair[2])
-{
-    const float turns = repeated ? x - floorf(x)
-                        : x > 0  ? fminf(x, 1)
-                                 : 0,
-                place = turns * (float)n - 0.5f, down = floorf(place);
-    const int first = (int)down;
-    pair[0] = (size_t)(repeated ? (first + n) % n : first < 0 ? 0 : first < n ? first : n - 1);
-    pair[1] = (size_t)(repeated ? (first + 1 + n) % n : first + 1 < n ? first + 1 : n - 1);
-    return place - down;
-}
-
-/* An image over the plane, repeated or ending at its edges: (0, 0) is the lower left corner of its lower left pixel,
-   (1, 1) the upper right corner; bilinear between the middles of pixels. rgb: within [0, 1]. */
-static void texture(const koksma_image *image, float u, float v, bool repeated, float rgb[3])
-{
-    size_t xs[2], ys[2];
-    const size_t channels = (size_t)image->channels, width = (size_t)image->width;
-    const float x = split(u, image->width, repeated, xs), y = split(1 - v, image->height, repeated, ys);
-    const float weights[4] = {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
-    for (size_t k = 0; k < 3; k++) {
-        rgb[k] = 0;
-        for (size_t i = 0; i < 4; i++) {
-            const float value = image->pixels[(ys[i / 2] * width + xs[i % 2]) * channels + k % channels];
-            rgb[k] += value > 0 ? weights[i] * (value < 1 ? value : 1) : 0; /* a NaN is dark */
-        }
-    }
-}
 
 enum { TOGETHER = 1024 }; /* samples that are followed together: bounds the queues, which branching makes long */
 
@@ -231,22 +195,95 @@ static void add_emission(const koksma__frame *frame, koksma__vertices *v, int i)
     }
 }
 
-/* Albedos of images. */
-static void add_textures(const koksma__frame *frame, koksma__vertices *v)
+/* The same of a light whose surface reflects, too: it may be smooth, and its texture dims it. */
+static void add_glow(const koksma__frame *frame, koksma__vertices *v, int i)
 {
-    const koksma__hits *h = &v->hits;
-    for (int i = 0; i < v->n; i++) {
-        const koksma_image *image = v->surfaces.form[i] < 0 ? NULL : frame->shading_materials[h->material[i]].image;
-        if (image) {
-            const size_t shape = (size_t)h->primitive[i];
-            const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
-            float albedo[3];
-            texture(image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
-                    half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], !half, albedo);
-            for (int k = 0; k < 3; k++) {
-                v->surfaces.albedo[k][i] = albedo[k];
-            }
+    const koksma__hits *hits = &v->hits;
+    const koksma__rays *rays = &v->paths->rays;
+    const int light = frame->geometry.light(&frame->geometry, hits->primitive[i]);
+    const float p[3] = {hits->px[i], hits->py[i], hits->pz[i]}, uv[2] = {hits->u[i], hits->v[i]};
+    const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]};
+    koksma__triangle triangle;
+    if (light < 0 || hits->back[i] ||
+        !frame->geometry.triangle(&frame->geometry, hits->primitive[i], p, rays->time[i], &triangle)) {
+        return;
+    }
+    const koksma__shading_light *l = &frame->lights.lights[light];
+    const float length = sqrtf(koksma__dot3(d, d)), t = hits->t[i] * length;
+    float radiance[3];
+    const float cosine = -koksma__dot3(triangle.normal, d) / length;
+    const float density = l->kind->met(l, triangle.number, uv, radiance);
+    const float pdf = cosine > 0 ? t * t * density / cosine : 0;
+    add_scaled(v, i, radiance, met_weight(frame, v->paths, i, (size_t)light, pdf));
+}
+
+/* The normal of an image: x along u, y across, z outwards; where a ray would see its back, the surface's stays. */
+static void bend(const koksma__map *map, const koksma__triangle *triangle, koksma__vertices *v, int i)
+{
+    koksma__hits *h = &v->hits;
+    const float side = h->back[i] ? -1.0f : 1.0f,
+                out[3] = {v->surfaces.out[0][i], v->surfaces.out[1][i], v->surfaces.out[2][i]};
+    const float n[3] = {side * h->nx[i], side * h->ny[i], side * h->nz[i]};
+    const float along = koksma__dot3(triangle->along_u, n);
+    float rgb[3], u[3], bent[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = triangle->along_u[k] - along * n[k];
+    }
+    if (!(koksma__dot3(u, u) > 0)) {
+        return;
+    }
+    koksma__unit3(u);
+    float w[3] = {n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]};
+    const float turn = koksma__dot3(w, triangle->along_v) < 0 ? -1.0f : 1.0f;
+    koksma__texture(map->image, &map->mapping, h->u[i], h->v[i], 1, rgb);
+    const float x = map->scale * (2 * rgb[0] - 1), y = map->scale * turn * (2 * rgb[1] - 1), z = 2 * rgb[2] - 1;
+    for (int k = 0; k < 3; k++) {
+        bent[k] = side * (x * u[k] + y * w[k] + z * n[k]);
+    }
+    const float square = koksma__dot3(bent, bent);
+    if (square > 1e-12f && koksma__dot3(bent, out) > 0.01f * sqrtf(square)) {
+        koksma__unit3(bent);
+        h->nx[i] = bent[0];
+        h->ny[i] = bent[1];
+        h->nz[i] = bent[2];
+    }
+}
+
+/* What images and the colours of vertices say of lane i, whose material has some. */
+static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
+{
+    koksma__hits *h = &v->hits;
+    const koksma__shading_material *m = &frame->shading_materials[h->material[i]];
+    const koksma__map *surface = &m->from->maps[KOKSMA__MAP_SURFACE], *normal = &m->from->maps[KOKSMA__MAP_NORMAL];
+    const size_t shape = (size_t)h->primitive[i];
+    const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
+    const float p[3] = {h->px[i], h->py[i], h->pz[i]};
+    const float at[2] = {half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
+                         half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i]};
+    const koksma__mapping whole = {.wrap = {KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP}};
+    float albedo[3] = {(float)m->from->albedo[0][0], (float)m->from->albedo[0][1], (float)m->from->albedo[0][2]},
+          factors[3] = {1, 1, 1};
+    koksma__triangle triangle = {.colour = {1, 1, 1}};
+    const bool found =
+        !half && (m->from->tinted || normal->image) &&
+        frame->geometry.triangle(&frame->geometry, h->primitive[i], p, v->paths->rays.time[i], &triangle);
+    if (m->image) {
+        koksma__texture(m->image, half ? &whole : &m->from->mapping, at[0], at[1], 1, albedo);
+    }
+    for (int k = 0; k < 3; k++) {
+        albedo[k] *= triangle.colour[k];
+    }
+    if (m->bsdf->texture) {
+        if (surface->image) {
+            koksma__texture(surface->image, half ? &whole : &surface->mapping, at[0], at[1], 1, factors);
         }
+        m->bsdf->texture(m, factors + 1, albedo, v->surfaces.local[i]);
+    }
+    for (int k = 0; k < 3; k++) {
+        v->surfaces.albedo[k][i] = albedo[k];
+    }
+    if (found && normal->image) {
+        bend(normal, &triangle, v, i);
     }
 }
 
@@ -430,13 +467,17 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     values->rays += (uint64_t)n;
     frame->batch->surfaces(&paths->rays, n, v->whole, &v->surfaces);
     frame->batch->background(trace->bounce > frame->depth ? black : frame->background, v);
-    if (v->surfaces.traits & KOKSMA__HAS_IMAGE) {
-        add_textures(frame, v);
+    for (int i = 0; v->surfaces.traits & KOKSMA__HAS_IMAGE && i < n; i++) {
+        if (v->surfaces.form[i] >= 0 && koksma__is_textured(&frame->shading_materials[hits->material[i]])) {
+            add_texture(frame, v, i);
+        }
     }
     add_misses(frame, v);
     for (int i = 0; i < n; i++) {
         if ((v->surfaces.form[i] < 0) & (hits->primitive[i] >= 0)) {
             add_emission(frame, v, i);
+        } else if (frame->scene->glows && v->surfaces.form[i] >= 0) {
+            add_glow(frame, v, i);
         }
     }
     for (int i = 0; values->albedo && trace->bounce == trace->first && i < n; i++) {

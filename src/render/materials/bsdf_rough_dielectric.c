@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * rough-dielectric: ground glass. Facets h of the GGX law, as ggx has them, each of which reflects and refracts as
+ * `dielectric` does (Walter et al. 2007): with Fresnel's F at the facet, m the index on w's side over that on out's,
+ *
+ *     reflection:  f cos = F D G2 / (4 n.out)
+ *     refraction:  f |cos| = (1 - F) G1(w) Dv(h) J,   Dv(h) = D G1(out) (h.out) / (n.out),
+ *                  J = m^2 |w.h| / (h.out + m w.h)^2,   h along -(out + m w)
+ *
+ * A facet is chosen among those that are seen (Heitz 2018), then its reflection with probability F; a direction weighs
+ * G2 / G1(out), or G1(w). As in dielectric the squared ratio of indices is left away, and light that facets throw on
+ * other facets is lost. Where one light is chosen for a vertex, none behind the surface is, so that light from there
+ * comes by rays that meet lights.
+ */
+#include "render/materials/facets.h"
+#include "render/materials/lobes.h"
+
+enum { TINT, ROUGHNESS = 3, IOR };
+
+/* What is the same for all directions: seen from `out`, with the index on this side over that on the other. */
+typedef struct view {
+    koksma__facets facets;
+    float ratio;
+} view;
+
+static view view_of(const koksma__surface *s)
+{
+    const float *values = s->material->values;
+    return (view){koksma__facets_of(koksma__v3_of(s->n), koksma__v3_of(s->out), values[ROUGHNESS]),
+                  s->inside ? values[IOR] : 1 / values[IOR]};
+}
+
+static float masking(float cosine, float a)
+{
+    return 1 / (1 + koksma__facet_lambda(cosine, a));
+}
+
+/* The density of reflected or refracted directions, and what one weighs. */
+static float density(const view *v, koksma__v3 w, float *weight)
+{
+    const koksma__facets *f = &v->facets;
+    const float to = koksma__v3_dot(f->n, w), from = koksma__v3_dot(f->n, f->out), m = 1 / v->ratio;
+    float inner;
+    *weight = 0;
+    if (to > 0) {
+        const koksma__facet_terms t = koksma__facet_terms_of(f, w);
+        *weight = t.ratio;
+        return t.pdf * koksma__reflected_share(t.at_facet, v->ratio, &inner);
+    }
+    koksma__v3 h = koksma__v3_add(f->out, koksma__v3_scale(w, m));
+    const float length = sqrtf(koksma__v3_dot(h, h)), turn = koksma__v3_dot(f->n, h) < 0 ? -1.0f : 1.0f;
+    if (!(length > 1e-6f) || !(to < 0)) {
+        return 0;
+    }
+    h = koksma__v3_scale(h, turn / length);
+    const float seen = koksma__v3_dot(h, f->out), left = koksma__v3_dot(h, w), across = seen + m * left;
+    if (!(seen > 0) || !(left < 0)) {
+        return 0;
+    }
+    const koksma__v3 side = koksma__v3_cross(f->n, h);
+    const float cosine = koksma__v3_dot(f->n, h), a = f->a;
+    const float part = (cosine * cosine + koksma__v3_dot(side, side) / (a * a)) * a;
+    const float visible = masking(from, a) * seen / (from * KOKSMA__PI_F * part * part);
+    *weight = masking(-to, a);
+    return (1 - koksma__reflected_share(seen, v->ratio, &inner)) * visible * m * m * -left / (across * across);
+}
+
+static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
+{
+    const view v = view_of(s);
+    float weight;
+    const float pdf = lobes & KOKSMA__LOBE_GLOSSY ? density(&v, koksma__v3_of(w), &weight) : 0;
+    for (int k = 0; pdf > 0 && k < 3; k++) {
+        value_out[k] += s->material->values[TINT + k] * weight * pdf;
+    }
+    return pdf > 0 ? pdf : 0;
+}
+
+static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
+{
+    const view v = view_of(s);
+    float weight, inner;
+    if (!(lobes & KOKSMA__LOBE_GLOSSY)) {
+        return false;
+    }
+    const koksma__v3 mirrored = koksma__facet_direction(&v.facets, u[0], u[1]);
+    const koksma__v3 h = koksma__v3_unit(koksma__v3_add(mirrored, v.facets.out));
+    const float cosine = koksma__v3_dot(h, v.facets.out);
+    const bool reflects = choice < koksma__reflected_share(cosine, v.ratio, &inner);
+    const koksma__v3 refracted =
+        koksma__v3_subtract(koksma__v3_scale(h, v.ratio * cosine - inner), koksma__v3_scale(v.facets.out, v.ratio));
+    koksma__v3_to(reflects ? mirrored : koksma__v3_unit(refracted), out->w);
+    if ((koksma__dot3(s->n, out->w) > 0) != reflects) {
+        return false;
+    }
+    out->pdf = density(&v, koksma__v3_of(out->w), &weight);
+    out->lobe = KOKSMA__LOBE_GLOSSY;
+    for (int k = 0; k < 3; k++) {
+        out->weight[k] = s->material->values[TINT + k] * weight;
+    }
+    return out->pdf > 0;
+}
+
+static const koksma__parameter parameters[] = {
+    {"tint", KOKSMA__COLOUR, .high = 1, .optional = true, .fallback = 1, .at = KOKSMA__VALUE(TINT)},
+    {"roughness", KOKSMA__NUMBER, .low = 0.03, .high = 1, .at = KOKSMA__VALUE(ROUGHNESS)},
+    {"ior", KOKSMA__NUMBER, .low = 1.05, .high = 10, .at = KOKSMA__VALUE(IOR)},
+    {0}};
+
+const koksma__bsdf koksma__bsdf_rough_dielectric = {
+    .kind = {.name = "rough-dielectric",
+             .title = "ground glass in air: facets that reflect and refract",
+             .cite = "walter2007 heitz2018",
+             .parameters = parameters},
+    .lobes = KOKSMA__LOBE_GLOSSY,
+    .takes_choice = true,
+    .value = value,
+    .sample = sample,
+};
