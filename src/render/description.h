@@ -77,6 +77,13 @@ typedef struct koksma__scene_cache {
     void (*release)(void *made);
 } koksma__scene_cache;
 
+/* What another renderer's scene has that is unknown here, and what was taken for it. */
+typedef struct koksma__unknown {
+    char file[64], text[256];
+    unsigned long line; /* of the first place; there are n */
+    size_t n;
+} koksma__unknown;
+
 struct koksma_scene {
     uint64_t hash;
     char title[128];
@@ -91,10 +98,12 @@ struct koksma_scene {
     koksma__mesh *meshes;
     koksma__placement *placements; /* of meshes */
     size_t n_materials, n_shapes, n_lights, n_meshes, n_placements;
-    bool grey;             /* no colour in it: images have one channel */
-    bool moves;            /* something depends on time */
-    bool is_model;         /* a bare mesh file: nobody wrote its materials for this program */
-    koksma__unread unread; /* of a bare mesh file */
+    bool grey;                /* no colour in it: images have one channel */
+    bool moves;               /* something depends on time */
+    bool is_model;            /* a bare mesh file: nobody wrote its materials for this program */
+    koksma__unread unread;    /* of a bare mesh file */
+    koksma__unknown *unknown; /* of another renderer's scene */
+    size_t n_unknown;
     koksma__scene_cache *cache;
 };
 
@@ -108,6 +117,9 @@ koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *
 
 /* One more light, zeroed. Errors: MALFORMED (too many). */
 koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);
+
+/* Sets the albedo of a material with an image to its mean. */
+void koksma__material_mean(koksma__material *material);
 
 /* What follows from the rest: grey, moves and the pixels' part of the hash. */
 void koksma__scene_finish(koksma_scene *scene);
