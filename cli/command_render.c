@@ -184,10 +184,11 @@ static int run(const cli_arguments *arguments)
     if (!cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments, "-o FILE, the image, is missing");
     }
-    koksma_status status = koksma_image_check_path(cli_text(arguments, "output", ""));
-    status = status ? status : koksma_scene_open(arguments->operands[0], &scene);
-    if (status) {
-        return cli_fail(arguments, status);
+    const koksma_status status = koksma_image_check_path(cli_text(arguments, "output", ""));
+    const int failed =
+        status ? cli_fail(arguments, status) : cli_scene_open(arguments, arguments->operands[0], &scene);
+    if (failed) {
+        return failed;
     }
     int code = CLI_USAGE;
     koksma_render_options_init(&options, scene);
@@ -216,6 +217,7 @@ static const cli_option options[] = {
     {0, "sky", "L", "light of this radiance from all around, in place of the scene's sky or a bare model's studio"},
     {0, "environment", "FILE", "the same of an image of latitude and longitude, times --sky"},
     {'o', "output", "FILE", "{image-formats} by its ending; an .exr has all layers"},
+    CLI_UNKNOWN_OPTION,
     CLI_SAMPLING_OPTIONS,
     CLI_ADAPTIVE_OPTIONS,
     CLI_ROW_OPTIONS,
@@ -229,8 +231,8 @@ const cli_command cli_command_render = {
     .synopsis = "SCENE [-p [USE[+USE]=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S] "
                 "[--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
-        "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md) or a mesh file (.obj, .ply, .off,\n"
-        ".gltf, .glb).\n"
+        "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md) a mesh file (.obj, .ply, .off,\n"
+        ".gltf, .glb), or a scene of pbrt-v4 (.pbrt) or Mitsuba 3 (.xml).\n"
         "A use is what sample dimensions are spent on, such as the lens; see 'koksma list uses'. Each use has its "
         "own\n"
         "point set in every pixel. --pairing combines them: 'shuffled' by random permutations, 'aligned' in the "

@@ -56,9 +56,9 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands != 2 || strcmp(arguments->operands[0], "check") != 0) {
         return cli_usage_error(arguments, "it takes check FILE");
     }
-    const koksma_status status = koksma_scene_open(arguments->operands[1], &scene);
-    if (status) {
-        return cli_fail(arguments, status);
+    const int failed = cli_scene_open(arguments, arguments->operands[1], &scene);
+    if (failed) {
+        return failed;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const koksma_scene_counts counts = koksma_scene_count(scene);
@@ -77,14 +77,15 @@ static int run(const cli_arguments *arguments)
     return code ? code : odd ? CLI_NO : CLI_YES;
 }
 
-static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
+static const cli_option options[] = {CLI_UNKNOWN_OPTION, CLI_ROW_OPTIONS, {0}};
 
 const cli_command cli_command_scene = {
     .name = "scene",
     .summary = "check a scene file",
     .synopsis = "check SCENE",
     .details =
-        "SCENE is a name, a JSON file (docs/scenes.md) or a mesh file. An error names file, line, field and reason\n"
+        "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or Mitsuba "
+        "(.xml). An error names file, line, field and reason\n"
         "(exit code 3). A warning is about something odd that can be rendered (exit code 1). stdout lists what the\n"
         "scene contains: the box around each part, and the part of the picture that it covers at most.\n",
     .examples = "koksma scene check ball\n",

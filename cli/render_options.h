@@ -42,6 +42,16 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
 void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                    const koksma_render_options *options);
 
+/* What commands that open a scene do with what is unknown in one of pbrt or Mitsuba. */
+#define CLI_UNKNOWN_OPTION                                                                                           \
+    {                                                                                                                \
+        0, "unknown", "approximate|refuse",                                                                          \
+            "what of a pbrt or Mitsuba scene is unknown: a warning, or an error (default: approximate)"              \
+    }
+
+/* Opens a scene, by that option; returns 0, or the exit code after an error. */
+int cli_scene_open(const cli_arguments *arguments, const char *name, koksma_scene **out);
+
 /* The scene's warnings on stderr, `most` lines of them at most and one that tells how many more there are; with
    options those that matter to them, with NULL all. Returns how many there are. */
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,

@@ -49,7 +49,8 @@ KOKSMA_API bool koksma_pipeline_at(size_t i, koksma_entry *out);
 
 /* Opens a scene.
      name_or_path  the name of a scene in the library; or a file: JSON if the text has a '/' or ends in ".json", a
-                   mesh if it ends in .obj, .ply, .off, .gltf or .glb
+                   mesh if it ends in .obj, .ply, .off, .gltf or .glb; a scene of pbrt-v4 or Mitsuba 3 if it ends in
+                   .pbrt or .xml
      out           the scene, to be closed by koksma_scene_close. It is read-only: threads may share it
    Errors: UNKNOWN (no such name), MISSING, MALFORMED (the message names file, line, field and reason), MEMORY. */
 KOKSMA_API koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out);
@@ -66,6 +67,11 @@ KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
 /* Writes warning i about the scene, which can be rendered all the same, as one line. Returns false past the last one.
      text  size characters, cut if too short */
 KOKSMA_API bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size);
+
+/* Writes what a pbrt or Mitsuba scene has that is unknown here, and what was taken for it: line i, "FILE:LINE: ...".
+   Returns false past the last one. These lines are among the scene's warnings, too.
+     text  size characters, cut if too short */
+KOKSMA_API bool koksma_scene_unknown(const koksma_scene *scene, size_t i, char *text, size_t size);
 
 /* Numbers of what a scene contains; a mesh may be placed several times. */
 typedef struct koksma_scene_counts {

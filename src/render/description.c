@@ -47,6 +47,19 @@ koksma_status koksma__scene_note(koksma_scene *scene, const char *text)
     return KOKSMA_OK;
 }
 
+void koksma__material_mean(koksma__material *m)
+{
+    const size_t n = (size_t)m->image->width * (size_t)m->image->height, channels = (size_t)m->image->channels;
+    for (size_t k = 0; k < 3; k++) {
+        double sum = 0;
+        for (size_t i = 0; i < n; i++) {
+            const double value = (double)m->image->pixels[i * channels + k % channels];
+            sum += value > 0 ? fmin(value, 1) : 0;
+        }
+        m->albedo[0][k] = m->albedo[1][k] = sum / (double)n;
+    }
+}
+
 static bool is_grey(const double rgb[3])
 {
     return rgb[0] == rgb[1] && rgb[1] == rgb[2];

@@ -105,6 +105,13 @@ typedef struct koksma__scene_cache {
     void (*release)(void *made);
 } koksma__scene_cache;
 
+/* What another renderer's scene has that is unknown here, and what was taken for it. */
+typedef struct koksma__unknown {
+    char file[64], text[256];
+    unsigned long line; /* of the first place; there are n */
+    size_t n;
+} koksma__unknown;
+
 struct koksma_scene {
     uint64_t hash;
     char title[128];
@@ -123,6 +130,8 @@ struct koksma_scene {
     bool moves;            /* something depends on time */
     bool is_model;         /* a bare mesh file: nobody wrote its materials for this program */
     koksma__unread unread; /* of a bare mesh file */
+    koksma__unknown *unknown; /* of another renderer's scene */
+    size_t n_unknown;
     bool glows;            /* a placement with a material is a light, too */
     struct {
         size_t lights, shapes;
@@ -145,6 +154,9 @@ koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);
 
 /* One more warning about a bare mesh file. Errors: MEMORY. */
 koksma_status koksma__scene_note(koksma_scene *scene, const char *text);
+
+/* Sets the albedo of a material with an image to its mean. */
+void koksma__material_mean(koksma__material *material);
 
 /* What follows from the rest: grey, moves and the pixels' part of the hash. */
 void koksma__scene_finish(koksma_scene *scene);

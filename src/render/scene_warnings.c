@@ -170,6 +170,29 @@ static bool of_unread(const koksma__unread *u, asked *a)
     return false;
 }
 
+static void say_unknown(const koksma__unknown *u, char *text, size_t size)
+{
+    char more[48] = "";
+    if (u->n > 1) {
+        snprintf(more, sizeof more, " (and at %zu more places)", u->n - 1);
+    }
+    snprintf(text, size, "%s:%lu: %s%s", u->file, u->line, u->text, more);
+    if (size) {
+        koksma_text_escape(text, size);
+    }
+}
+
+static bool of_unknown(const koksma_scene *scene, asked *a)
+{
+    for (size_t i = 0; i < scene->n_unknown; i++) {
+        if (here(a)) {
+            say_unknown(&scene->unknown[i], a->text, a->size);
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Names in OBJ files. */
 static bool of_names(const koksma__unread *u, asked *a)
 {
@@ -197,7 +220,7 @@ static bool of_all(const koksma_scene *scene, asked *a)
         snprintf(a->text, a->size, "no shapes");
         return true;
     }
-    return of_unread(&scene->unread, a) || of_names(&scene->unread, a);
+    return of_unknown(scene, a) || of_unread(&scene->unread, a) || of_names(&scene->unread, a);
 }
 
 bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size)
@@ -215,6 +238,15 @@ bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_
 {
     KOKSMA__REQUIRE_OR(false, scene, text);
     return koksma__scene_warning(scene, true, i, text, size);
+}
+
+bool koksma_scene_unknown(const koksma_scene *scene, size_t i, char *text, size_t size)
+{
+    KOKSMA__REQUIRE_OR(false, scene, text);
+    if (i < scene->n_unknown) {
+        say_unknown(&scene->unknown[i], text, size);
+    }
+    return i < scene->n_unknown;
 }
 
 koksma_scene_counts koksma_scene_count(const koksma_scene *scene)

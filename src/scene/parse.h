@@ -9,7 +9,4 @@
 /* name: of the scene's file, next to which the files that it names are looked for. */
 koksma_status koksma__parse_material(const char *name, const field *f, koksma_scene *scene);
 
-/* The albedo of a material with an image: its mean. */
-void koksma__material_mean(koksma__material *material);
-
 #endif

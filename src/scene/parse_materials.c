@@ -50,19 +50,6 @@ static koksma_status parse_texture(const char *name, const field *f, koksma__mat
     return status;
 }
 
-void koksma__material_mean(koksma__material *m)
-{
-    const size_t n = (size_t)m->image->width * (size_t)m->image->height, channels = (size_t)m->image->channels;
-    for (size_t k = 0; k < 3; k++) {
-        double sum = 0;
-        for (size_t i = 0; i < n; i++) {
-            const double value = (double)m->image->pixels[i * channels + k % channels];
-            sum += value > 0 ? fmin(value, 1) : 0;
-        }
-        m->albedo[0][k] = m->albedo[1][k] = sum / (double)n;
-    }
-}
-
 /* The diffuse part, in one of the forms that the kind takes. */
 static koksma_status parse_diffuse(const char *scene_name, const field *f, koksma__material *m)
 {

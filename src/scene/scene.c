@@ -13,6 +13,7 @@
 #include "core/status.h"
 #include "core/suggestion.h"
 #include "meshes/mesh_read.h"
+#include "scene/import_open.h"
 #include "scene/model.h"
 #include "scene/scenes_embedded.h"
 
@@ -66,10 +67,17 @@ static koksma_status open_model(const char *path, koksma__named by, koksma_scene
     return status ? status : close_failed(koksma__model_parse(path, by, *out), out);
 }
 
+static koksma_status open_import(const char *path, koksma__named by, koksma_scene **out)
+{
+    const koksma_status status = new_scene(out);
+    return status ? status : close_failed(koksma__import_open(path, by, *out), out);
+}
+
 static bool is_path(const char *text)
 {
     const char *dot = strrchr(text, '.');
-    return koksma__is_mesh_file(text) || strchr(text, '/') || (dot && !strcmp(dot, ".json"));
+    return koksma__is_mesh_file(text) || koksma__is_import_file(text) || strchr(text, '/') ||
+           (dot && !strcmp(dot, ".json"));
 }
 
 koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, koksma_scene **out)
@@ -88,6 +96,9 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
     }
     if (koksma__is_mesh_file(name_or_path)) {
         return open_model(name_or_path, by, out);
+    }
+    if (koksma__is_import_file(name_or_path)) {
+        return open_import(name_or_path, by, out);
     }
     unsigned char *bytes;
     size_t size;
@@ -127,6 +138,7 @@ void koksma__scene_fini(koksma_scene *scene)
     free(scene->materials);
     free(scene->shapes);
     free(scene->lights);
+    free(scene->unknown);
 }
 
 void koksma_scene_close(koksma_scene *scene)

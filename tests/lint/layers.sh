@@ -28,6 +28,7 @@ only 'cairo' src/plot/cairo.c
 only 'sqlite3\.h' src/study/store/database.c
 only 'jansson\.h' src/json/json.c
 only 'embree' src/render/accel/accel_embree.c
+only 'expat\.h' src/scene/xml.c
 only 'mpi\.h' src/study/run/transport_mpi.c
 only 'Random123' src/core/random.h
 

@@ -1,0 +1,453 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the readers of other renderers' scenes share: paths, the list of what was unknown, materials, lights, camera.
+ * import_shapes.c has the shapes. Every material becomes the nearest kind that we have: that a conductor's Fresnel
+ * reflectance is Schlick's here, and that surfaces have two sides, docs/scenes.md says for all; whatever else is lost is
+ * said with file and line.
+ */
+#include "scene/import.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/c_locale.h"
+#include "core/capacity.h"
+#include "core/hash.h"
+#include "core/vector.h"
+#include "image/formats.h"
+#include "image/registry.h"
+#include "render/lights/lights.h"
+#include "render/materials/materials.h"
+
+enum { MOST_INCLUDES = 4096, MOST_UNKNOWN = 256 };
+
+const double koksma__import_identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
+/* ---- Messages -------------------------------------------------------------------------------------------- */
+
+koksma_status koksma__import_fail(koksma__text_place place, const char *format, ...)
+{
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    koksma__vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return koksma__fail(KOKSMA_MALFORMED, "%s:%lu: %s", place.file, place.line, text);
+}
+
+koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status status)
+{
+    char where[KOKSMA__MAX_PATH + 32];
+    snprintf(where, sizeof where, "%s:%lu", place.file, place.line);
+    return status ? koksma__fail_in(status, where) : KOKSMA_OK;
+}
+
+koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
+{
+    koksma_scene *scene = im->scene;
+    koksma__unknown entry = {.n = 1, .line = place.line};
+    va_list arguments;
+    va_start(arguments, format);
+    koksma__vsnprintf(entry.text, sizeof entry.text, format, arguments);
+    va_end(arguments);
+    const char *slash = strrchr(place.file, '/');
+    snprintf(entry.file, sizeof entry.file, "%s", slash ? slash + 1 : place.file);
+    for (size_t i = 0; i < scene->n_unknown; i++) {
+        if (!strcmp(scene->unknown[i].text, entry.text)) {
+            scene->unknown[i].n++;
+            return KOKSMA_OK;
+        }
+    }
+    if (scene->n_unknown == MOST_UNKNOWN) {
+        scene->unknown[MOST_UNKNOWN - 1].n++; /* as many more places, of whatever */
+        return KOKSMA_OK;
+    }
+    koksma__unknown *to = koksma__add_one(&scene->unknown, &scene->n_unknown, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    *to = entry;
+    return KOKSMA_OK;
+}
+
+/* ---- Files ------------------------------------------------------------------------------------------------ */
+
+koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
+                                  char out[KOKSMA__MAX_PATH])
+{
+    return koksma__path_beside(im->path, name, out) ? KOKSMA_OK : koksma__import_fail(place, "the path is too long");
+}
+
+/* Whether `full`, without links, is below the folder of the scene. A file that isn't there is refused when it is opened. */
+static bool is_below(const char *scene, const char *full)
+{
+    char folder[KOKSMA__MAX_PATH];
+    const char *slash = strrchr(scene, '/');
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - scene) + 1 : 1, slash ? scene : ".");
+    char *above = realpath(folder, NULL), *real = realpath(full, NULL);
+    const size_t length = above ? strlen(above) : 0;
+    const bool below = !real || (above && !strncmp(real, above, length) && (length == 1 || real[length] == '/'));
+    free(above);
+    free(real);
+    return below;
+}
+
+koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
+                                  size_t *size)
+{
+    char full[KOKSMA__MAX_PATH];
+    unsigned char *read = NULL;
+    KOKSMA__TRY(koksma__import_path(im, place, path, full));
+    if (++im->n_files > MOST_INCLUDES) {
+        return koksma__import_fail(place, "more than %d files are included", MOST_INCLUDES);
+    }
+    if (!is_below(im->path, full)) {
+        return koksma__import_fail(place, "it includes '%s', which is not below the scene's own folder", path);
+    }
+    const koksma_status status =
+        koksma__read_file(full, KOKSMA__FILE_SCENE, KOKSMA__BY_FILE, koksma__check_text, &read, size);
+    *bytes = (char *)read;
+    if (!status) {
+        im->scene->hash += koksma__hash(read, *size) * im->n_files;
+    }
+    return koksma__import_fail_at(place, status);
+}
+
+/* ---- Colours ---------------------------------------------------------------------------------------------- */
+
+void koksma__import_albedo(double rgb[3])
+{
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = rgb[k] > 0 ? fmin(rgb[k], 1) : 0;
+    }
+}
+
+void koksma__import_radiance(koksma__import *im, double rgb[3])
+{
+    const double largest = fmax(fmax(rgb[0], rgb[1]), rgb[2]);
+    im->scene->unread.too_bright += largest > BRIGHT;
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = rgb[k] > 0 ? largest > BRIGHT ? fmin(rgb[k] / largest, 1) * BRIGHT : rgb[k] : 0;
+    }
+}
+
+void koksma__import_black_body(double kelvin, double rgb[3])
+{
+    const double t = fmin(fmax(kelvin, 1667), 25000), i = 1000 / t;
+    const double x = t < 4000 ? ((-0.2661239 * i - 0.2343589) * i + 0.8776956) * i + 0.179910
+                              : ((-3.0258469 * i + 2.1070379) * i + 0.2226347) * i + 0.240390;
+    const double y = t < 2222   ? ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683
+                     : t < 4000 ? ((-0.9549476 * x - 1.37418593) * x + 2.09137015) * x - 0.16748867
+                                : ((3.0817580 * x - 5.87338670) * x + 3.75112997) * x - 0.37001483;
+    const double xyz[3] = {x / y, 1, (1 - x - y) / y};
+    static const double to_rgb[3][3] = {
+        {3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = fmax(koksma__dot(to_rgb[k], xyz), 0);
+    }
+}
+
+bool koksma__import_metal(const char *name, double rgb[3])
+{
+    /* linear sRGB of the reflectance along the normal, from tables of refractive indices (Gulbrandsen 2014 has some) */
+    static const struct {
+        const char *name;
+        double rgb[3];
+    } metals[] = {{"Au", {1.000, 0.782, 0.344}},
+                  {"Ag", {0.972, 0.960, 0.915}},
+                  {"Cu", {0.955, 0.638, 0.538}},
+                  {"Al", {0.913, 0.922, 0.924}},
+                  {"Cr", {0.549, 0.556, 0.554}},
+                  {"W", {0.504, 0.498, 0.478}},
+                  {"Ni", {0.660, 0.609, 0.526}},
+                  {"Ti", {0.542, 0.497, 0.449}},
+                  {"CuZn", {0.910, 0.778, 0.423}},
+                  {"Ir", {0.743, 0.722, 0.684}},
+                  {"none", {1, 1, 1}}};
+    for (size_t i = 0; i < sizeof metals / sizeof *metals; i++) {
+        if (!strcmp(name, metals[i].name)) {
+            memcpy(rgb, metals[i].rgb, sizeof metals[i].rgb);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- Materials -------------------------------------------------------------------------------------------- */
+
+static koksma_status read_image(koksma__import *im, koksma__text_place place, const char *path, koksma_image **out)
+{
+    koksma_image *image = calloc(1, sizeof *image);
+    KOKSMA__REQUIRE_MEMORY(image, sizeof *image);
+    koksma_status status = koksma__image_read(path, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, image);
+    status = status ? status : koksma__image_check(image, path);
+    if (status) {
+        koksma_image_fini(image);
+        free(image);
+        image = NULL;
+    }
+    *out = image;
+    return status != KOKSMA_MALFORMED && status != KOKSMA_UNSUPPORTED
+               ? koksma__import_fail_at(place, status)
+               : koksma__import_unknown(im, place, "%s; it is left out", koksma_error_text());
+}
+
+static koksma_status set_colour(koksma__import *im, koksma__text_place place, const koksma__import_colour *from,
+                                koksma__material *m)
+{
+    memcpy(m->albedo[0], from->rgb, sizeof from->rgb);
+    memcpy(m->albedo[1], from->is_checker ? from->second : from->rgb, sizeof from->rgb);
+    koksma__import_albedo(m->albedo[0]);
+    koksma__import_albedo(m->albedo[1]);
+    m->checker = from->is_checker;
+    m->period = from->period;
+    KOKSMA__TRY(*from->image ? read_image(im, place, from->image, &m->image) : KOKSMA_OK);
+    if (m->image) {
+        koksma__material_mean(m);
+    }
+    return KOKSMA_OK;
+}
+
+/* A Phong lobe of the reflectance along a dielectric's normal over what is left of Lambert; an image leaves no lobe. */
+static koksma_status set_coated(koksma__import *im, koksma__text_place place, const koksma__import_material *from,
+                                koksma__material *m)
+{
+    KOKSMA__TRY(set_colour(im, place, &from->colour, m));
+    if (m->image) {
+        m->bsdf = &koksma__bsdf_lambert;
+        return koksma__import_unknown(im, place, "a coat over an image: it has no gloss here");
+    }
+    const double ratio = (from->ior - 1) / (from->ior + 1), share = ratio * ratio;
+    double *reflectance = koksma__material_value(m, "reflectance");
+    reflectance[0] = reflectance[1] = reflectance[2] = share;
+    *koksma__material_value(m, "exponent") = fmin(2 / fmax(from->alpha * from->alpha, 2e-5), 1e5);
+    for (int k = 0; k < 6; k++) {
+        m->albedo[k / 3][k % 3] *= 1 - share;
+    }
+    return koksma__import_unknown(im, place, "a coated surface: Lambert and a Phong lobe here");
+}
+
+koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
+                                          const koksma__import_material *from, int *out)
+{
+    static const koksma__bsdf *const kinds[] = {[KOKSMA__MATTE] = &koksma__bsdf_lambert,
+                                                [KOKSMA__METAL] = &koksma__bsdf_ggx,
+                                                [KOKSMA__GLASS] = &koksma__bsdf_dielectric,
+                                                [KOKSMA__COATED] = &koksma__bsdf_utah};
+    koksma_scene *scene = im->scene;
+    if (scene->n_materials == KOKSMA__MAX_MATERIALS) {
+        return koksma__import_fail(place, "more than %d materials", KOKSMA__MAX_MATERIALS);
+    }
+    koksma__material *m = &scene->materials[scene->n_materials];
+    *out = (int)scene->n_materials++;
+    snprintf(m->name, sizeof m->name, "%d", *out);
+    m->bsdf = from->kind == KOKSMA__METAL && from->alpha < 1e-6 ? &koksma__bsdf_mirror : kinds[from->kind];
+    switch (from->kind) {
+    case KOKSMA__METAL:
+        memcpy(koksma__material_value(m, "reflectance"), from->colour.rgb, sizeof from->colour.rgb);
+        koksma__import_albedo(koksma__material_value(m, "reflectance"));
+        if (m->bsdf == &koksma__bsdf_ggx) {
+            *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
+        }
+        return *from->colour.image || from->colour.is_checker
+                   ? koksma__import_unknown(im, place, "a metal with a texture: it has one colour here")
+                   : KOKSMA_OK;
+    case KOKSMA__GLASS: {
+        double *tint = koksma__material_value(m, "tint");
+        tint[0] = tint[1] = tint[2] = 1;
+        *koksma__material_value(m, "ior") = fmin(fmax(from->ior, 1.0001), 10);
+        return from->alpha > 1e-6 ? koksma__import_unknown(im, place, "rough glass: it is smooth here") : KOKSMA_OK;
+    }
+    case KOKSMA__COATED:
+        return set_coated(im, place, from, m);
+    default:
+        return set_colour(im, place, &from->colour, m);
+    }
+}
+
+/* ---- Lights ------------------------------------------------------------------------------------------------ */
+
+koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light)
+{
+    koksma__light *to = NULL;
+    for (int k = 0; k < 3; k++) {
+        if (!(fabs(light->centre[k]) <= FAR)) {
+            return koksma__import_fail(place, "a light beyond 1e6");
+        }
+    }
+    for (size_t i = 0; light->kind == &koksma__light_environment && i < im->scene->n_lights; i++) {
+        if (im->scene->lights[i].kind == light->kind) {
+            koksma_image_fini(light->image);
+            free(light->image);
+            return koksma__import_unknown(im, place, "a second environment: it is left out");
+        }
+    }
+    const koksma_status status = koksma__scene_add_light(im->scene, &to);
+    if (status) {
+        koksma_image_fini(light->image);
+        free(light->image);
+        return koksma__import_fail_at(place, status);
+    }
+    *to = *light;
+    koksma__import_radiance(im, to->radiance);
+    return KOKSMA_OK;
+}
+
+/* The octahedral square [0, 1]^2 of a direction, equal areas (Clarberg 2008); the pole is z. */
+static void octahedral_square(const double w[3], double uv[2])
+{
+    const double x = fabs(w[0]), y = fabs(w[1]), z = fabs(w[2]), r = sqrt(fmax(0, 1 - z));
+    double v = r * (x > 0 || y > 0 ? atan2(fmin(x, y), fmax(x, y)) * 2 / M_PI : 0);
+    v = x < y ? r - v : v;
+    double u = r - v;
+    if (w[2] < 0) {
+        const double swapped = 1 - v;
+        v = 1 - u;
+        u = swapped;
+    }
+    uv[0] = (copysign(u, w[0]) + 1) / 2;
+    uv[1] = (copysign(v, w[1]) + 1) / 2;
+}
+
+/* The square of a direction in an image of latitude and longitude, as Mitsuba has it: y is up, column 0 along -z. */
+static void latitude_square(const double w[3], double uv[2])
+{
+    const double turn = atan2(w[0], -w[2]) / TURN;
+    uv[0] = turn - floor(turn);
+    uv[1] = acos(fmin(fmax(w[1], -1), 1)) / M_PI;
+}
+
+/* A new image by latitude and longitude in our own frame; the nearest of the old one's pixels, four to each new one. */
+static koksma_status turn_image(const koksma_image *from, bool octahedral, const double inverse[12],
+                                koksma_image *out)
+{
+    const int height = octahedral ? from->height : (from->width + 1) / 2, width = 2 * height;
+    KOKSMA__TRY(koksma_image_init(out, width, height, from->channels));
+    for (int i = 0; i < 4 * width * height; i++) {
+        const int pixel = i / 4, px = pixel % width, py = pixel / width;
+        const double theta = M_PI * (py + 0.25 + 0.5 * (i % 2)) / height;
+        const double phi = TURN * (px + 0.25 + 0.5 * (i / 2 % 2)) / width;
+        const double w[3] = {-sin(theta) * sin(phi), cos(theta), sin(theta) * cos(phi)};
+        double local[3], uv[2];
+        for (int k = 0; k < 3; k++) {
+            local[k] = koksma__dot(inverse + 4 * k, w);
+        }
+        if (!koksma__normalise(local)) {
+            continue;
+        }
+        (octahedral ? octahedral_square : latitude_square)(local, uv);
+        const int x = (int)fmin(uv[0] * from->width, from->width - 1),
+                  y = (int)fmin(uv[1] * from->height, from->height - 1);
+        for (int k = 0; k < from->channels; k++) {
+            out->pixels[pixel * from->channels + k] +=
+                0.25f * from->pixels[(y * from->width + x) * from->channels + k];
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
+                                 const double scale[3], const double matrix[12])
+{
+    char full[KOKSMA__MAX_PATH];
+    koksma_image *image = NULL, turned;
+    double inverse[12];
+    koksma__light light = {.kind = &koksma__light_environment, .visible = true};
+    KOKSMA__TRY(koksma__import_path(im, place, name, full));
+    KOKSMA__TRY(read_image(im, place, full, &image));
+    memcpy(light.radiance, scale, sizeof light.radiance);
+    if (image && !koksma__import_invert(matrix, inverse)) {
+        koksma_image_fini(image);
+        free(image);
+        return koksma__import_fail(place, "an environment is flattened by a matrix without an inverse");
+    }
+    if (image && (size_t)image->width * (size_t)image->height > (size_t)1 << 26) {
+        koksma_image_fini(image);
+        free(image);
+        return koksma__import_fail(place, "%s: an environment has at most 2^26 pixels", name);
+    }
+    if (image) {
+        const koksma_status status = turn_image(image, octahedral, inverse, &turned);
+        koksma_image_fini(image);
+        if (status) {
+            free(image);
+            return status;
+        }
+        *image = turned;
+        light.image = image;
+    }
+    return koksma__import_light(im, place, &light);
+}
+
+/* ---- The camera ------------------------------------------------------------------------------------------- */
+
+bool koksma__import_invert(const double m[12], double out[12])
+{
+    double c[9], determinant = 0;
+    for (int i = 0; i < 9; i++) {
+        const int r = i / 3, k = i % 3, r1 = (k + 1) % 3, r2 = (k + 2) % 3, k1 = (r + 1) % 3, k2 = (r + 2) % 3;
+        c[i] = m[4 * r1 + k1] * m[4 * r2 + k2] - m[4 * r1 + k2] * m[4 * r2 + k1];
+    }
+    for (int k = 0; k < 3; k++) {
+        determinant += m[4 * k] * c[k];
+    }
+    for (int r = 0; r < 3; r++) {
+        out[4 * r + 3] = 0;
+        for (int k = 0; k < 3; k++) {
+            out[4 * r + k] = c[3 * r + k] / determinant;
+            out[4 * r + 3] -= out[4 * r + k] * m[4 * k + 3];
+        }
+    }
+    bool whole = isnormal(determinant);
+    for (int i = 0; i < 12; i++) {
+        whole &= isfinite(out[i]) != 0;
+    }
+    return whole;
+}
+
+void koksma__import_rotation(double angle_deg, const double axis[3], double out[12])
+{
+    double a[3] = {axis[0], axis[1], axis[2]};
+    const double angle = angle_deg * TURN / 360, c = cos(angle), s = sin(angle);
+    memcpy(out, koksma__import_identity, sizeof koksma__import_identity);
+    if (koksma__normalise(a)) {
+        for (int r = 0; r < 3; r++) {
+            for (int k = 0; k < 3; k++) {
+                const int third = 3 - r - k;
+                const double turn = r == k ? 0 : (k == (r + 1) % 3 ? -1 : 1) * s * a[third];
+                out[4 * r + k] = a[r] * a[k] * (1 - c) + (r == k ? c : 0) + turn;
+            }
+        }
+    }
+}
+
+koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double m[12], double right,
+                                    double fov_rad, double lens_radius, double focus_distance)
+{
+    koksma__camera *c = &im->scene->camera;
+    *c = (koksma__camera){.fov_rad = fov_rad,
+                          .lens_radius = lens_radius,
+                          .focus_distance = focus_distance,
+                          .lens_map = koksma_warp_find("concentric-disk"),
+                          .shutter = {0, 1}};
+    for (int k = 0; k < 3; k++) {
+        c->eye[k] = m[4 * k + 3];
+        c->right[k] = right * m[4 * k];
+        c->down[k] = -m[4 * k + 1];
+        c->forward[k] = m[4 * k + 2];
+        if (!(fabs(c->eye[k]) <= FAR)) {
+            return koksma__import_fail(place, "the camera stands beyond 1e6");
+        }
+    }
+    if (!koksma__normalise(c->right) || !koksma__normalise(c->down) || !koksma__normalise(c->forward)) {
+        return koksma__import_fail(place, "the camera's matrix has no inverse");
+    }
+    if (!(fov_rad >= 1e-4 && fov_rad < 3.13)) {
+        return koksma__import_fail(place, "the camera's angle of view is above 0 and below 180 degrees");
+    }
+    if (!(lens_radius >= 0 && lens_radius <= FAR && focus_distance > TINY && focus_distance <= FAR)) {
+        return koksma__import_fail(place, "the lens's radius is 0 to 1e6, its distance of focus 1e-6 to 1e6");
+    }
+    return KOKSMA_OK;
+}

@@ -1,0 +1,414 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Shapes of other renderers' scenes. Spheres, squares and disks that their matrix leaves round or rectangular become our
+ * own shapes and lights; everything else a mesh: read from a file once, handed over, or made of a form (a sphere of 64 x
+ * 32 rectangles, a disk or cylinder of 64 sides), and placed by its matrix as often as the scene has it. A placement whose
+ * matrix mirrors, or whose fronts are turned, takes the mesh's twin, which is inside out (glTF 2.0, section 3.7.4, has the
+ * reason).
+ */
+#include "scene/import_shapes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/vector.h"
+#include "meshes/mesh_read.h"
+#include "render/lights/lights.h"
+#include "render/materials/materials.h"
+#include "render/placements.h"
+#include "render/shapes/shapes.h"
+
+enum { SIDES = 64, RINGS = 32 };
+
+/* A mesh by its file's path, or by its form. */
+struct koksma__known_mesh {
+    char *path; /* NULL: of a form */
+    koksma__form form;
+    bool with_normals;
+    int mesh;
+};
+
+void koksma__import_shapes_fini(koksma__import *im)
+{
+    for (size_t i = 0; i < im->n_known; i++) {
+        free(im->known[i].path);
+    }
+    KOKSMA__FREE(im->known, im->twins);
+    im->known = NULL;
+    im->twins = NULL;
+}
+
+/* ---- Meshes ------------------------------------------------------------------------------------------------ */
+
+koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out)
+{
+    koksma__mesh *to = NULL;
+    *out = -1;
+    if (koksma__mesh_check(mesh)) {
+        koksma__mesh_fini(mesh);
+        return koksma__import_unknown(im, place, "a mesh is left out: %s", koksma_error_text());
+    }
+    int *twin = koksma__add_one(&im->twins, &im->n_twins, sizeof *twin);
+    const koksma_status status = twin ? koksma__scene_add_mesh(im->scene, &to) : KOKSMA_MEMORY;
+    if (status) {
+        koksma__mesh_fini(mesh);
+        return status;
+    }
+    *twin = -1;
+    *to = *mesh;
+    *out = (int)im->scene->n_meshes - 1;
+    im->scene->hash ^= koksma__mesh_hash(to) + im->scene->n_meshes;
+    return KOKSMA_OK;
+}
+
+/* Remembers a mesh; the path, which may be NULL, is copied. */
+static koksma_status remember(koksma__import *im, const char *path, koksma__form form, bool with_normals, int mesh)
+{
+    struct koksma__known_mesh *known = koksma__add_one(&im->known, &im->n_known, sizeof *known);
+    KOKSMA__TRY(known ? KOKSMA_OK : KOKSMA_MEMORY);
+    *known = (struct koksma__known_mesh){path ? strdup(path) : NULL, form, with_normals, mesh};
+    KOKSMA__REQUIRE_MEMORY(known->path || !path, strlen(path) + 1);
+    return KOKSMA_OK;
+}
+
+/* Texture coordinates with the rows of images downwards. */
+static void turn_rows(koksma__mesh *mesh)
+{
+    for (size_t i = 0; mesh->uvs && i < mesh->n_vertices; i++) {
+        mesh->uvs[2 * i + 1] = 1 - mesh->uvs[2 * i + 1];
+    }
+}
+
+koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name,
+                                       bool with_normals, int *out)
+{
+    char full[KOKSMA__MAX_PATH];
+    koksma__mesh mesh = {0};
+    KOKSMA__TRY(koksma__import_path(im, place, name, full));
+    *out = -1;
+    if (!koksma__is_mesh_file(full)) {
+        return koksma__import_unknown(im, place, "%s is no file of a mesh that is read: it is left out", name);
+    }
+    for (size_t i = 0; i < im->n_known; i++) {
+        if (im->known[i].path && !strcmp(im->known[i].path, full) && im->known[i].with_normals == with_normals) {
+            *out = im->known[i].mesh;
+            return KOKSMA_OK;
+        }
+    }
+    const koksma_status status = koksma__mesh_read(full, &mesh);
+    if (status) {
+        koksma__mesh_fini(&mesh);
+        return koksma__import_fail_at(place, status);
+    }
+    const char *dot = strrchr(full, '.');
+    if (im->rows_down && dot && strcmp(dot, ".obj") != 0) {
+        turn_rows(&mesh);
+    }
+    if (!with_normals) {
+        free(mesh.normals);
+        mesh.normals = NULL;
+    }
+    KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, out));
+    return remember(im, full, KOKSMA__FORM_MESH, with_normals, *out);
+}
+
+/* A copy inside out: two corners of each triangle are swapped, normals turned round. */
+static koksma_status make_twin(const koksma__mesh *from, koksma__mesh *to)
+{
+    KOKSMA__TRY(koksma__mesh_init(from->n_vertices, from->n_triangles, from->normals != NULL, from->uvs != NULL, to));
+    memcpy(to->vertices, from->vertices, 3 * from->n_vertices * sizeof *to->vertices);
+    for (size_t i = 0; i < 3 * from->n_triangles; i++) {
+        to->indices[i] = from->indices[i % 3 ? i - i % 3 + (3 - i % 3) : i];
+    }
+    for (size_t i = 0; from->normals && i < 3 * from->n_vertices; i++) {
+        to->normals[i] = 0 - from->normals[i];
+    }
+    if (from->uvs) {
+        memcpy(to->uvs, from->uvs, 2 * from->n_vertices * sizeof *to->uvs);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status find_twin(koksma__import *im, koksma__text_place place, int mesh, int *out)
+{
+    koksma__mesh twin = {0};
+    if (im->twins[mesh] < 0) {
+        koksma_status status = make_twin(&im->scene->meshes[mesh], &twin);
+        if (status) {
+            koksma__mesh_fini(&twin);
+            return status;
+        }
+        KOKSMA__TRY(koksma__import_mesh(im, place, &twin, out));
+        im->twins[mesh] = *out;
+        im->twins[*out] = mesh;
+    }
+    *out = im->twins[mesh];
+    return KOKSMA_OK;
+}
+
+/* ---- Forms as meshes --------------------------------------------------------------------------------------- */
+
+/* Point (u, v) of a form, u and v from 0 to 1; its normal. */
+static void form_point(koksma__form form, double u, double v, double p[3], double n[3])
+{
+    const double phi = TURN * u, theta = M_PI * (1 - v);
+    if (form == KOKSMA__FORM_SPHERE) {
+        n[0] = sin(theta) * cos(phi), n[1] = sin(theta) * sin(phi), n[2] = cos(theta);
+        memcpy(p, n, 3 * sizeof *p);
+    } else if (form == KOKSMA__FORM_CYLINDER) {
+        n[0] = cos(phi), n[1] = sin(phi), n[2] = 0;
+        p[0] = n[0], p[1] = n[1], p[2] = v;
+    } else if (form == KOKSMA__FORM_DISK) {
+        n[0] = n[1] = 0, n[2] = 1;
+        p[0] = (1 - v) * cos(phi), p[1] = (1 - v) * sin(phi), p[2] = 0;
+    } else {
+        n[0] = n[1] = 0, n[2] = 1;
+        p[0] = 2 * u - 1, p[1] = 2 * v - 1, p[2] = 0;
+    }
+}
+
+/* The cube's side `side` from the square's point and normal: its coordinates go round, and back for the lower sides. */
+static void to_side(int side, double p[3], double n[3])
+{
+    const double sign = side % 2 ? 1 : -1, a = sign * p[0], b = p[1];
+    const int k = side / 2;
+    p[k] = sign, p[(k + 1) % 3] = a, p[(k + 2) % 3] = b;
+    n[k] = sign, n[(k + 1) % 3] = n[(k + 2) % 3] = 0;
+}
+
+static koksma_status make_form(koksma__form form, koksma__mesh *out)
+{
+    const bool flat = form == KOKSMA__FORM_SQUARE || form == KOKSMA__FORM_CUBE;
+    const size_t sides = form == KOKSMA__FORM_CUBE ? 6 : 1, columns = flat ? 1 : SIDES;
+    const size_t rows = form == KOKSMA__FORM_SPHERE ? RINGS : 1, each = (columns + 1) * (rows + 1);
+    KOKSMA__TRY(koksma__mesh_init(sides * each, sides * 2 * columns * rows, true, true, out));
+    uint32_t *triangle = out->indices;
+    for (size_t i = 0; i < sides * each; i++) {
+        const size_t x = i % each % (columns + 1), y = i % each / (columns + 1);
+        double p[3], n[3];
+        form_point(form, (double)x / (double)columns, (double)y / (double)rows, p, n);
+        if (sides > 1) {
+            to_side((int)(i / each), p, n);
+        }
+        for (size_t k = 0; k < 3; k++) {
+            out->vertices[3 * i + k] = (float)p[k];
+            out->normals[3 * i + k] = (float)n[k];
+        }
+        out->uvs[2 * i] = (float)x / (float)columns;
+        out->uvs[2 * i + 1] = (float)y / (float)rows;
+        if (x < columns && y < rows) {
+            const uint32_t a = (uint32_t)i, b = a + 1, c = a + (uint32_t)columns + 1,
+                           corners[6] = {a, b, c + 1, a, c + 1, c};
+            memcpy(triangle, corners, sizeof corners);
+            triangle += 6;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status find_form(koksma__import *im, koksma__text_place place, koksma__form form, int *out)
+{
+    koksma__mesh mesh = {0};
+    for (size_t i = 0; i < im->n_known; i++) {
+        if (!im->known[i].path && im->known[i].form == form) {
+            *out = im->known[i].mesh;
+            return KOKSMA_OK;
+        }
+    }
+    const koksma_status status = make_form(form, &mesh);
+    if (status) {
+        koksma__mesh_fini(&mesh);
+        return status;
+    }
+    if (im->rows_down) {
+        turn_rows(&mesh);
+    }
+    KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, out));
+    return remember(im, NULL, form, true, *out);
+}
+
+/* ---- Placed ------------------------------------------------------------------------------------------------ */
+
+/* A copy of a material without image and checker, for a mesh without texture coordinates. */
+static koksma_status plain(koksma__import *im, koksma__text_place place, int *material)
+{
+    koksma_scene *scene = im->scene;
+    const koksma__material *from = &scene->materials[*material];
+    if (scene->n_materials == KOKSMA__MAX_MATERIALS) {
+        return koksma__import_fail(place, "more than %d materials", KOKSMA__MAX_MATERIALS);
+    }
+    koksma__material *to = &scene->materials[scene->n_materials];
+    *to = *from;
+    to->image = NULL;
+    to->checker = false;
+    for (int k = 0; k < 3; k++) {
+        to->albedo[0][k] = to->albedo[1][k] = (from->albedo[0][k] + from->albedo[1][k]) / 2;
+    }
+    snprintf(to->name, sizeof to->name, "%zu", scene->n_materials);
+    *material = (int)scene->n_materials++;
+    return koksma__import_unknown(im, place, "a texture on a mesh without texture coordinates: its mean colour here");
+}
+
+static koksma_status put_mesh(koksma__import *im, const koksma__import_item *item, int mesh, const double matrix[12])
+{
+    koksma_scene *scene = im->scene;
+    koksma__import_surface surface = item->surface;
+    koksma__placement *p = NULL;
+    koksma_status status = KOKSMA_OK;
+    if (koksma__matrix_mirrors(matrix) != surface.turned) {
+        status = find_twin(im, item->place, mesh, &mesh);
+    }
+    if (!status && surface.material >= 0 && !scene->meshes[mesh].uvs &&
+        (scene->materials[surface.material].image || scene->materials[surface.material].checker)) {
+        status = plain(im, item->place, &surface.material);
+    }
+    status = status ? status : koksma__scene_add_placement(scene, &p);
+    if (status) {
+        return koksma__import_fail_at(item->place, status);
+    }
+    p->mesh = mesh;
+    p->material = surface.material;
+    p->smooth = scene->meshes[mesh].normals != NULL && !surface.emits;
+    memcpy(p->matrix, matrix, sizeof p->matrix);
+    koksma__placement_box(&scene->meshes[mesh], p);
+    for (int k = 0; k < 3; k++) {
+        if (!(p->low[k] >= -FAR && p->high[k] <= FAR)) {
+            return koksma__import_fail(item->place, "a mesh reaches beyond 1e6");
+        }
+    }
+    koksma__import_radiance(im, surface.radiance);
+    return surface.emits ? koksma__import_fail_at(item->place, koksma__scene_add_glow(scene, p, surface.radiance))
+                         : KOKSMA_OK;
+}
+
+/* The lengths of a matrix's columns; whether they are square to each other. */
+static bool is_square(const double m[12], double length[3])
+{
+    double axes[3][3];
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < 3; k++) {
+            axes[c][k] = m[4 * k + c];
+        }
+        length[c] = sqrt(koksma__dot(axes[c], axes[c]));
+    }
+    bool square = length[0] > TINY && length[1] > TINY && length[2] > TINY;
+    for (int c = 0; c < 3; c++) {
+        const int d = (c + 1) % 3;
+        square &= fabs(koksma__dot(axes[c], axes[d])) <= 1e-5 * length[c] * length[d];
+    }
+    return square;
+}
+
+static bool is_close(double a, double b)
+{
+    return fabs(a - b) <= 1e-5 * fabs(a);
+}
+
+static const koksma__shape_type *shape_type(const char *name)
+{
+    size_t i = 0;
+    while (strcmp(koksma__shape_types[i]->kind.name, name) != 0) {
+        i++;
+    }
+    return koksma__shape_types[i];
+}
+
+/* Our own shape for an item: its kind; NULL where a matrix, a texture or the side from which it shines leaves none. */
+static const koksma__shape_type *own_shape(const koksma__import *im, const koksma__import_item *item,
+                                           const double matrix[12], double length[3])
+{
+    const bool square = is_square(matrix, length);
+    const koksma__material *m = item->surface.material < 0 ? NULL : &im->scene->materials[item->surface.material];
+    if (!square || (m && !item->surface.emits && (m->image || m->checker))) {
+        return NULL;
+    }
+    switch (item->form) {
+    case KOKSMA__FORM_SQUARE:
+        return shape_type("rectangle");
+    case KOKSMA__FORM_DISK:
+        return is_close(length[0], length[1]) ? shape_type("disk") : NULL;
+    case KOKSMA__FORM_SPHERE:
+        return is_close(length[0], length[1]) && is_close(length[0], length[2]) &&
+                       !(item->surface.emits && item->surface.turned)
+                   ? shape_type("sphere")
+                   : NULL;
+    default:
+        return NULL;
+    }
+}
+
+/* The shape of the type at the matrix, and the light that it is the surface of. */
+static koksma_status put_own(koksma__import *im, const koksma__import_item *item, const koksma__shape_type *type,
+                             const double m[12], const double length[3])
+{
+    const bool sphere = type == shape_type("sphere"), disk = type == shape_type("disk");
+    const double side =
+        item->surface.turned ? -1 : 1; /* u is turned with the normal, so that the frame keeps its hand */
+    koksma__shape shape = {.type = type, .material = item->surface.material, .light = -1}, *added;
+    double normal[3];
+    for (int k = 0; k < 3; k++) {
+        shape.centre[k] = m[4 * k + 3];
+        shape.axis_u[k] = m[4 * k] / length[0];
+        shape.axis_v[k] = m[4 * k + 1] / length[1];
+        normal[k] = side * m[4 * k + 2] / length[2];
+        if (!(fabs(shape.centre[k]) + length[k] <= FAR)) {
+            return koksma__import_fail(item->place, "a shape reaches beyond 1e6");
+        }
+    }
+    koksma__cross(shape.axis_u, shape.axis_v, shape.normal);
+    for (int k = 0; koksma__dot(shape.normal, normal) < 0 && k < 3; k++) {
+        shape.axis_u[k] = -shape.axis_u[k];
+    }
+    koksma__cross(shape.axis_u, shape.axis_v, shape.normal);
+    shape.half[0] = length[0];
+    shape.half[1] = disk || sphere ? length[0] : length[1];
+    if (item->surface.emits) {
+        koksma__light light = {.kind = sphere ? &koksma__light_sphere
+                                       : disk ? &koksma__light_disk
+                                              : &koksma__light_rectangle,
+                               .visible = true};
+        memcpy(light.centre, shape.centre, sizeof light.centre);
+        memcpy(light.axis_u, shape.axis_u, sizeof light.axis_u);
+        memcpy(light.axis_v, shape.axis_v, sizeof light.axis_v);
+        memcpy(light.normal, shape.normal, sizeof light.normal);
+        memcpy(light.half, shape.half, sizeof light.half);
+        memcpy(light.radiance, item->surface.radiance, sizeof light.radiance);
+        koksma__import_radiance(im, light.radiance);
+        const double *l = light.radiance, area = disk ? M_PI * length[0] * length[0] : 4 * length[0] * length[1];
+        light.power = (0.2126 * l[0] + 0.7152 * l[1] + 0.0722 * l[2]) * area / M_PI;
+        KOKSMA__TRY(koksma__import_light(im, item->place, &light));
+        shape.light = (int)im->scene->n_lights - 1;
+        shape.material = -1;
+    }
+    return koksma__import_fail_at(item->place, koksma__scene_add_shape(im->scene, &shape, &added));
+}
+
+koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12])
+{
+    double matrix[12], length[3];
+    int mesh = item->mesh;
+    if (item->surface.material < 0 && !item->surface.emits) {
+        return KOKSMA_OK; /* light passes through */
+    }
+    koksma__matrix_multiply(outer ? outer : koksma__import_identity, item->matrix, matrix);
+    for (int i = 0; i < 12; i++) {
+        if (!(fabs(matrix[i]) <= 1e9)) {
+            return koksma__import_fail(item->place, "a matrix has an entry beyond 1e9");
+        }
+    }
+    const koksma__shape_type *own = item->form == KOKSMA__FORM_MESH ? NULL : own_shape(im, item, matrix, length);
+    if (own) {
+        return put_own(im, item, own, matrix, length);
+    }
+    if (item->form != KOKSMA__FORM_MESH) {
+        KOKSMA__TRY(find_form(im, item->place, item->form, &mesh));
+    }
+    if (item->form == KOKSMA__FORM_CYLINDER || item->form == KOKSMA__FORM_SPHERE || item->form == KOKSMA__FORM_DISK) {
+        KOKSMA__TRY(koksma__import_unknown(
+            im, item->place, "a round shape, stretched, textured or a cylinder: it has %d sides here", SIDES));
+    }
+    return mesh < 0 ? KOKSMA_OK : put_mesh(im, item, mesh, matrix);
+}

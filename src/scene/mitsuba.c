@@ -1,0 +1,698 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Scenes of Mitsuba 3 (Jakob et al. 2022), and of the versions before it where names alone have changed: xml.c makes a tree
+ * of the text, and here its sensors, shapes, emitters and BSDFs become ours. A BSDF is made where a shape first refers to
+ * it. Not read: media, volumes, motion, .serialized meshes; integrators and samplers are passed over, because the
+ * program's own options choose them.
+ */
+#include "scene/mitsuba.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/c_locale.h"
+#include "core/vector.h"
+#include "render/fields.h"
+#include "render/lights/lights.h"
+#include "scene/import_shapes.h"
+#include "scene/xml.h"
+
+enum { MOST_NESTED = 16 };
+
+typedef koksma__xml_node node;
+
+typedef struct reader {
+    koksma__import *im;
+    koksma__xml xml;
+    int *materials; /* by node: -2: not made, -1: light passes through */
+    bool has_sensor;
+} reader;
+
+/* ---- Properties -------------------------------------------------------------------------------------------- */
+
+static bool is(const node *n, const char *tag)
+{
+    return koksma__xml_alike(n->tag, tag);
+}
+
+static const char *type_of(const node *n)
+{
+    const char *type = koksma__xml_attribute(n, "type");
+    return type ? type : "";
+}
+
+static const node *first_of(const reader *r, const node *n)
+{
+    return n->first < 0 ? NULL : &r->xml.nodes[n->first];
+}
+
+static const node *next_of(const reader *r, const node *n)
+{
+    return n->next < 0 ? NULL : &r->xml.nodes[n->next];
+}
+
+/* The child whose name is `name`, or NULL. */
+static const node *property(const reader *r, const node *n, const char *name)
+{
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        const char *has = koksma__xml_attribute(c, "name");
+        if (has && koksma__xml_alike(has, name)) {
+            return c;
+        }
+    }
+    return NULL;
+}
+
+static const char *text(const reader *r, const node *n, const char *name, const char *otherwise)
+{
+    const node *c = property(r, n, name);
+    const char *value = c ? koksma__xml_attribute(c, "value") : NULL;
+    return value ? value : otherwise;
+}
+
+static double number(const reader *r, const node *n, const char *name, double otherwise)
+{
+    const char *value = text(r, n, name, "");
+    char *end;
+    const double x = koksma__strtod(value, &end);
+    return end == value ? otherwise : x;
+}
+
+static bool flag(const reader *r, const node *n, const char *name, bool otherwise)
+{
+    const char *value = text(r, n, name, "");
+    return *value ? !strcmp(value, "true") : otherwise;
+}
+
+/* Up to n numbers between blanks and commas; how many there were. */
+static size_t numbers(const char *value, size_t n, double *out)
+{
+    size_t found = 0;
+    while (value && found < n) {
+        char *end;
+        value += strspn(value, " ,\t\r\n");
+        out[found] = koksma__strtod(value, &end);
+        if (end == value) {
+            break;
+        }
+        value = end;
+        found++;
+    }
+    return found;
+}
+
+/* An attribute of an element as a number. */
+static double coordinate(const node *n, const char *name, double otherwise)
+{
+    const char *value = koksma__xml_attribute(n, name);
+    return value ? koksma__strtod(value, NULL) : otherwise;
+}
+
+/* <point name x y z> or <point name value="x, y, z">. */
+static void point(const reader *r, const node *n, const char *name, double out[3])
+{
+    const node *c = property(r, n, name);
+    for (int k = 0; c && k < 3; k++) {
+        out[k] = coordinate(c, (const char *[]){"x", "y", "z"}[k], out[k]);
+    }
+    if (c && koksma__xml_attribute(c, "value")) {
+        numbers(koksma__xml_attribute(c, "value"), 3, out);
+    }
+}
+
+/* ---- Transforms -------------------------------------------------------------------------------------------- */
+
+static koksma_status look_at(const node *n, double m[12])
+{
+    double origin[3] = {0}, target[3] = {0, 0, 1}, up[3] = {0, 1, 0}, ahead[3], left[3], over[3];
+    numbers(koksma__xml_attribute(n, "origin"), 3, origin);
+    numbers(koksma__xml_attribute(n, "target"), 3, target);
+    numbers(koksma__xml_attribute(n, "up"), 3, up);
+    koksma__subtract(target, origin, ahead);
+    if (!koksma__normalise(ahead)) {
+        return koksma__import_fail(n->place, "lookat: origin and target are one point");
+    }
+    koksma__cross(up, ahead, left);
+    if (!koksma__normalise(left)) {
+        return koksma__import_fail(n->place, "lookat: up is along the line of sight");
+    }
+    koksma__cross(ahead, left, over);
+    for (int k = 0; k < 3; k++) {
+        m[4 * k] = left[k], m[4 * k + 1] = over[k], m[4 * k + 2] = ahead[k], m[4 * k + 3] = origin[k];
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status operation(const node *n, double m[12])
+{
+    const char *value = koksma__xml_attribute(n, "value");
+    double v[16] = {0};
+    memcpy(m, koksma__import_identity, sizeof koksma__import_identity);
+    const size_t given = numbers(value, 16, v);
+    if (is(n, "lookat")) {
+        return look_at(n, m);
+    }
+    if (is(n, "matrix")) {
+        if (given != 16 && given != 9) {
+            return koksma__import_fail(n->place, "a matrix has 16 numbers or 9");
+        }
+        for (int i = 0; i < 12; i++) {
+            m[i] = given == 16 ? v[i] : i % 4 < 3 ? v[i / 4 * 3 + i % 4] : 0;
+        }
+        return KOKSMA_OK;
+    }
+    const bool scales = is(n, "scale");
+    if (!given) {
+        for (int k = 0; k < 3; k++) {
+            v[k] = coordinate(n, (const char *[]){"x", "y", "z"}[k], scales);
+        }
+    } else if (given == 1) {
+        v[1] = v[2] = v[0];
+    }
+    if (is(n, "rotate")) {
+        koksma__import_rotation(coordinate(n, "angle", 0), v, m);
+    } else if (scales || is(n, "translate")) {
+        for (int k = 0; k < 3; k++) {
+            m[scales ? 5 * k : 4 * k + 3] = v[k];
+        }
+    } else {
+        return koksma__import_fail(n->place, "'%s' is no transform that is read", n->tag);
+    }
+    return KOKSMA_OK;
+}
+
+/* The first operation is the first to act. */
+static koksma_status transform(const reader *r, const node *n, const char *name, double out[12])
+{
+    const node *t = property(r, n, name);
+    memcpy(out, koksma__import_identity, sizeof koksma__import_identity);
+    for (const node *c = t ? first_of(r, t) : NULL; c; c = next_of(r, c)) {
+        double by[12], product[12];
+        KOKSMA__TRY(operation(c, by));
+        koksma__matrix_multiply(by, out, product);
+        memcpy(out, product, sizeof product);
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- Colours and textures ----------------------------------------------------------------------------------- */
+
+static const node *resolve(const reader *r, const node *n)
+{
+    const char *id = is(n, "ref") ? koksma__xml_attribute(n, "id") : NULL;
+    for (size_t i = 0; id && i < r->xml.n; i++) {
+        const char *has = is(&r->xml.nodes[i], "ref") ? NULL : koksma__xml_attribute(&r->xml.nodes[i], "id");
+        if (has && !strcmp(has, id)) {
+            return &r->xml.nodes[i];
+        }
+    }
+    return n;
+}
+
+static koksma_status sampled(reader *r, const node *n, const char *value, double rgb[3])
+{
+    double sum[3] = {0}, count[3] = {0}, all = 0, pair[2];
+    while (value && *value) {
+        char *colon, *end;
+        pair[0] = koksma__strtod(value, &colon);
+        if (colon == value || *colon != ':') {
+            break;
+        }
+        pair[1] = koksma__strtod(colon + 1, &end);
+        const int k = pair[0] < 500 ? 2 : pair[0] < 600 ? 1 : 0;
+        sum[k] += pair[1];
+        count[k]++;
+        all += pair[1];
+        value = end + strspn(end, " ,\t\r\n");
+    }
+    const double n_all = count[0] + count[1] + count[2];
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = count[k] > 0 ? sum[k] / count[k] : n_all > 0 ? all / n_all : 1;
+    }
+    return koksma__import_unknown(
+        r->im, n->place, n_all > 0 ? "a sampled spectrum: the means of its thirds" : "a spectrum: white here");
+}
+
+static koksma_status value_of(reader *r, const node *n, double rgb[3])
+{
+    const char *value = koksma__xml_attribute(n, "value");
+    double v[3];
+    if (value && *value == '#') {
+        const unsigned long hex = strtoul(value + 1, NULL, 16); /* sRGB's levels */
+        for (int k = 0; k < 3; k++) {
+            const double level = (double)(hex >> (16 - 8 * k) & 255) / 255;
+            rgb[k] = level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
+        }
+        return KOKSMA_OK;
+    }
+    const size_t given = value && strchr(value, ':') ? 0 : numbers(value, 3, v);
+    for (int k = 0; given && k < 3; k++) {
+        rgb[k] = v[given == 3 ? k : 0];
+    }
+    if (is(n, "blackbody")) {
+        koksma__import_black_body(coordinate(n, "temperature", 6500), rgb);
+        return koksma__import_unknown(r->im, n->place, "a black body: its colour with luminance 1");
+    }
+    return given ? KOKSMA_OK : sampled(r, n, value, rgb);
+}
+
+static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
+                            int depth);
+
+static koksma_status texture(reader *r, const node *n, koksma__import_colour *out, int depth)
+{
+    const char *type = type_of(n);
+    double m[12];
+    if (!strcmp(type, "bitmap") && *text(r, n, "filename", "")) {
+        return koksma__import_path(r->im, n->place, text(r, n, "filename", ""), out->image);
+    }
+    if (!strcmp(type, "checkerboard")) {
+        koksma__import_colour second;
+        KOKSMA__TRY(colour(r, n, "color0", 0.4, out, depth + 1));
+        KOKSMA__TRY(colour(r, n, "color1", 0.2, &second, depth + 1));
+        KOKSMA__TRY(transform(r, n, "to_uv", m));
+        memcpy(out->second, second.rgb, sizeof second.rgb);
+        *out->image = 0;
+        out->is_checker = true;
+        out->period = m[0] > 1e-6 ? 0.5 / m[0] : 0.5;
+        return m[0] != m[5] ? koksma__import_unknown(r->im, n->place, "a checkerboard's transform: its scale along u")
+                            : KOKSMA_OK;
+    }
+    return koksma__import_unknown(r->im, n->place, "texture '%s': grey here", type);
+}
+
+/* The colour of a name, or grey of another value. */
+static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
+                            int depth)
+{
+    const node *found = property(r, n, name);
+    *out = (koksma__import_colour){.rgb = {otherwise, otherwise, otherwise}, .period = 1};
+    if (!found) {
+        return KOKSMA_OK;
+    }
+    found = resolve(r, found);
+    if (depth > MOST_NESTED) {
+        return koksma__import_fail(found->place, "textures within each other more than %d deep", MOST_NESTED);
+    }
+    return is(found, "texture") ? texture(r, found, out, depth) : value_of(r, found, out->rgb);
+}
+
+/* ---- BSDFs ------------------------------------------------------------------------------------------------- */
+
+/* The kinds of Mitsuba and what they are here; those that are no more than likened say so. */
+typedef struct bsdf_kind {
+    const char *name;
+    int kind;           /* -1: light passes through */
+    const char *colour; /* the parameter of its diffuse part or of its reflectance */
+    double otherwise, alpha;
+    const char *instead; /* NULL, or what it is here */
+} bsdf_kind;
+
+static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5, 0, NULL},
+                                  {"roughdiffuse", KOKSMA__MATTE, "reflectance", 0.5, 0, "Lambert"},
+                                  {"conductor", KOKSMA__METAL, "specular_reflectance", 1, 0, NULL},
+                                  {"roughconductor", KOKSMA__METAL, "specular_reflectance", 1, 0.1, NULL},
+                                  {"dielectric", KOKSMA__GLASS, "specular_transmittance", 1, 0, NULL},
+                                  {"roughdielectric", KOKSMA__GLASS, "specular_transmittance", 1, 0.1, NULL},
+                                  {"plastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0, NULL},
+                                  {"roughplastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0.1, NULL},
+                                  {"phong", KOKSMA__MATTE, "diffuse_reflectance", 0.5, 0, "its diffuse part"},
+                                  {"thindielectric", -1, "", 0, 0, "nothing"},
+                                  {"mask", -1, "", 0, 0, "nothing"},
+                                  {"null", -1, "", 0, 0, NULL}};
+
+/* What wraps another BSDF, or several: the first one stands for all. */
+static const struct {
+    const char *name;
+    bool is_exact;
+} wrappers[] = {{"twosided", true}, {"mask", false},      {"bumpmap", false},     {"normalmap", false},
+                {"coating", false}, {"blendbsdf", false}, {"mixturebsdf", false}, {"opacity", false}};
+
+static double index_of(const reader *r, const node *n, const char *name, double otherwise)
+{
+    static const struct {
+        const char *name;
+        double ior;
+    } known[] = {{"vacuum", 1},           {"air", 1.000277},       {"water", 1.333},
+                 {"water ice", 1.31},     {"bk7", 1.5046},         {"diamond", 2.419},
+                 {"acrylic glass", 1.49}, {"polypropylene", 1.49}, {"fused quartz", 1.458}};
+    const char *value = text(r, n, name, "");
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (!strcmp(known[i].name, value)) {
+            return known[i].ior;
+        }
+    }
+    return number(r, n, name, otherwise);
+}
+
+static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
+{
+    koksma__import_colour eta, k;
+    double rgb[3];
+    const char *name = text(r, n, "material", property(r, n, "eta") ? "" : "none");
+    if (*name && !koksma__import_metal(name, rgb)) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "metal '%s': chromium here", name));
+        koksma__import_metal("Cr", rgb);
+    } else if (!*name) {
+        KOKSMA__TRY(colour(r, n, "eta", 0, &eta, 0));
+        KOKSMA__TRY(colour(r, n, "k", 1, &k, 0));
+        for (int i = 0; i < 3; i++) {
+            const double e = eta.rgb[i], absorbed = k.rgb[i] * k.rgb[i];
+            rgb[i] = ((e - 1) * (e - 1) + absorbed) / ((e + 1) * (e + 1) + absorbed);
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        m->colour.rgb[i] *= rgb[i];
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status principled(reader *r, const node *n, int *out)
+{
+    koksma__import_material m = {.ior = 1.5};
+    KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF 'principled': a metal, glass or coated surface here"));
+    KOKSMA__TRY(colour(r, n, "base_color", 0.5, &m.colour, 0));
+    const double roughness = number(r, n, "roughness", 0.5);
+    m.alpha = roughness * roughness;
+    m.ior = index_of(r, n, "eta", 1.5);
+    m.kind = number(r, n, "metallic", 0) > 0.5     ? KOKSMA__METAL
+             : number(r, n, "spec_trans", 0) > 0.5 ? KOKSMA__GLASS
+                                                   : KOKSMA__COATED;
+    return koksma__import_add_material(r->im, n->place, &m, out);
+}
+
+static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
+{
+    static const bsdf_kind other = {"", KOKSMA__MATTE, "reflectance", 0.5, 0, "Lambert"};
+    const char *type = type_of(n);
+    const bsdf_kind *found = &other;
+    koksma__import_material m = {0};
+    for (size_t i = 0; i < sizeof wrappers / sizeof *wrappers; i++) {
+        for (const node *c = strcmp(wrappers[i].name, type) != 0 ? NULL : first_of(r, n); c; c = next_of(r, c)) {
+            const node *inner = resolve(r, c);
+            if (is(inner, "bsdf") && depth < MOST_NESTED) {
+                KOKSMA__TRY(wrappers[i].is_exact
+                                ? KOKSMA_OK
+                                : koksma__import_unknown(r->im, n->place, "BSDF '%s': the BSDF within it", type));
+                return make_bsdf(r, inner, depth + 1, out);
+            }
+        }
+    }
+    if (!strcmp(type, "principled")) {
+        return principled(r, n, out);
+    }
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
+    }
+    if (found->instead) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF '%s': %s here", type, found->instead));
+    }
+    *out = -1;
+    if (found->kind < 0) {
+        return KOKSMA_OK;
+    }
+    m.kind = (unsigned)found->kind;
+    KOKSMA__TRY(colour(r, n, found->colour, found->otherwise, &m.colour, 0));
+    KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(r, n, &m) : KOKSMA_OK);
+    const double both = number(r, n, "alpha", found->alpha);
+    const double u = number(r, n, "alpha_u", both), v = number(r, n, "alpha_v", both);
+    m.alpha = sqrt(fmax(u * v, 0));
+    m.ior = index_of(r, n, "int_ior", m.kind == KOKSMA__COATED ? 1.49 : 1.5046) / index_of(r, n, "ext_ior", 1.000277);
+    if (u != v) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "anisotropic roughness: the mean of both"));
+    }
+    return koksma__import_add_material(r->im, n->place, &m, out);
+}
+
+static koksma_status find_bsdf(reader *r, const node *n, int *out)
+{
+    int *known = &r->materials[n - r->xml.nodes];
+    KOKSMA__TRY(*known == -2 ? make_bsdf(r, n, 0, known) : KOKSMA_OK);
+    *out = *known;
+    return KOKSMA_OK;
+}
+
+/* ---- Shapes ------------------------------------------------------------------------------------------------ */
+
+static koksma_status area_light(reader *r, const node *n, koksma__import_surface *surface)
+{
+    koksma__import_colour radiance;
+    KOKSMA__TRY(colour(r, n, "radiance", 1, &radiance, 0));
+    memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
+    surface->emits = true;
+    return *radiance.image || radiance.is_checker || strcmp(type_of(n), "area") != 0
+               ? koksma__import_unknown(r->im, n->place, "a light's texture or direction: it shines evenly")
+               : KOKSMA_OK;
+}
+
+/* What a shape is made of, from its children. */
+static koksma_status surface_of(reader *r, const node *n, koksma__import_surface *out)
+{
+    bool has_bsdf = false;
+    *out = (koksma__import_surface){.material = -1, .turned = flag(r, n, "flip_normals", false)};
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        const node *to = resolve(r, c);
+        if (is(to, "bsdf")) {
+            KOKSMA__TRY(find_bsdf(r, to, &out->material));
+            has_bsdf = true;
+        } else if (is(to, "emitter")) {
+            KOKSMA__TRY(area_light(r, to, out));
+        } else if (is(to, "medium")) {
+            KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "media: all is in air"));
+        }
+    }
+    if (!has_bsdf && !out->emits) {
+        const koksma__import_material grey = {.kind = KOKSMA__MATTE, .colour = {.rgb = {0.5, 0.5, 0.5}, .period = 1}};
+        KOKSMA__TRY(koksma__import_add_material(r->im, n->place, &grey, &out->material));
+    }
+    return KOKSMA_OK;
+}
+
+/* The unit cylinder's matrix from p0 to p1. */
+static void cylinder(const reader *r, const node *n, double m[12])
+{
+    double from[3] = {0}, to[3] = {0, 0, 1}, axis[3], side[3], over[3];
+    const double radius = number(r, n, "radius", 1);
+    point(r, n, "p0", from);
+    point(r, n, "p1", to);
+    koksma__subtract(to, from, axis);
+    const double x[3] = {fabs(axis[0]) <= fabs(axis[1]), fabs(axis[0]) > fabs(axis[1]), 0};
+    koksma__cross(x, axis, side);
+    koksma__normalise(side);
+    koksma__cross(axis, side, over);
+    koksma__normalise(over);
+    for (int k = 0; k < 3; k++) {
+        m[4 * k] = radius * side[k], m[4 * k + 1] = radius * over[k], m[4 * k + 2] = axis[k], m[4 * k + 3] = from[k];
+    }
+}
+
+/* The form, and the matrix that shapes it. */
+static koksma_status form_of(reader *r, const node *n, koksma__import_item *item, double m[12])
+{
+    static const struct {
+        const char *type;
+        koksma__form form;
+    } forms[] = {{"sphere", KOKSMA__FORM_SPHERE},
+                 {"rectangle", KOKSMA__FORM_SQUARE},
+                 {"disk", KOKSMA__FORM_DISK},
+                 {"cube", KOKSMA__FORM_CUBE},
+                 {"cylinder", KOKSMA__FORM_CYLINDER}};
+    const char *type = type_of(n);
+    memcpy(m, koksma__import_identity, sizeof koksma__import_identity);
+    item->form = KOKSMA__FORM_MESH;
+    item->mesh = -1;
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+        item->form = !strcmp(forms[i].type, type) ? forms[i].form : item->form;
+    }
+    if (item->form == KOKSMA__FORM_SPHERE) {
+        double centre[3] = {0};
+        point(r, n, "center", centre);
+        m[0] = m[5] = m[10] = number(r, n, "radius", 1);
+        m[3] = centre[0], m[7] = centre[1], m[11] = centre[2];
+    } else if (item->form == KOKSMA__FORM_CYLINDER) {
+        cylinder(r, n, m);
+    } else if (item->form == KOKSMA__FORM_MESH && (!strcmp(type, "obj") || !strcmp(type, "ply"))) {
+        return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""),
+                                        !flag(r, n, "face_normals", false), &item->mesh);
+    } else if (item->form == KOKSMA__FORM_MESH) {
+        return koksma__import_unknown(r->im, n->place, "shape '%s': it is left out", type);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status shape(reader *r, const node *n, const double outer[12], int depth);
+
+/* The shapes of the group that an instance refers to. */
+static koksma_status instance(reader *r, const node *n, const double outer[12], int depth)
+{
+    double m[12], matrix[12];
+    if (depth > MOST_NESTED) {
+        return koksma__import_fail(n->place, "instances within each other more than %d deep", MOST_NESTED);
+    }
+    KOKSMA__TRY(transform(r, n, "to_world", m));
+    koksma__matrix_multiply(outer ? outer : koksma__import_identity, m, matrix);
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        const node *group = resolve(r, c);
+        for (const node *s = is(group, "shape") ? first_of(r, group) : NULL; s; s = next_of(r, s)) {
+            KOKSMA__TRY(is(s, "shape") ? shape(r, s, matrix, depth + 1) : KOKSMA_OK);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status shape(reader *r, const node *n, const double outer[12], int depth)
+{
+    koksma__import_item item = {.place = n->place};
+    double form[12], to_world[12];
+    if (!strcmp(type_of(n), "shapegroup")) {
+        return KOKSMA_OK;
+    }
+    if (!strcmp(type_of(n), "instance")) {
+        return instance(r, n, outer, depth);
+    }
+    KOKSMA__TRY(form_of(r, n, &item, form));
+    if (item.form == KOKSMA__FORM_MESH && item.mesh < 0) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(surface_of(r, n, &item.surface));
+    KOKSMA__TRY(transform(r, n, "to_world", to_world));
+    koksma__matrix_multiply(to_world, form, item.matrix);
+    return koksma__import_put(r->im, &item, outer);
+}
+
+/* ---- Emitters and sensors ------------------------------------------------------------------------------------ */
+
+static koksma_status emitter(reader *r, const node *n)
+{
+    koksma__light light = {.kind = &koksma__light_point};
+    koksma__import_colour c;
+    double m[12], along[3] = {0, 0, 1};
+    const char *type = type_of(n);
+    const bool far = !strcmp(type, "directional"), around = !strcmp(type, "constant");
+    KOKSMA__TRY(transform(r, n, "to_world", m));
+    KOKSMA__TRY(colour(r, n, around ? "radiance" : far ? "irradiance" : "intensity", 1, &c, 0));
+    memcpy(light.radiance, c.rgb, sizeof c.rgb);
+    if (!strcmp(type, "envmap")) {
+        const double scale = number(r, n, "scale", 1), rgb[3] = {scale, scale, scale};
+        return koksma__import_sky(r->im, n->place, text(r, n, "filename", ""), false, rgb, m);
+    }
+    if (around || !strcmp(type, "sunsky") || !strcmp(type, "sky") || !strcmp(type, "sun")) {
+        light.kind = &koksma__light_environment;
+        light.visible = true;
+        KOKSMA__TRY(around ? KOKSMA_OK
+                           : koksma__import_unknown(r->im, n->place, "emitter '%s': a white sky here", type));
+    } else if (far) {
+        light.kind = &koksma__light_directional;
+        point(r, n, "direction", along);
+        for (int k = 0; k < 3; k++) {
+            light.normal[k] = property(r, n, "direction") ? along[k] : m[4 * k + 2];
+        }
+        if (!koksma__normalise(light.normal)) {
+            return koksma__import_fail(n->place, "a directional light without a direction");
+        }
+    } else {
+        for (int k = 0; k < 3; k++) {
+            light.centre[k] = m[4 * k + 3];
+        }
+        point(r, n, "position", light.centre);
+        KOKSMA__TRY(!strcmp(type, "point")
+                        ? KOKSMA_OK
+                        : koksma__import_unknown(r->im, n->place,
+                                                 "emitter '%s': a point here, which shines to all sides", type));
+    }
+    return koksma__import_light(r->im, n->place, &light);
+}
+
+static koksma_status film(reader *r, const node *n)
+{
+    double width = 768, height = 576;
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        if (is(c, "film")) {
+            width = number(r, c, "width", width);
+            height = number(r, c, "height", height);
+            if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
+                return koksma__import_fail(c->place, "a film of %g x %g pixels; its sides are 1 to %d", width, height,
+                                           KOKSMA_MAX_IMAGE_SIDE);
+            }
+            if (property(r, c, "crop_width") || property(r, c, "crop_height")) {
+                KOKSMA__TRY(koksma__import_unknown(r->im, c->place, "a film's crop: the picture is whole"));
+            }
+        }
+    }
+    r->im->scene->width = (int)width;
+    r->im->scene->height = (int)height;
+    return KOKSMA_OK;
+}
+
+/* The angle of the picture's height. */
+static double height_angle(const reader *r, const node *n, double width, double height)
+{
+    const char *axis = text(r, n, "fov_axis", "x");
+    const double length_mm = number(r, n, "focal_length", 50), half = number(r, n, "fov", 0) * TURN / 720;
+    double side = !strcmp(axis, "y")          ? height
+                  : !strcmp(axis, "diagonal") ? hypot(width, height)
+                  : !strcmp(axis, "smaller")  ? fmin(width, height)
+                  : !strcmp(axis, "larger")   ? fmax(width, height)
+                                              : width;
+    if (property(r, n, "fov")) {
+        return 2 * atan(tan(half) * height / side);
+    }
+    return 2 * atan(hypot(36, 24) / 2 / length_mm * height / hypot(width, height)); /* of a 35 mm film's diagonal */
+}
+
+static koksma_status sensor(reader *r, const node *n)
+{
+    double m[12];
+    const char *type = type_of(n);
+    const bool lens = !strcmp(type, "thinlens");
+    if (r->has_sensor) {
+        return koksma__import_unknown(r->im, n->place, "a second sensor: it is left out");
+    }
+    if (!lens && strcmp(type, "perspective") != 0) {
+        return koksma__import_fail(n->place, "sensor '%s' is not read; 'perspective' and 'thinlens' are", type);
+    }
+    r->has_sensor = true;
+    KOKSMA__TRY(film(r, n));
+    KOKSMA__TRY(transform(r, n, "to_world", m));
+    const double angle = height_angle(r, n, r->im->scene->width, r->im->scene->height);
+    return koksma__import_camera(r->im, n->place, m, -1, angle, lens ? number(r, n, "aperture_radius", 0) : 0,
+                                 lens ? number(r, n, "focus_distance", 1) : 1);
+}
+
+/* ---- The whole ---------------------------------------------------------------------------------------------- */
+
+static koksma_status read_root(reader *r)
+{
+    const node *root = r->xml.n ? r->xml.nodes : NULL;
+    if (!root || !is(root, "scene")) {
+        return koksma__import_fail((koksma__text_place){r->im->path, 1}, "no <scene>: it is no scene of Mitsuba's");
+    }
+    for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
+        KOKSMA__TRY(is(n, "sensor")                                       ? sensor(r, n)
+                    : is(n, "shape")                                      ? shape(r, n, NULL, 0)
+                    : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)
+                    : is(n, "medium") ? koksma__import_unknown(r->im, n->place, "media: all is in air")
+                                      : KOKSMA_OK);
+    }
+    return r->has_sensor ? KOKSMA_OK : koksma__import_fail(root->place, "no <sensor>");
+}
+
+koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t size)
+{
+    reader r = {.im = im};
+    im->rows_down = true;
+    koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
+    if (!status) {
+        r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);
+        status = r.materials ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
+        for (size_t i = 0; r.materials && i < r.xml.n; i++) {
+            r.materials[i] = -2;
+        }
+    }
+    status = status ? status : read_root(&r);
+    free(r.materials);
+    koksma__xml_fini(&r.xml);
+    return status;
+}

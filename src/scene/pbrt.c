@@ -1,0 +1,621 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4): directives, each with a text and parameters,
+ * that change a graphics state or add a shape or light with it. pbrt_values.c makes colours, materials and meshes of
+ * parameters. Not read: media, motion, curves; directives that don't say what is in the scene (Sampler, Integrator, ...)
+ * are passed over, because the program's own options choose them.
+ */
+#include "scene/pbrt.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/vector.h"
+#include "render/fields.h"
+#include "render/lights/lights.h"
+#include "scene/import_shapes.h"
+#include "scene/pbrt_values.h"
+
+enum { MOST_INCLUDED = 16, MOST_STATES = 1024 };
+
+typedef struct graphics {
+    double matrix[12];
+    koksma__import_surface surface;
+} graphics;
+
+typedef struct named_space {
+    char name[64];
+    double matrix[12];
+} named_space;
+
+typedef struct object {
+    char name[256];
+    koksma__import_item *items;
+    size_t n;
+} object;
+
+typedef struct reader {
+    koksma__pbrt_scene values;
+    koksma__import *im;
+    graphics now;
+    graphics *stack;
+    size_t n_stack;
+    named_space *spaces;
+    object *objects;
+    size_t n_spaces, n_objects;
+    object *open; /* the object that shapes are added to, or NULL */
+    bool fixed;   /* transforms of the end time only */
+    koksma__pbrt_parameters *parameters;
+    /* The camera, which the film's aspect completes. */
+    bool has_camera;
+    koksma__text_place camera_place;
+    double camera[12], fov_deg, lens_radius, focus_distance;
+    int depth;
+} reader;
+
+typedef struct koksma__pbrt_source source;
+
+/* ---- Transforms -------------------------------------------------------------------------------------------- */
+
+static koksma_status concat(reader *r, const double by[12])
+{
+    double product[12];
+    if (!r->fixed) {
+        koksma__matrix_multiply(r->now.matrix, by, product);
+        memcpy(r->now.matrix, product, sizeof product);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status take_identity(reader *r, source *s)
+{
+    (void)s;
+    memcpy(r->now.matrix, koksma__import_identity, sizeof r->now.matrix);
+    return KOKSMA_OK;
+}
+
+static koksma_status take_translate(reader *r, source *s)
+{
+    double v[3], m[12];
+    KOKSMA__TRY(koksma__pbrt_numbers(s, 3, v));
+    memcpy(m, koksma__import_identity, sizeof m);
+    m[3] = v[0], m[7] = v[1], m[11] = v[2];
+    return concat(r, m);
+}
+
+static koksma_status take_scale(reader *r, source *s)
+{
+    double v[3];
+    KOKSMA__TRY(koksma__pbrt_numbers(s, 3, v));
+    return concat(r, (const double[12]){v[0], 0, 0, 0, 0, v[1], 0, 0, 0, 0, v[2], 0});
+}
+
+static koksma_status take_rotate(reader *r, source *s)
+{
+    double v[4], m[12];
+    KOKSMA__TRY(koksma__pbrt_numbers(s, 4, v));
+    koksma__import_rotation(v[0], v + 1, m);
+    return concat(r, m);
+}
+
+static koksma_status take_look_at(reader *r, source *s)
+{
+    double v[9], ahead[3], right[3], up[3], matrix[12], inverse[12];
+    KOKSMA__TRY(koksma__pbrt_numbers(s, 9, v));
+    koksma__subtract(v + 3, v, ahead);
+    if (!koksma__normalise(ahead)) {
+        return koksma__import_fail(s->place, "LookAt: the eye and where it looks are one point");
+    }
+    koksma__cross(v + 6, ahead, right);
+    if (!koksma__normalise(right)) {
+        return koksma__import_fail(s->place, "LookAt: up is along the line of sight");
+    }
+    koksma__cross(ahead, right, up);
+    for (int k = 0; k < 3; k++) {
+        matrix[4 * k] = right[k], matrix[4 * k + 1] = up[k], matrix[4 * k + 2] = ahead[k], matrix[4 * k + 3] = v[k];
+    }
+    koksma__import_invert(matrix, inverse);
+    return concat(r, inverse);
+}
+
+/* Columns one after the other. */
+static koksma_status take_matrix(source *s, double m[12])
+{
+    double v[16];
+    KOKSMA__TRY(koksma__pbrt_numbers(s, 16, v));
+    for (int i = 0; i < 12; i++) {
+        m[i] = v[4 * (i % 4) + i / 4];
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status take_transform(reader *r, source *s)
+{
+    double m[12];
+    KOKSMA__TRY(take_matrix(s, m));
+    memcpy(r->now.matrix, r->fixed ? r->now.matrix : m, sizeof m);
+    return KOKSMA_OK;
+}
+
+static koksma_status take_concat(reader *r, source *s)
+{
+    double m[12];
+    KOKSMA__TRY(take_matrix(s, m));
+    return concat(r, m);
+}
+
+static koksma_status name_space(reader *r, const char *name, const double matrix[12])
+{
+    named_space *to = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    snprintf(to->name, sizeof to->name, "%s", name);
+    memcpy(to->matrix, matrix, sizeof to->matrix);
+    return KOKSMA_OK;
+}
+
+static koksma_status take_coordinate_system(reader *r, source *s)
+{
+    char name[64];
+    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
+    return name_space(r, name, r->now.matrix);
+}
+
+static koksma_status take_coordinate_transform(reader *r, source *s)
+{
+    char name[64];
+    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
+    for (size_t i = r->n_spaces; i-- > 0;) {
+        if (!strcmp(r->spaces[i].name, name)) {
+            memcpy(r->now.matrix, r->spaces[i].matrix, sizeof r->now.matrix);
+            return KOKSMA_OK;
+        }
+    }
+    return koksma__import_fail(s->place, "no coordinate system '%s'", name);
+}
+
+static koksma_status take_active(reader *r, source *s)
+{
+    koksma__pbrt_token t;
+    KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
+    r->fixed = t.length == 7 && !memcmp(t.at, "EndTime", 7);
+    return r->fixed
+               ? koksma__import_unknown(r->im, s->place, "motion by ActiveTransform: everything stands as it starts")
+               : KOKSMA_OK;
+}
+
+static koksma_status take_times(reader *r, source *s)
+{
+    double times[2];
+    (void)r;
+    return koksma__pbrt_numbers(s, 2, times);
+}
+
+/* ---- States ------------------------------------------------------------------------------------------------ */
+
+static koksma_status push(reader *r, source *s)
+{
+    if (r->n_stack == MOST_STATES) {
+        return koksma__import_fail(s->place, "more than %d attributes or objects are open", MOST_STATES);
+    }
+    graphics *to = koksma__add_one(&r->stack, &r->n_stack, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    *to = r->now;
+    return KOKSMA_OK;
+}
+
+/* The stack keeps its memory: koksma__add_one() sizes it by the number of items alone. */
+static koksma_status pop(reader *r, source *s, bool matrix_alone)
+{
+    if (!r->n_stack) {
+        return koksma__import_fail(s->place, "an end without its begin");
+    }
+    const graphics *from = &r->stack[--r->n_stack];
+    if (matrix_alone) {
+        memcpy(r->now.matrix, from->matrix, sizeof from->matrix);
+    } else {
+        r->now = *from;
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status take_attribute_end(reader *r, source *s)
+{
+    return pop(r, s, false);
+}
+
+static koksma_status take_transform_end(reader *r, source *s)
+{
+    return pop(r, s, true);
+}
+
+static koksma_status take_reverse(reader *r, source *s)
+{
+    (void)s;
+    r->now.surface.turned = !r->now.surface.turned;
+    return KOKSMA_OK;
+}
+
+static koksma_status take_world(reader *r, source *s)
+{
+    r->fixed = false;
+    return take_identity(r, s);
+}
+
+static koksma_status take_object_begin(reader *r, source *s)
+{
+    char name[256];
+    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
+    if (r->open) {
+        return koksma__import_fail(s->place, "an object within an object");
+    }
+    KOKSMA__TRY(push(r, s));
+    object *to = koksma__add_one(&r->objects, &r->n_objects, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    snprintf(to->name, sizeof to->name, "%s", name);
+    r->open = to;
+    return KOKSMA_OK;
+}
+
+static koksma_status take_object_end(reader *r, source *s)
+{
+    if (!r->open) {
+        return koksma__import_fail(s->place, "ObjectEnd without ObjectBegin");
+    }
+    r->open = NULL;
+    return pop(r, s, false);
+}
+
+static koksma_status take_instance(reader *r, source *s)
+{
+    char name[256];
+    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
+    for (size_t i = r->n_objects; i-- > 0;) {
+        const object *o = &r->objects[i];
+        if (o != r->open && !strcmp(o->name, name)) {
+            for (size_t k = 0; k < o->n; k++) {
+                KOKSMA__TRY(koksma__import_put(r->im, &o->items[k], r->now.matrix));
+            }
+            return KOKSMA_OK;
+        }
+    }
+    return koksma__import_fail(s->place, "no object '%s'", name);
+}
+
+/* ---- Shapes and lights ------------------------------------------------------------------------------------- */
+
+static koksma_status put(reader *r, const koksma__import_item *item)
+{
+    if (!r->open) {
+        return koksma__import_put(r->im, item, NULL);
+    }
+    koksma__import_item *to = koksma__add_one(&r->open->items, &r->open->n, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    *to = *item;
+    return KOKSMA_OK;
+}
+
+static koksma_status take_shape(reader *r, source *s)
+{
+    char type[64];
+    double form[12];
+    bool is_there = true;
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    koksma__import_item item = {.surface = r->now.surface, .place = r->parameters->place};
+    if (r->open && item.surface.emits) {
+        item.surface.emits = false;
+        KOKSMA__TRY(koksma__import_unknown(r->im, item.place, "a light within an object: it is dark"));
+    }
+    memcpy(form, koksma__import_identity, sizeof form);
+    KOKSMA__TRY(koksma__pbrt_shape(&r->values, type, r->parameters, &item, form, &is_there));
+    koksma__matrix_multiply(r->now.matrix, form, item.matrix);
+    return is_there ? put(r, &item) : KOKSMA_OK;
+}
+
+static koksma_status take_area_light(reader *r, source *s)
+{
+    char type[64];
+    koksma__import_surface *surface = &r->now.surface;
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    surface->emits = true;
+    return koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
+}
+
+/* A point that a matrix moves. */
+static void move_point(const double m[12], const double p[3], double w, double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = koksma__dot(m + 4 * k, p) + w * m[4 * k + 3];
+    }
+}
+
+static void point_of(const koksma__pbrt_parameters *p, const char *name, double z, double out[3])
+{
+    const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
+    out[0] = out[1] = 0, out[2] = z;
+    if (found && found->n == 3) {
+        memcpy(out, found->numbers, 3 * sizeof *out);
+    }
+}
+
+static koksma_status take_light(reader *r, source *s)
+{
+    char type[64];
+    const koksma__pbrt_parameters *p = r->parameters;
+    koksma__light light = {.kind = &koksma__light_point};
+    double from[3], to[3];
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
+    KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, far || around ? "L" : "I", light.radiance));
+    point_of(p, "from", 0, from);
+    point_of(p, "to", 1, to);
+    if (around && *koksma__pbrt_word(p, "filename", "")) {
+        return koksma__import_sky(r->im, p->place, koksma__pbrt_word(p, "filename", ""), true, light.radiance,
+                                  r->now.matrix);
+    }
+    if (around) {
+        light.kind = &koksma__light_environment;
+        light.visible = true;
+    } else if (far) {
+        light.kind = &koksma__light_directional;
+        koksma__subtract(to, from, to);
+        move_point(r->now.matrix, to, 0, light.normal);
+        if (!koksma__normalise(light.normal)) {
+            return koksma__import_fail(p->place, "a distant light without a direction");
+        }
+    } else {
+        move_point(r->now.matrix, from, 1, light.centre);
+        if (strcmp(type, "point") != 0) {
+            KOKSMA__TRY(
+                koksma__import_unknown(r->im, p->place, "light '%s': a point here, which shines to all sides", type));
+        }
+    }
+    return koksma__import_light(r->im, p->place, &light);
+}
+
+static koksma_status take_camera(reader *r, source *s)
+{
+    char type[64];
+    const koksma__pbrt_parameters *p = r->parameters;
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    if (strcmp(type, "perspective") != 0) {
+        return koksma__import_fail(p->place, "camera '%s' is not read; 'perspective' is", type);
+    }
+    if (!koksma__import_invert(r->now.matrix, r->camera)) {
+        return koksma__import_fail(p->place, "the camera's matrix has no inverse");
+    }
+    r->has_camera = true;
+    r->camera_place = p->place;
+    r->fov_deg = koksma__pbrt_number(p, "fov", 90);
+    r->lens_radius = koksma__pbrt_number(p, "lensradius", 0);
+    r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
+    if (koksma__pbrt_find(p, "screenwindow") || koksma__pbrt_find(p, "frameaspectratio")) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "the camera's screen window: it is that of fov"));
+    }
+    return name_space(r, "camera", r->camera);
+}
+
+static koksma_status take_film(reader *r, source *s)
+{
+    char type[64];
+    const koksma__pbrt_parameters *p = r->parameters;
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    const double width = koksma__pbrt_number(p, "xresolution", 1280),
+                 height = koksma__pbrt_number(p, "yresolution", 720);
+    if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
+        return koksma__import_fail(p->place, "a film of %g x %g pixels; its sides are 1 to %d", width, height,
+                                   KOKSMA_MAX_IMAGE_SIDE);
+    }
+    r->im->scene->width = (int)width;
+    r->im->scene->height = (int)height;
+    return koksma__pbrt_find(p, "iso") || koksma__pbrt_find(p, "exposuretime") || koksma__pbrt_find(p, "sensor")
+               ? koksma__import_unknown(r->im, p->place, "the film's sensor: brightness is radiance")
+               : KOKSMA_OK;
+}
+
+/* ---- Materials and textures --------------------------------------------------------------------------------- */
+
+static koksma_status take_material(reader *r, source *s)
+{
+    char type[64];
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    return koksma__pbrt_material(&r->values, type, r->parameters, &r->now.surface.material);
+}
+
+static koksma_status take_make_material(reader *r, source *s)
+{
+    char name[256];
+    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    return koksma__pbrt_name_material(&r->values, name, r->parameters);
+}
+
+static koksma_status take_named_material(reader *r, source *s)
+{
+    char name[256];
+    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
+    return koksma__pbrt_find_material(&r->values, s->place, name, &r->now.surface.material);
+}
+
+static koksma_status take_texture(reader *r, source *s)
+{
+    char name[256], type[64], kind[64];
+    KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    KOKSMA__TRY(koksma__pbrt_text(s, kind, sizeof kind));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    return koksma__pbrt_texture(&r->values, name, kind, r->parameters);
+}
+
+/* What says nothing about the scene: a text and parameters. */
+static koksma_status take_nothing(reader *r, source *s)
+{
+    return koksma__pbrt_parameters_read(s, r->parameters); /* after take_options() has taken the text */
+}
+
+static koksma_status take_options(reader *r, source *s)
+{
+    char type[256];
+    KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
+    return take_nothing(r, s);
+}
+
+static koksma_status take_medium(reader *r, source *s)
+{
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media: all is in air"));
+    return take_options(r, s);
+}
+
+static koksma_status take_interface(reader *r, source *s)
+{
+    char name[256];
+    koksma__pbrt_token t;
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media: all is in air"));
+    for (int i = 0; i < 2; i++) {
+        KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
+        KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(s, name, sizeof name) : KOKSMA_OK);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status take_attribute(reader *r, source *s)
+{
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "Attribute: it changes nothing"));
+    return take_options(r, s);
+}
+
+/* ---- Files ------------------------------------------------------------------------------------------------- */
+
+static koksma_status read_source(reader *r, source *s);
+
+static koksma_status take_include(reader *r, source *s)
+{
+    char path[1024], *bytes = NULL;
+    size_t size = 0;
+    KOKSMA__TRY(koksma__pbrt_text(s, path, sizeof path));
+    if (r->depth == MOST_INCLUDED) {
+        return koksma__import_fail(s->place, "files include each other more than %d deep", MOST_INCLUDED);
+    }
+    KOKSMA__TRY(koksma__import_text(r->im, s->place, path, &bytes, &size));
+    char **kept = koksma__add_one(&r->values.texts, &r->values.n_texts, sizeof *kept);
+    char *name = kept ? strdup(path) : NULL;
+    if (!name) { /* places outlive the file: they name it in messages */
+        free(bytes);
+        return kept ? koksma__fail_memory(sizeof path) : KOKSMA_MEMORY;
+    }
+    *kept = name;
+    source inner = {.at = bytes, .end = bytes + size, .place = {name, 1}};
+    r->depth++;
+    const koksma_status status = read_source(r, &inner);
+    r->depth--;
+    free(bytes);
+    return status;
+}
+
+static const struct {
+    const char *name;
+    koksma_status (*take)(reader *r, source *s);
+} directives[] = {{"ActiveTransform", take_active},
+                  {"AreaLightSource", take_area_light},
+                  {"Accelerator", take_options},
+                  {"Attribute", take_attribute},
+                  {"AttributeBegin", push},
+                  {"AttributeEnd", take_attribute_end},
+                  {"Camera", take_camera},
+                  {"ColorSpace", take_options},
+                  {"ConcatTransform", take_concat},
+                  {"CoordSysTransform", take_coordinate_transform},
+                  {"CoordinateSystem", take_coordinate_system},
+                  {"Film", take_film},
+                  {"Identity", take_identity},
+                  {"Import", take_include},
+                  {"Include", take_include},
+                  {"Integrator", take_options},
+                  {"LightSource", take_light},
+                  {"LookAt", take_look_at},
+                  {"MakeNamedMaterial", take_make_material},
+                  {"MakeNamedMedium", take_medium},
+                  {"Material", take_material},
+                  {"MediumInterface", take_interface},
+                  {"NamedMaterial", take_named_material},
+                  {"ObjectBegin", take_object_begin},
+                  {"ObjectEnd", take_object_end},
+                  {"ObjectInstance", take_instance},
+                  {"Option", take_nothing},
+                  {"PixelFilter", take_options},
+                  {"ReverseOrientation", take_reverse},
+                  {"Rotate", take_rotate},
+                  {"Sampler", take_options},
+                  {"Scale", take_scale},
+                  {"Shape", take_shape},
+                  {"Texture", take_texture},
+                  {"Transform", take_transform},
+                  {"TransformBegin", push},
+                  {"TransformEnd", take_transform_end},
+                  {"TransformTimes", take_times},
+                  {"Translate", take_translate},
+                  {"WorldBegin", take_world}};
+
+static koksma_status read_source(reader *r, source *s)
+{
+    for (;;) {
+        koksma__pbrt_token t;
+        KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
+        if (t.kind == KOKSMA__PBRT_END) {
+            return KOKSMA_OK;
+        }
+        size_t i = 0;
+        const size_t n = sizeof directives / sizeof *directives;
+        while (i < n && (strlen(directives[i].name) != t.length || memcmp(directives[i].name, t.at, t.length) != 0)) {
+            i++;
+        }
+        if (t.kind != KOKSMA__PBRT_WORD || i == n) {
+            return koksma__import_fail(s->place, "'%.*s' is no directive of pbrt-v4",
+                                       t.length < 40 ? (int)t.length : 40, t.at);
+        }
+        const koksma_status status = directives[i].take(r, s);
+        koksma__pbrt_parameters_fini(r->parameters);
+        KOKSMA__TRY(status);
+    }
+}
+
+/* pbrt's angle is that of the shorter side of the picture. */
+static koksma_status set_camera(reader *r)
+{
+    const double width = r->im->scene->width, height = r->im->scene->height, half = r->fov_deg * TURN / 720;
+    if (!r->has_camera) {
+        return koksma__import_fail((koksma__text_place){r->im->path, 1}, "no Camera");
+    }
+    const double fov = width < height ? 2 * atan(tan(half) * height / width) : 2 * half;
+    return koksma__import_camera(r->im, r->camera_place, r->camera, 1, fov, r->lens_radius, r->focus_distance);
+}
+
+koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t size)
+{
+    reader r = {.im = im, .values = {.im = im}, .now.surface.material = -2};
+    source s = {.at = text, .end = text + size, .place = {im->path, 1}};
+    im->scene->width = 1280;
+    im->scene->height = 720;
+    r.parameters = calloc(1, sizeof *r.parameters);
+    KOKSMA__REQUIRE_MEMORY(r.parameters, sizeof *r.parameters);
+    r.parameters->place = s.place;
+    memcpy(r.now.matrix, koksma__import_identity, sizeof r.now.matrix);
+    koksma_status status = name_space(&r, "world", koksma__import_identity);
+    status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
+    status = status ? status : read_source(&r, &s);
+    status = status ? status : set_camera(&r);
+    for (size_t i = 0; i < r.n_objects; i++) {
+        free(r.objects[i].items);
+    }
+    KOKSMA__FREE(r.objects, r.spaces, r.stack, r.parameters);
+    koksma__pbrt_scene_fini(&r.values);
+    return status;
+}

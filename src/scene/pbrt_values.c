@@ -1,0 +1,442 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What pbrt-v4's parameters mean here. Spectra become red, green and blue: rgb as it stands, black bodies by their
+ * chromaticity, a metal's name by a table, sampled spectra by the means of their thirds (400, 500, 600, 700 nm). A texture
+ * is a colour, an image or a checker; what combines them takes their means.
+ */
+#include "scene/pbrt_values.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "scene/import_shapes.h"
+
+struct koksma__pbrt_named {
+    char name[256];
+    int material;
+};
+
+struct koksma__pbrt_texture {
+    char name[256];
+    koksma__import_colour colour;
+};
+
+void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene)
+{
+    for (size_t i = 0; i < scene->n_texts; i++) {
+        free(scene->texts[i]);
+    }
+    KOKSMA__FREE(scene->texts, scene->materials, scene->textures);
+}
+
+/* ---- Colours ------------------------------------------------------------------------------------------------ */
+
+static void grey(double value, double rgb[3])
+{
+    rgb[0] = rgb[1] = rgb[2] = value;
+}
+
+static koksma_status bands(koksma__pbrt_scene *scene, koksma__text_place place, const double *pairs, size_t n,
+                           double rgb[3])
+{
+    double sum[3] = {0, 0, 0}, all = 0;
+    size_t count[3] = {0, 0, 0};
+    for (size_t i = 0; i + 1 < n; i += 2) {
+        const int k = pairs[i] < 500 ? 2 : pairs[i] < 600 ? 1 : 0;
+        sum[k] += pairs[i + 1];
+        all += pairs[i + 1];
+        count[k]++;
+    }
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = count[k] ? sum[k] / (double)count[k] : n > 1 ? all / (double)(n / 2) : 0;
+    }
+    return koksma__import_unknown(scene->im, place, "a sampled spectrum: the means of its thirds");
+}
+
+/* "metal-Au-eta" and the like have the reflectance of the metal; other names are white. */
+static koksma_status named_spectrum(koksma__pbrt_scene *scene, koksma__text_place place, const char *name,
+                                    double rgb[3])
+{
+    char metal[16] = "";
+    grey(1, rgb);
+    if (!strncmp(name, "metal-", 6)) {
+        snprintf(metal, sizeof metal, "%.*s", (int)strcspn(name + 6, "-"), name + 6);
+        if (koksma__import_metal(metal, rgb)) {
+            return KOKSMA_OK;
+        }
+    }
+    return !strncmp(name, "stdillum-", 9)
+               ? KOKSMA_OK
+               : koksma__import_unknown(scene->im, place, "spectrum '%s': white here", name);
+}
+
+static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place place, const koksma__pbrt_parameter *p,
+                               koksma__import_colour *out)
+{
+    if (!strcmp(p->type, "texture")) {
+        for (size_t i = scene->n_textures; i-- > 0;) {
+            if (!strcmp(scene->textures[i].name, p->text)) {
+                *out = scene->textures[i].colour;
+                return KOKSMA_OK;
+            }
+        }
+        return koksma__import_fail(place, "%s: no texture '%s'", p->name, p->text);
+    }
+    *out->image = 0;
+    out->is_checker = false;
+    if (p->n_texts) {
+        return named_spectrum(scene, place, p->text, out->rgb);
+    }
+    if (!strcmp(p->type, "blackbody") && p->n) {
+        koksma__import_black_body(p->numbers[0], out->rgb);
+        return KOKSMA_OK;
+    }
+    if (!strcmp(p->type, "spectrum")) {
+        return bands(scene, place, p->numbers, p->n, out->rgb);
+    }
+    if (p->n != 1 && p->n != 3) {
+        return koksma__import_fail(place, "%s: a colour has one number or three", p->name);
+    }
+    for (size_t k = 0; k < 3; k++) {
+        out->rgb[k] = p->numbers[p->n == 3 ? k : 0];
+    }
+    return KOKSMA_OK;
+}
+
+/* The colour of a name, or grey of another value. */
+static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
+                                 double otherwise, koksma__import_colour *out)
+{
+    const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
+    *out = (koksma__import_colour){.period = 1};
+    grey(otherwise, out->rgb);
+    return found ? colour_of(scene, p->place, found, out) : KOKSMA_OK;
+}
+
+koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
+                                    double rgb[3])
+{
+    static const char *const unknown[] = {"power", "illuminance", "portal", "alpha", "twosided"};
+    koksma__import_colour colour;
+    KOKSMA__TRY(find_colour(scene, p, name, 1, &colour));
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
+    }
+    for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
+        if (koksma__pbrt_find(p, unknown[i]) && koksma__pbrt_flag(p, unknown[i], true)) {
+            KOKSMA__TRY(
+                koksma__import_unknown(scene->im, p->place, "a light's '%s': it changes nothing", unknown[i]));
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- Textures ------------------------------------------------------------------------------------------------ */
+
+static void mean_of(const koksma__import_colour *a, const koksma__import_colour *b, double rgb[3])
+{
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = (a->rgb[k] + b->rgb[k]) / 2;
+    }
+}
+
+koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *kind,
+                                   const koksma__pbrt_parameters *p)
+{
+    struct koksma__pbrt_texture *to = koksma__add_one(&scene->textures, &scene->n_textures, sizeof *to);
+    koksma__import_colour first, second;
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    snprintf(to->name, sizeof to->name, "%s", name);
+    scene->n_textures--; /* not yet for its own parameters to find */
+    koksma__import_colour *c = &to->colour;
+    koksma_status status = KOKSMA_OK;
+    c->period = 1;
+    grey(0.5, c->rgb);
+    if (!strcmp(kind, "imagemap")) {
+        status = koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image);
+        if (!status && (koksma__pbrt_number(p, "uscale", 1) != 1 || koksma__pbrt_number(p, "vscale", 1) != 1 ||
+                        koksma__pbrt_number(p, "scale", 1) != 1)) {
+            status = koksma__import_unknown(scene->im, p->place, "an image's scale: it is 1");
+        }
+    } else if (!strcmp(kind, "constant")) {
+        status = find_colour(scene, p, "value", 1, c);
+    } else if (!strcmp(kind, "scale")) {
+        status = find_colour(scene, p, "tex", 1, c);
+        status = status ? status : find_colour(scene, p, "scale", 1, &second);
+        for (int k = 0; !status && k < 3; k++) {
+            c->rgb[k] *= second.rgb[k];
+            c->second[k] *= second.rgb[k];
+        }
+        if (!status && (*c->image || *second.image)) {
+            status = koksma__import_unknown(scene->im, p->place, "an image times a colour: the image alone");
+        }
+    } else if (!strcmp(kind, "checkerboard") && koksma__pbrt_number(p, "dimension", 2) == 2) {
+        status = find_colour(scene, p, "tex1", 1, c);
+        status = status ? status : find_colour(scene, p, "tex2", 0, &second);
+        *c->image = 0;
+        c->is_checker = true;
+        memcpy(c->second, second.rgb, sizeof c->second);
+        const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
+        c->period = u > 1e-6 ? 1 / u : 1;
+        if (!status && u != v) {
+            status = koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale: it is uscale");
+        }
+    } else {
+        status = find_colour(scene, p, "tex1", 0.5, &first);
+        status = status ? status : find_colour(scene, p, "tex2", 0.5, &second);
+        if (!status) {
+            mean_of(&first, &second, c->rgb);
+            status = koksma__import_unknown(scene->im, p->place, "texture '%s': one colour here", kind);
+        }
+    }
+    scene->n_textures += !status;
+    return status;
+}
+
+/* ---- Materials ------------------------------------------------------------------------------------------------ */
+
+/* The reflectance along the normal, from refractive indices. */
+static void fresnel(const double eta[3], const double k[3], double rgb[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const double up = (eta[i] - 1) * (eta[i] - 1) + k[i] * k[i], down = (eta[i] + 1) * (eta[i] + 1) + k[i] * k[i];
+        rgb[i] = up / down;
+    }
+}
+
+static koksma_status metal(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *prefix,
+                           koksma__import_material *m)
+{
+    char eta_name[40], k_name[40];
+    koksma__import_colour k;
+    snprintf(eta_name, sizeof eta_name, "%seta", prefix);
+    snprintf(k_name, sizeof k_name, "%sk", prefix);
+    const koksma__pbrt_parameter *eta = koksma__pbrt_find(p, eta_name);
+    m->kind = KOKSMA__METAL;
+    if (koksma__pbrt_find(p, "reflectance")) {
+        return find_colour(scene, p, "reflectance", 1, &m->colour);
+    }
+    if (!eta) {
+        koksma__import_metal("Cu", m->colour.rgb);
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(find_colour(scene, p, eta_name, 1, &m->colour));
+    if (!eta->n_texts) {
+        KOKSMA__TRY(find_colour(scene, p, k_name, 1, &k));
+        fresnel(m->colour.rgb, k.rgb, m->colour.rgb);
+    }
+    return KOKSMA_OK;
+}
+
+/* GGX's alpha: the square root of the roughness, unless remaproughness is false. */
+static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *prefix,
+                               koksma__import_material *m)
+{
+    char name[40], u_name[40], v_name[40];
+    snprintf(name, sizeof name, "%sroughness", prefix);
+    snprintf(u_name, sizeof u_name, "%suroughness", prefix);
+    snprintf(v_name, sizeof v_name, "%svroughness", prefix);
+    const double both = koksma__pbrt_number(p, name, 0);
+    const double u = koksma__pbrt_number(p, u_name, both), v = koksma__pbrt_number(p, v_name, both);
+    m->alpha = koksma__pbrt_flag(p, "remaproughness", true) ? sqrt(fmax(u * v, 0)) : fmax(u * v, 0);
+    m->alpha = sqrt(m->alpha); /* the geometric mean of two */
+    return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness: the mean of both")
+                  : KOKSMA_OK;
+}
+
+/* The kinds of pbrt-v4 and what they are here; those that are no more than likened say so. */
+typedef struct material_kind {
+    const char *name;
+    int kind;            /* -1: light passes through */
+    const char *colour;  /* the parameter of its diffuse part */
+    const char *prefix;  /* of the parameters of a metal and its roughness */
+    const char *instead; /* NULL, or what it is here */
+} material_kind;
+
+static const material_kind kinds[] = {
+    {"diffuse", KOKSMA__MATTE, "reflectance", "", NULL},
+    {"coateddiffuse", KOKSMA__COATED, "reflectance", "", NULL},
+    {"conductor", KOKSMA__METAL, NULL, "", NULL},
+    {"coatedconductor", KOKSMA__METAL, NULL, "conductor.", "a metal without its coat"},
+    {"dielectric", KOKSMA__GLASS, NULL, "", NULL},
+    {"thindielectric", -1, NULL, "", "nothing"},
+    {"diffusetransmission", KOKSMA__MATTE, "reflectance", "", "matte and opaque"},
+    {"subsurface", KOKSMA__COATED, "reflectance", "", "a coated surface"},
+    {"hair", KOKSMA__MATTE, "color", "", "matte"},
+    {"measured", KOKSMA__MATTE, "reflectance", "", "matte grey"},
+    {"interface", -1, NULL, "", NULL},
+    {"none", -1, NULL, "", NULL},
+    {"", -1, NULL, "", NULL}};
+
+koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
+                                    int *out)
+{
+    static const material_kind other = {"", KOKSMA__MATTE, "reflectance", "", "matte"};
+    const material_kind *found = &other;
+    koksma__import_material m = {.ior = 1.5};
+    if (!strcmp(type, "mix")) {
+        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material 'mix': its first one"));
+        return koksma__pbrt_find_material(scene, p->place, koksma__pbrt_word(p, "materials", ""), out);
+    }
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
+    }
+    if (found->instead) {
+        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material '%s': %s here", type, found->instead));
+    }
+    if (koksma__pbrt_find(p, "displacement") || koksma__pbrt_find(p, "normalmap")) {
+        KOKSMA__TRY(
+            koksma__import_unknown(scene->im, p->place, "displacement or a map of normals: surfaces are smooth"));
+    }
+    *out = -1;
+    if (found->kind < 0) {
+        return KOKSMA_OK;
+    }
+    m.kind = (unsigned)found->kind;
+    KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(scene, p, found->prefix, &m)
+                                        : find_colour(scene, p, found->colour ? found->colour : "", 0.5, &m.colour));
+    m.ior = koksma__pbrt_number(p, "eta", 1.5);
+    if (*koksma__pbrt_word(p, "eta", "") && m.kind == KOKSMA__GLASS) {
+        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "the spectrum of a glass: its index is 1.5"));
+    }
+    KOKSMA__TRY(set_alpha(scene, p, found->prefix, &m));
+    return koksma__import_add_material(scene->im, p->place, &m, out);
+}
+
+koksma_status koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *name,
+                                         const koksma__pbrt_parameters *p)
+{
+    int material = -1;
+    KOKSMA__TRY(koksma__pbrt_material(scene, koksma__pbrt_word(p, "type", ""), p, &material));
+    struct koksma__pbrt_named *to = koksma__add_one(&scene->materials, &scene->n_materials, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    snprintf(to->name, sizeof to->name, "%s", name);
+    to->material = material;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text_place place, const char *name,
+                                         int *out)
+{
+    for (size_t i = scene->n_materials; i-- > 0;) {
+        if (!strcmp(scene->materials[i].name, name)) {
+            *out = scene->materials[i].material;
+            return KOKSMA_OK;
+        }
+    }
+    return koksma__import_fail(place, "no material '%s' before here", name);
+}
+
+/* ---- Shapes ---------------------------------------------------------------------------------------------------- */
+
+/* Floats of a parameter that has `each` for every vertex; NULL: it isn't there. */
+static koksma_status take_floats(const koksma__pbrt_parameters *p, const char *name, size_t each, size_t n, float *to)
+{
+    const koksma__pbrt_parameter *from = koksma__pbrt_find(p, name);
+    if (from->n != each * n) {
+        return koksma__import_fail(p->place, "%s: %zu numbers for %zu vertices", name, from->n, n);
+    }
+    for (size_t i = 0; i < from->n; i++) {
+        to[i] = (float)from->numbers[i];
+    }
+    return KOKSMA_OK;
+}
+
+/* The vertices of triangle t's corner c, from `indices`; of quadrilaterals of four two triangles. */
+static koksma_status take_indices(const koksma__pbrt_parameters *p, const koksma__pbrt_parameter *indices, bool quads,
+                                  koksma__mesh *mesh)
+{
+    static const size_t corners[6] = {0, 1, 3, 0, 3, 2};
+    for (size_t i = 0; i < 3 * mesh->n_triangles; i++) {
+        const size_t at = quads ? i / 6 * 4 + corners[i % 6] : i;
+        const double index = indices ? indices->numbers[at] : (double)at;
+        if (!(index >= 0 && index < (double)mesh->n_vertices)) {
+            return koksma__import_fail(p->place, "indices: %g: there are %zu vertices", index, mesh->n_vertices);
+        }
+        mesh->indices[i] = (uint32_t)index;
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv, bool quads, koksma__mesh *mesh)
+{
+    const koksma__pbrt_parameter *points = koksma__pbrt_find(p, "P"), *indices = koksma__pbrt_find(p, "indices");
+    const size_t n = points ? points->n / 3 : 0, each = quads ? 4 : 3;
+    if (!n || (!indices && n != each)) {
+        return koksma__import_fail(p->place, "a mesh needs 'P', and 'indices' but for one face");
+    }
+    const size_t faces = indices ? indices->n / each : 1;
+    const bool normals = koksma__pbrt_find(p, "N");
+    KOKSMA__TRY(koksma__mesh_init(n, faces * (quads ? 2 : 1), normals, *uv != 0, mesh));
+    KOKSMA__TRY(take_floats(p, "P", 3, n, mesh->vertices));
+    KOKSMA__TRY(normals ? take_floats(p, "N", 3, n, mesh->normals) : KOKSMA_OK);
+    KOKSMA__TRY(*uv ? take_floats(p, uv, 2, n, mesh->uvs) : KOKSMA_OK);
+    return take_indices(p, indices, quads, mesh);
+}
+
+static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool quads, bool smooth,
+                               int *out)
+{
+    koksma__mesh mesh = {0};
+    const char *uv = koksma__pbrt_find(p, "uv") ? "uv" : koksma__pbrt_find(p, "st") ? "st" : "";
+    koksma_status status = fill_mesh(p, uv, quads, &mesh);
+    status = status || !smooth ? status : koksma__mesh_smooth(&mesh);
+    if (status) {
+        koksma__mesh_fini(&mesh);
+        return status;
+    }
+    return koksma__import_mesh(scene->im, p->place, &mesh, out);
+}
+
+/* A unit form's matrix: scaled about the z axis, and moved along it. */
+static void shape_form(double radius, double height, double z, double m[12])
+{
+    m[0] = m[5] = radius;
+    m[10] = height;
+    m[11] = z;
+}
+
+koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
+                                 koksma__import_item *item, double matrix[12], bool *is_there)
+{
+    const double radius = koksma__pbrt_number(p, "radius", 1);
+    koksma__import *im = scene->im;
+    koksma_status status = KOKSMA_OK;
+    if (koksma__pbrt_find(p, "alpha")) {
+        KOKSMA__TRY(koksma__import_unknown(im, p->place, "a shape's 'alpha': it is opaque"));
+    }
+    item->mesh = -1;
+    if (!strcmp(type, "sphere") || !strcmp(type, "disk") || !strcmp(type, "cylinder")) {
+        const double low = koksma__pbrt_number(p, "zmin", -1), high = koksma__pbrt_number(p, "zmax", 1);
+        const bool cylinder = *type == 'c', disk = *type == 'd';
+        item->form = cylinder ? KOKSMA__FORM_CYLINDER : disk ? KOKSMA__FORM_DISK : KOKSMA__FORM_SPHERE;
+        shape_form(radius,
+                   cylinder ? high - low
+                   : disk   ? 1
+                            : radius,
+                   cylinder ? low
+                   : disk   ? koksma__pbrt_number(p, "height", 0)
+                            : 0,
+                   matrix);
+        if (koksma__pbrt_number(p, "phimax", 360) < 360 || koksma__pbrt_number(p, "innerradius", 0) > 0 ||
+            (!cylinder && !disk && (koksma__pbrt_find(p, "zmin") || koksma__pbrt_find(p, "zmax")))) {
+            status = koksma__import_unknown(im, p->place, "a part of a %s: it is whole", type);
+        }
+        return status;
+    }
+    if (!strcmp(type, "plymesh")) {
+        status = koksma__import_mesh_file(im, p->place, koksma__pbrt_word(p, "filename", ""), true, &item->mesh);
+    } else if (!strcmp(type, "trianglemesh") || !strcmp(type, "bilinearmesh")) {
+        status = triangles(scene, p, *type == 'b', false, &item->mesh);
+    } else if (!strcmp(type, "loopsubdiv")) {
+        status = koksma__import_unknown(im, p->place, "shape 'loopsubdiv': the triangles that it divides, smooth");
+        status = status ? status : triangles(scene, p, false, true, &item->mesh);
+    } else {
+        status = koksma__import_unknown(im, p->place, "shape '%s': it is left out", type);
+    }
+    *is_there = item->mesh >= 0;
+    return status;
+}

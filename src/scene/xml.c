@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * XML by expat. Elements become nodes in the order of the text. <default name value> gives $name a value where none was
+ * given before; <include filename> stands for the children of that file's root. Nothing else is fetched or expanded: a
+ * document type ends the reading, before any entity of it is declared.
+ */
+#include "scene/xml.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+
+#ifdef KOKSMA_EXPAT
+#include <expat.h>
+#endif
+
+struct koksma__xml_default {
+    char *name, *value;
+};
+
+void koksma__xml_fini(koksma__xml *xml)
+{
+    for (size_t i = 0; i < xml->n; i++) {
+        for (size_t k = 0; xml->nodes[i].attributes && xml->nodes[i].attributes[k]; k++) {
+            free(xml->nodes[i].attributes[k]);
+        }
+        KOKSMA__FREE(xml->nodes[i].attributes, xml->nodes[i].tag);
+    }
+    for (size_t i = 0; i < xml->n_files; i++) {
+        free(xml->files[i]);
+    }
+    for (size_t i = 0; i < xml->n_defaults; i++) {
+        KOKSMA__FREE(xml->defaults[i].name, xml->defaults[i].value);
+    }
+    KOKSMA__FREE(xml->nodes, xml->files, xml->defaults);
+}
+
+const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name)
+{
+    for (size_t i = 0; node->attributes[i]; i += 2) {
+        if (!strcmp(node->attributes[i], name)) {
+            return node->attributes[i + 1];
+        }
+    }
+    return NULL;
+}
+
+bool koksma__xml_alike(const char *a, const char *b)
+{
+    for (;; a++, b++) {
+        a += *a == '_';
+        b += *b == '_';
+        if (tolower((unsigned char)*a) != tolower((unsigned char)*b)) {
+            return false;
+        }
+        if (!*a) {
+            return true;
+        }
+    }
+}
+
+#ifdef KOKSMA_EXPAT
+
+enum { MOST_DEPTH = 64, MOST_INCLUDED = 16, MOST_NODES = 1 << 20, MOST_VALUE = 1 << 16 };
+
+/* The state of one file's reading. */
+typedef struct reading {
+    koksma__import *im;
+    koksma__xml *xml;
+    XML_Parser parser;
+    const char *file;
+    koksma_status status;
+    int open[MOST_DEPTH + 1]; /* nodes; -1: a root whose children belong to the node before */
+    int depth, included;
+} reading;
+
+static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char *file, const char *text, size_t size,
+                               int parent, int included);
+
+static koksma__text_place here(const reading *r)
+{
+    return (koksma__text_place){r->file, XML_GetCurrentLineNumber(r->parser)};
+}
+
+static void stop(reading *r, koksma_status status)
+{
+    if (status && !r->status) {
+        r->status = status;
+        XML_StopParser(r->parser, XML_FALSE);
+    }
+}
+
+/* The value with $names replaced; the caller frees it. NULL: memory, or (with r->status) no such name. */
+static char *replaced(reading *r, const char *value)
+{
+    char *out = malloc(MOST_VALUE + 1);
+    size_t used = 0;
+    while (out && *value) {
+        const char *from = value;
+        size_t length = 1, taken = 1;
+        if (*value == '$') {
+            taken = 1 + strspn(value + 1, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_");
+            from = NULL;
+            for (size_t i = 0; i < r->xml->n_defaults; i++) {
+                const char *name = r->xml->defaults[i].name;
+                from = strlen(name) == taken - 1 && !strncmp(name, value + 1, taken - 1) ? r->xml->defaults[i].value
+                                                                                         : from;
+            }
+            length = from ? strlen(from) : 0;
+        }
+        if (!from || used + length > MOST_VALUE) {
+            stop(r, from ? koksma__import_fail(here(r), "a value of more than %d letters", MOST_VALUE)
+                         : koksma__import_fail(here(r), "no default for '%.*s'", (int)taken, value));
+            free(out);
+            return NULL;
+        }
+        memcpy(out + used, from, length);
+        used += length;
+        value += taken;
+    }
+    if (out) {
+        out[used] = 0;
+        char *fitting = realloc(out, used + 1);
+        out = fitting ? fitting : out;
+    }
+    return out;
+}
+
+static void fail_memory(reading *r)
+{
+    stop(r, r->status ? r->status : koksma__fail_memory(MOST_VALUE));
+}
+
+static void add_default(reading *r, const koksma__xml_node *node)
+{
+    const char *name = koksma__xml_attribute(node, "name"), *value = koksma__xml_attribute(node, "value");
+    for (size_t i = 0; name && i < r->xml->n_defaults; i++) {
+        name = strcmp(r->xml->defaults[i].name, name) != 0 ? name : NULL;
+    }
+    if (!name || !value) {
+        return;
+    }
+    struct koksma__xml_default *to = koksma__add_one(&r->xml->defaults, &r->xml->n_defaults, sizeof *to);
+    if (to) {
+        *to = (struct koksma__xml_default){strdup(name), strdup(value)};
+    }
+    if (!to || !to->name || !to->value) {
+        r->xml->n_defaults -= to != NULL;
+        fail_memory(r);
+    }
+}
+
+static void include(reading *r, const koksma__xml_node *node, int parent)
+{
+    const char *name = koksma__xml_attribute(node, "filename");
+    const koksma__text_place place = node->place;
+    char *bytes = NULL, *kept = name ? strdup(name) : NULL;
+    size_t size = 0;
+    if (!name || r->included == MOST_INCLUDED) {
+        free(kept);
+        stop(r, name ? koksma__import_fail(place, "files include each other more than %d deep", MOST_INCLUDED)
+                     : koksma__import_fail(place, "<include> without filename"));
+        return;
+    }
+    char **file = koksma__add_one(&r->xml->files, &r->xml->n_files, sizeof *file);
+    if (!kept || !file) {
+        free(kept);
+        r->xml->n_files -= file != NULL;
+        fail_memory(r);
+        return;
+    }
+    *file = kept;
+    koksma_status status = koksma__import_text(r->im, place, kept, &bytes, &size);
+    status = status ? status : read_text(r->im, r->xml, kept, bytes, size, parent, r->included + 1);
+    free(bytes);
+    stop(r, status);
+}
+
+/* A node for the element, among the children of its parent. */
+static int add_node(reading *r, const char *tag, const char **attributes, int parent)
+{
+    size_t n = 0;
+    while (attributes[n]) {
+        n++;
+    }
+    if (r->xml->n == MOST_NODES) {
+        stop(r, koksma__import_fail(here(r), "more than %d elements", MOST_NODES));
+        return -1;
+    }
+    koksma__xml_node *node = koksma__add_one(&r->xml->nodes, &r->xml->n, sizeof *node);
+    if (!node) {
+        fail_memory(r);
+        return -1;
+    }
+    *node = (koksma__xml_node){strdup(tag), calloc(n + 1, sizeof *node->attributes), here(r), -1, -1, -1};
+    for (size_t i = 0; node->tag && node->attributes && i < n && !r->status; i++) {
+        node->attributes[i] = replaced(r, attributes[i]);
+        if (!node->attributes[i]) {
+            fail_memory(r);
+        }
+    }
+    if (!node->tag || !node->attributes) {
+        fail_memory(r);
+    }
+    const int self = (int)r->xml->n - 1;
+    if (parent >= 0 && !r->status) {
+        koksma__xml_node *above = &r->xml->nodes[parent];
+        *(above->last < 0 ? &above->first : &r->xml->nodes[above->last].next) = self;
+        above->last = self;
+    }
+    return self;
+}
+
+static void start_element(void *data, const char *tag, const char **attributes)
+{
+    reading *r = data;
+    if (r->status) {
+        return;
+    }
+    if (r->depth == MOST_DEPTH) {
+        stop(r, koksma__import_fail(here(r), "elements within each other more than %d deep", MOST_DEPTH));
+        return;
+    }
+    const int parent = r->open[r->depth];
+    if (r->depth == 0 && r->included) { /* its children are those of the includer's */
+        r->open[++r->depth] = parent;
+        return;
+    }
+    const int node = add_node(r, tag, attributes, parent);
+    r->open[++r->depth] = node;
+    if (!r->status && !strcmp(tag, "default")) {
+        add_default(r, &r->xml->nodes[node]);
+    } else if (!r->status && !strcmp(tag, "include")) {
+        const koksma__xml_node copy = r->xml->nodes[node]; /* the array may move */
+        include(r, &copy, parent);
+    }
+}
+
+static void end_element(void *data, const char *tag)
+{
+    reading *r = data;
+    (void)tag;
+    r->depth--;
+}
+
+static void refuse_doctype(void *data, const char *name, const char *system, const char *public, int internal)
+{
+    reading *r = data;
+    (void)name, (void)system, (void)public, (void)internal;
+    stop(r, koksma__import_fail(here(r), "a document type: scenes have none, and its entities are not read"));
+}
+
+static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char *file, const char *text, size_t size,
+                               int parent, int included)
+{
+    reading r = {.im = im, .xml = xml, .file = file, .parser = XML_ParserCreate(NULL), .included = included};
+    KOKSMA__REQUIRE_MEMORY(r.parser, sizeof r);
+    r.open[0] = parent;
+    XML_SetUserData(r.parser, &r);
+    XML_SetElementHandler(r.parser, start_element, end_element);
+    XML_SetStartDoctypeDeclHandler(r.parser, refuse_doctype);
+    if (XML_Parse(r.parser, text, (int)size, 1) == XML_STATUS_ERROR && !r.status) {
+        r.status = XML_GetErrorCode(r.parser) == XML_ERROR_NO_MEMORY
+                       ? koksma__fail_memory(size)
+                       : koksma__import_fail(here(&r), "%s", XML_ErrorString(XML_GetErrorCode(r.parser)));
+    }
+    XML_ParserFree(r.parser);
+    return r.status;
+}
+
+koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out)
+{
+    return read_text(im, out, im->path, text, size, -1, 0);
+}
+
+#else
+
+koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out)
+{
+    (void)text, (void)size, (void)out;
+    return koksma__fail(KOKSMA_UNSUPPORTED, "%s: this build has no expat, which reads XML", im->path);
+}
+
+#endif

@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Scenes of pbrt-v4 and Mitsuba 3. One scene in the three formats, written by each format's own documentation, shows one
+ * picture: depths and normals of every pixel agree, and the mean light within its errors. Every kind of material, shape
+ * and light of tables here loads, and what is likened says so with its line. Malformed and hostile texts are refused by
+ * one line with the place.
+ */
+#include <stdio.h>
+#include <unistd.h>
+
+#include <sys/stat.h>
+
+#include "rendering.h"
+
+static char folder[64];
+
+static void write_file(const char *name, const char *text)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static koksma_status open_as(const char *name, const char *text, koksma_scene **out)
+{
+    char path[128];
+    write_file(name, text);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return koksma_scene_open(path, out);
+}
+
+static koksma_scene *opened(const char *name, const char *text)
+{
+    koksma_scene *scene = NULL;
+    if (open_as(name, text, &scene)) {
+        fail_msg("%s", koksma_error_text());
+    }
+    return scene;
+}
+
+/* A build without expat reads no XML, and one without Embree traces no meshes. */
+static bool reads_xml(void)
+{
+    koksma_scene *scene = NULL;
+    const koksma_status status = open_as("probe.xml", "<scene version=\"3.0.0\"/>", &scene);
+    koksma_scene_close(scene);
+    return status != KOKSMA_UNSUPPORTED;
+}
+
+/* ---- One scene three times ------------------------------------------------------------------------------------- */
+
+#define SIZE "\"integer xresolution\" 40 \"integer yresolution\" 30"
+
+/* A grey ball on a floor under a square light that faces down, beside a sky; seen a little from above. */
+static const char *const as_json =
+    "{\"image\": {\"width\": 40, \"height\": 30}, \"camera\": {\"eye\": [1, 2, 6], \"target\": [0, 1, 0], "
+    "\"fov_deg\": 40},"
+    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}, {\"name\": \"b\", \"kind\": \"ggx\","
+    " \"reflectance\": 0.8, \"roughness\": 0.5}],"
+    "\"shapes\": [{\"kind\": \"sphere\", \"centre\": [0.5, 1, 0], \"radius\": 1, \"material\": \"b\"}, {\"kind\": "
+    "\"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"half\": [3, 3], \"material\": \"m\"}],"
+    "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [-2, 3, 0], \"normal\": [0, -1, 0], \"half\": [0.5, 1], "
+    "\"radiance\": [4, 3, 2], \"visible\": true}, {\"kind\": \"environment\", \"radiance\": 0.3}]}";
+
+/* pbrt's space has the other hand: the same picture needs x turned round, as its exporters do. The angle is that of the
+   shorter side; a reflectance of 0.8 along the normal has k = 4 where eta = 1. */
+static const char *const as_pbrt =
+    "Scale -1 1 1 LookAt 1 2 6  0 1 0  0 1 0\n"
+    "Camera \"perspective\" \"float fov\" 40\nFilm \"rgb\" " SIZE "\n"
+    "WorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [0.3 0.3 0.3]\n"
+    "AttributeBegin\nMaterial \"conductor\" \"rgb eta\" [1 1 1] \"rgb k\" [4 4 4] \"float roughness\" 0.0625\n"
+    "Translate 0.5 1 0 Shape \"sphere\" \"float radius\" 1\nAttributeEnd\n"
+    "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\n"
+    "Shape \"bilinearmesh\" \"point3 P\" [-3 0 3  3 0 3  -3 0 -3  3 0 -3]\n"
+    "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [2 1.5 1] \"float scale\" 2\n"
+    "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" [-2.5 3 1  -2.5 3 -1  -1.5 3 -1  -1.5 3 "
+    "1]\n"
+    "AttributeEnd\n";
+
+static const char *const as_mitsuba =
+    "<scene version=\"3.0.0\"><default name=\"side\" value=\"3\"/>"
+    "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><string name=\"fov_axis\" value=\"y\"/>"
+    "<transform name=\"to_world\"><lookat origin=\"1, 2, 6\" target=\"0, 1, 0\" up=\"0, 1, 0\"/></transform>"
+    "<film type=\"hdrfilm\"><integer name=\"width\" value=\"40\"/><integer name=\"height\" "
+    "value=\"30\"/></film></sensor>"
+    "<bsdf type=\"diffuse\" id=\"m\"><rgb name=\"reflectance\" value=\"0.5\"/></bsdf>"
+    "<shape type=\"sphere\"><point name=\"center\" x=\"0.5\" y=\"1\" z=\"0\"/><bsdf type=\"roughconductor\"><float "
+    "name=\"alpha\" value=\"0.25\"/><rgb name=\"eta\" value=\"1, 1, 1\"/><rgb name=\"k\" value=\"4, 4, "
+    "4\"/></bsdf></shape>"
+    "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"$side\"/><rotate x=\"1\" angle=\"-90\"/>"
+    "</transform><ref id=\"m\"/></shape>"
+    "<shape type=\"rectangle\"><transform name=\"to_world\"><rotate x=\"1\" angle=\"90\"/><scale x=\"0.5\" z=\"1\"/>"
+    "<translate x=\"-2\" y=\"3\"/></transform><emitter type=\"area\"><rgb name=\"radiance\" value=\"4, 3, "
+    "2\"/></emitter>"
+    "</shape><emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.3\"/></emitter></scene>";
+
+static koksma_layers first_hits(const koksma_scene *scene)
+{
+    koksma_layers layers;
+    koksma_render_options options = options_of(scene, "regular", "utah", 1, 32);
+    options.width = scene->width;
+    options.height = scene->height;
+    assert_ok(koksma_render_layers(scene, &options, NULL, &layers));
+    return layers;
+}
+
+static void one_scene_is_one_picture(void **state)
+{
+    static const char *const names[] = {"one.json", "one.pbrt", "one.xml"};
+    const char *const texts[] = {as_json, as_pbrt, as_mitsuba};
+    koksma_layers expected = {0};
+    double mean = 0, error = 0;
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        if (i == 2 ? !reads_xml() : i && !koksma_mesh_tracer()) {
+            continue;
+        }
+        koksma_scene *scene = opened(names[i], texts[i]);
+        assert_int_equal(scene->n_unknown, 0);
+        assert_int_equal(scene->width, 40);
+        assert_int_equal(scene->height, 30);
+        koksma_layers layers = first_hits(scene);
+        koksma_render_options options = options_of(scene, "random", "path", 256, 40);
+        options.height = 30;
+        options.depth = 4;
+        double own_error;
+        const double own = mean_of(scene, &options, NULL);
+        options.width = 40;
+        for (size_t k = 0; i && k < 40 * 30; k++) {
+            assert_near((double)layers.depth.pixels[k], (double)expected.depth.pixels[k], 2e-4);
+            for (size_t c = 0; c < 3; c++) {
+                assert_near((double)layers.normal.pixels[3 * k + c], (double)expected.normal.pixels[3 * k + c], 2e-4);
+            }
+        }
+        /* pixels differ more from each other than samples do: the error is that of a second picture's difference */
+        options.seed = 1;
+        own_error = fabs(mean_of(scene, &options, NULL) - own) + 1e-3;
+        if (i) {
+            assert_near(own, mean, 4 * (error + own_error));
+            koksma_layers_fini(&layers);
+        } else {
+            expected = layers;
+            mean = own;
+            error = own_error;
+        }
+        koksma_scene_close(scene);
+    }
+    koksma_layers_fini(&expected);
+}
+
+/* ---- What is known, and what is said of the rest ----------------------------------------------------------------- */
+
+#define PBRT "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" Film \"rgb\" " SIZE " WorldBegin\n"
+#define MITSUBA(rest)                                                                                                \
+    "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor>\n" rest       \
+    "</scene>"
+#define BALL(bsdf) MITSUBA("<shape type=\"sphere\">" bsdf "</shape>")
+
+/* A text, and what is said of it; NULL: nothing. */
+static const struct {
+    const char *name, *text, *said;
+} kinds[] = {
+    {"a.pbrt", PBRT "Material \"diffuse\" Shape \"sphere\"", NULL},
+    {"a.pbrt", PBRT "Material \"dielectric\" \"float eta\" 1.3 Shape \"sphere\"", NULL},
+    {"a.pbrt", PBRT "Material \"dielectric\" \"float roughness\" 0.1 Shape \"sphere\"", "a.pbrt:2: rough glass"},
+    {"a.pbrt", PBRT "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" Shape \"sphere\"", NULL},
+    {"a.pbrt", PBRT "Material \"coateddiffuse\" Shape \"sphere\"", "a.pbrt:2: a coated surface"},
+    {"a.pbrt", PBRT "Material \"interface\" Shape \"disk\"", NULL},
+    {"a.pbrt", PBRT "\n\nMaterial \"hair\" Shape \"sphere\"", "a.pbrt:4: material 'hair'"},
+    {"a.pbrt", PBRT "Material \"velvet\" Shape \"sphere\"", "a.pbrt:2: material 'velvet'"},
+    {"a.pbrt", PBRT "Shape \"curve\" \"point3 P\" [0 0 0]", "a.pbrt:2: shape 'curve': it is left out"},
+    {"a.pbrt", PBRT "Shape \"sphere\" \"float zmax\" 0.5", "a.pbrt:2: a part of a sphere"},
+    {"a.pbrt", PBRT "LightSource \"spot\" \"rgb I\" [1 2 3]", "a.pbrt:2: light 'spot'"},
+    {"a.pbrt", PBRT "LightSource \"distant\" \"blackbody L\" 5000", NULL},
+    {"a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 1 500 2 600 3]", "a.pbrt:2: a sampled spectrum"},
+    {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"", "a.pbrt:2: media"},
+    {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"wrinkled\" Shape \"sphere\"", "a.pbrt:2: texture 'wrinkled'"},
+    {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.gz\"", "a.pbrt:2: a.ply.gz is no file of a mesh"},
+    {"a.xml", BALL("<bsdf type=\"diffuse\"/>"), NULL},
+    {"a.xml", BALL("<bsdf type=\"twosided\"><bsdf type=\"conductor\"/></bsdf>"), NULL},
+    {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"water\"/></bsdf>"), NULL},
+    {"a.xml", BALL("<bsdf type=\"plastic\"/>"), "a.xml:2: a coated surface"},
+    {"a.xml", BALL("<bsdf type=\"bumpmap\"><bsdf type=\"diffuse\"/></bsdf>"),
+     "a.xml:2: BSDF 'bumpmap': the BSDF within"},
+    {"a.xml", BALL("<bsdf type=\"hair\"/>"), "a.xml:2: BSDF 'hair': Lambert here"},
+    {"a.xml", BALL("<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.2\"/></bsdf>"),
+     "a.xml:2: anisotropic"},
+    {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid': it is left out"},
+    {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), "a.xml:2: emitter 'spot': a point"},
+    {"a.xml", MITSUBA("<emitter type=\"sunsky\"/>"), "a.xml:2: emitter 'sunsky': a white sky"},
+    {"a.xml", MITSUBA("<shape type=\"cube\"/>"), NULL},
+    {"a.xml",
+     MITSUBA("<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\"/></shape><shape type=\"instance\"><ref "
+             "id=\"g\"/></shape>"),
+     NULL},
+};
+
+static void unknown_things_are_named(void **state)
+{
+    const bool xml = reads_xml();
+    (void)state;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        char text[256] = "", warning[256];
+        if (!xml && strstr(kinds[i].name, ".xml")) {
+            continue;
+        }
+        koksma_scene *scene = opened(kinds[i].name, kinds[i].text);
+        const bool said = koksma_scene_unknown(scene, 0, text, sizeof text);
+        if (said != (kinds[i].said != NULL) || (said && strncmp(text, kinds[i].said, strlen(kinds[i].said)) != 0)) {
+            fail_msg("%s: '%s', expected '%s'", kinds[i].text, text, kinds[i].said ? kinds[i].said : "");
+        }
+        assert_false(koksma_scene_unknown(scene, 1, text, sizeof text));
+        if (said) { /* it is a warning, too */
+            bool found = false;
+            for (size_t k = 0; !found && koksma_scene_warning(scene, k, warning, sizeof warning); k++) {
+                found = !strncmp(warning, kinds[i].said, strlen(kinds[i].said));
+            }
+            assert_true(found);
+        }
+        koksma_scene_close(scene);
+    }
+}
+
+/* ---- What is refused ---------------------------------------------------------------------------------------------- */
+
+static const struct {
+    const char *name, *text, *reason;
+} refused[] = {
+    {"b.pbrt", "", "no Camera"},
+    {"b.pbrt", "Camera \"orthographic\"", ":1: camera 'orthographic' is not read; 'perspective' is"},
+    {"b.pbrt", "\nCamera \"perspective\" \"float fov\" [ 30", ":2: fov: a list without its closing bracket"},
+    {"b.pbrt", "Camera \"perspective\" \"float fov\" [ x ]", ":1: 'x': a number is needed here"},
+    {"b.pbrt", "Camera \"perspective", "a text without its closing quotation mark"},
+    {"b.pbrt", "Camera \"perspective\" \"float fov\" 200", "the camera's angle of view"},
+    {"b.pbrt", "Scale 0 1 1 Camera \"perspective\"", "the camera's matrix has no inverse"},
+    {"b.pbrt", "Bake 3", ":1: 'Bake' is no directive of pbrt-v4"},
+    {"b.pbrt", PBRT "AttributeEnd", ":2: an end without its begin"},
+    {"b.pbrt", PBRT "ObjectEnd", "ObjectEnd without ObjectBegin"},
+    {"b.pbrt", PBRT "ObjectInstance \"x\"", "no object 'x'"},
+    {"b.pbrt", PBRT "NamedMaterial \"x\"", "no material 'x' before here"},
+    {"b.pbrt", PBRT "Material \"diffuse\" \"texture reflectance\" \"x\"", "reflectance: no texture 'x'"},
+    {"b.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]",
+     "indices: 3"},
+    {"b.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 -1]",
+     "indices: -1"},
+    {"b.pbrt", PBRT "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [0 0 1]",
+     "N: 3 numbers for 3"},
+    {"b.pbrt", PBRT "Translate 1e9 0 0 Shape \"sphere\"", "a shape reaches beyond 1e6"},
+    {"b.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"none.ply\"", "none.ply: can't be read"},
+    {"b.pbrt", "Include \"b.pbrt\"", "include each other more than 16 deep"},
+    {"b.pbrt", "Include \"../outside.pbrt\"", "which is not below the scene's own folder"},
+    {"b.pbrt", "Include \"link.pbrt\"", "which is not below the scene's own folder"},
+    {"b.pbrt", "Include \"/etc/passwd\"", "which is not below the scene's own folder"},
+    {"b.xml", "<scene version=\"3.0.0\"/>", ":1: no <sensor>"},
+    {"b.xml", "<plan/>", "no <scene>"},
+    {"b.xml", "<scene>", "no element found"},
+    {"b.xml", "<scene>\n<a></b></scene>", ":2: mismatched tag"},
+    {"b.xml", "<!DOCTYPE s [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]><scene>&b;</scene>", ":1: a document type"},
+    {"b.xml", "<!DOCTYPE s SYSTEM \"file:///etc/passwd\"><scene/>", ":1: a document type"},
+    {"b.xml", "<scene>&b;</scene>", "undefined entity"},
+    {"b.xml", "<scene><include filename=\"b.xml\"/></scene>", "include each other more than 16 deep"},
+    {"b.xml", "<scene><include filename=\"../outside.pbrt\"/></scene>", "which is not below the scene's own folder"},
+    {"b.xml", "<scene><a b=\"$c\"/></scene>", "no default for '$c'"},
+    {"b.xml", "<scene><sensor type=\"orthographic\"/></scene>", "sensor 'orthographic' is not read"},
+    {"b.xml", "<scene><shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/></shape></scene>",
+     "none.obj: can't"},
+    {"b.xml",
+     "<scene><shape type=\"instance\" id=\"i\"><ref id=\"g\"/></shape><shape type=\"shapegroup\" id=\"g\"><shape "
+     "type=\"instance\"><ref id=\"g\"/></shape></shape></scene>",
+     "instances within each other more than 16 deep"},
+    {"b.xml",
+     "<scene><texture type=\"checkerboard\" id=\"t\"><ref name=\"color0\" id=\"t\"/></texture><shape "
+     "type=\"sphere\"><bsdf type=\"diffuse\"><ref name=\"reflectance\" id=\"t\"/></bsdf></shape></scene>",
+     "textures within each other more than 16 deep"},
+};
+
+static void malformed_and_hostile_texts_are_refused(void **state)
+{
+    char outside[80], path[128];
+    const bool xml = reads_xml();
+    (void)state;
+    snprintf(outside, sizeof outside, "%s.pbrt", folder); /* beside the folder */
+    snprintf(path, sizeof path, "%s/link.pbrt", folder);
+    FILE *file = fopen(outside, "w");
+    assert_non_null(file);
+    fclose(file);
+    assert_int_equal(symlink(outside, path), 0);
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        koksma_scene *scene = NULL;
+        char text[1024];
+        const char *from = strstr(refused[i].text, "outside.pbrt"); /* by its name */
+        if (!xml && strstr(refused[i].name, ".xml")) {
+            continue;
+        }
+        snprintf(text, sizeof text, "%.*s%s%s", from ? (int)(from - refused[i].text) : 1000, refused[i].text,
+                 from ? strrchr(outside, '/') + 1 : "", from ? from + strlen("outside.pbrt") : "");
+        const koksma_status status = open_as(refused[i].name, text, &scene);
+        if (!status || !strstr(koksma_error_text(), refused[i].reason) || strchr(koksma_error_text(), '\n') ||
+            koksma_status_exit_code(status) != 3) {
+            fail_msg("%s: status %d, '%s', expected '%s'", text, (int)status, status ? koksma_error_text() : "",
+                     refused[i].reason);
+        }
+        assert_null(scene);
+    }
+    unlink(path);
+    unlink(outside);
+}
+
+/* Every beginning of a whole text is a scene or an error, and nothing else. */
+static void cut_texts_are_survived(void **state)
+{
+    static const char *const names[] = {"c.pbrt", "c.xml"};
+    const char *const texts[] = {as_pbrt, as_mitsuba};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        char text[4096];
+        for (size_t n = 0; n < strlen(texts[i]); n += 7) {
+            koksma_scene *scene = NULL;
+            snprintf(text, sizeof text, "%.*s", (int)n, texts[i]);
+            const koksma_status status = open_as(names[i], text, &scene);
+            assert_true(status ? *koksma_error_text() != 0 : scene != NULL);
+            koksma_scene_close(scene);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_scene_is_one_picture),
+        cmocka_unit_test(unknown_things_are_named),
+        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
+        cmocka_unit_test(cut_texts_are_survived),
+    };
+    strcpy(folder, "/tmp/koksma-imports-XXXXXX");
+    if (!mkdtemp(folder)) {
+        return 1;
+    }
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    static const char *const left[] = {"probe.xml", "one.json", "one.pbrt", "one.xml", "a.pbrt",
+                                       "a.xml",     "b.pbrt",   "b.xml",    "c.pbrt",  "c.xml"};
+    for (size_t i = 0; i < sizeof left / sizeof *left; i++) {
+        char path[128];
+        snprintf(path, sizeof path, "%s/%s", folder, left[i]);
+        unlink(path);
+    }
+    rmdir(folder);
+    return failed;
+}
