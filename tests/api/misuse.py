@@ -83,7 +83,8 @@ VALID = {
     "koksma_render_patterns.text": "\"random;pixel+time=scan-time\"",
     "koksma_adaptive_find.name": "\"contrast\"", "koksma_strata_fini.strata": "a_zero(sizeof(koksma_strata))",
     "koksma_adaptive_parse.text": "\"contrast\"", "koksma_adaptive_parse.out": "a_buffer(sizeof(koksma_adaptive_options))",
-    "koksma_mask_void_and_cluster.size": "4", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
+    "koksma_mask_void_and_cluster.size": "4", "koksma_mask_void_and_cluster_3d.size": "4", "koksma_mask_void_and_cluster_3d.frames": "4",
+    "koksma_mask_void_and_cluster_3d.ranks": "a_buffer(64 * sizeof(uint32_t))", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
     "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
     "koksma_study_images.places": "work_path(\"in_{trial}.pfm\")", "koksma_study_images.reference": "work_path(\"in.pfm\")", "koksma_study_images.folder": "work_path(\"images\")",
     "koksma_name_at *": "a_name", "koksma_closest_name.table": "NULL", "koksma_closest_name.word": "\"jitered\"", "koksma_text_escape.text": "a_copy(\"jittered\", 9)",
@@ -107,7 +108,7 @@ VALID = {
     "koksma_rank_by_command.context": "a_copy(\"printf 'Pf\\n1 1\\n-1\\nabcd' >{out.pfm}\", 35)",
     "koksma_rank_by_command.image": "a_buffer(sizeof(koksma_image))",
     # Inline functions.
-    "koksma_domain": "{7}", "koksma_sobol *": "a_sequence()", "uint32_t": "1", "const uint32_t *": "a_buffer(3 * sizeof(uint32_t))",
+    "koksma_domain": "{7}", "koksma_sobol *": "a_sequence()", "koksma_keys *": "some_keys()", "koksma_keys_of.pair": "0", "uint32_t": "1", "const uint32_t *": "a_buffer(3 * sizeof(uint32_t))",
     "int": "1", "koksma_permute.n": "8", "koksma_cmj_2d.columns": "4", "koksma_cmj_2d.rows": "4", "koksma_mask_value.pixels": "16",
     "koksma_mask_2d.spp": "4", "koksma_part_of_sample.s": "0", "float *": "a_buffer(4 * sizeof(float))", "koksma_domain *": "a_buffer(sizeof(koksma_domain))",
     "koksma_findings_fini.findings": "a_zero(sizeof(koksma_findings))",

@@ -25,6 +25,7 @@ static void asserted(const char *condition);
 #include <koksma/adaptive.h>
 #include <koksma/datasheet.h>
 #include <koksma/integrate.h>
+#include <koksma/keys.h>
 #include <koksma/mask.h>
 #include <koksma/optimise.h>
 #include <koksma/series.h>
@@ -367,6 +368,12 @@ static void *a_sequence(void)
 {
     const koksma_sobol sequence = koksma_sobol_of((koksma_domain){7});
     return a_copy(&sequence, sizeof sequence);
+}
+
+static void *some_keys(void)
+{
+    const koksma_keys keys = koksma_keys_of(7, 1, 2, 1, 4);
+    return a_copy(&keys, sizeof keys);
 }
 
 static koksma_rank_picture *a_rank_picture(void)

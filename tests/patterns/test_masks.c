@@ -153,6 +153,87 @@ static void thresholded_masks_are_blue(void **state)
     }
 }
 
+/* Ulichney's rules in three dimensions, by the definition: Gaussians cut off at 4 voxels along each axis. */
+static double energy_of_voxel(const uint32_t *ranks, const int *sides, int at, uint32_t below)
+{
+    const int n = sides[0] * sides[1] * sides[2];
+    double energy = 0;
+    for (int q = 0; q < n; q++) {
+        int square = 0, rest[2] = {at, q};
+        bool near = ranks[q] < below;
+        for (int k = 0; k < 3 && near; k++) {
+            int d = abs(rest[0] % sides[k] - rest[1] % sides[k]);
+            d = d < sides[k] - d ? d : sides[k] - d;
+            near = d <= 4;
+            square += d * d;
+            rest[0] /= sides[k];
+            rest[1] /= sides[k];
+        }
+        energy += near ? exp(-square / 4.5) : 0;
+    }
+    return energy;
+}
+
+static void masks_in_time_are_ulichneys(void **state)
+{
+    (void)state;
+    static const int all[][3] = {{4, 4, 4}, {5, 5, 8}, {8, 8, 5}, {9, 9, 10}};
+    for (size_t t = 0; t < sizeof all / sizeof *all; t++) {
+        const int *sides = all[t], n = sides[0] * sides[1] * sides[2];
+        const uint32_t count = (uint32_t)(n / 10);
+        uint32_t ranks[810], at[810];
+        assert_ok(koksma_mask_void_and_cluster_3d(sides[0], sides[2], t, NULL, ranks));
+        memset(at, 0xff, sizeof at);
+        for (int p = 0; p < n; p++) {
+            assert_true(ranks[p] < (uint32_t)n && at[ranks[p]] == UINT32_MAX);
+            at[ranks[p]] = (uint32_t)p;
+        }
+        for (uint32_t r = 0; r<(uint32_t)n; r += n> 100 ? 37 : 5) {
+            const bool cluster = r < count;
+            const double own = energy_of_voxel(ranks, sides, (int)at[r], cluster ? r + 1 : r);
+            for (int p = 0; p < n; p++) {
+                if (cluster ? ranks[p] < r && energy_of_voxel(ranks, sides, p, r + 1) > own + 1e-9
+                            : ranks[p] > r && energy_of_voxel(ranks, sides, p, r) < own - 1e-9) {
+                    fail_msg("%d x %d x %d: voxel %d, not %u, has rank %u", sides[0], sides[1], sides[2], p, at[r],
+                             r);
+                }
+            }
+        }
+    }
+    uint32_t none[64];
+    assert_int_equal(koksma_mask_void_and_cluster_3d(3, 4, 3, NULL, none), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_mask_void_and_cluster_3d(4, KOKSMA_MASK_MAX_3D + 1, 3, NULL, none), KOKSMA_ARGUMENT);
+}
+
+/* Power of the voxels below a threshold at frequencies (u, v, w) of a mask of 16 x 16 x 16: of random voxels 1 - share. */
+static void thresholded_masks_in_time_are_blue(void **state)
+{
+    (void)state;
+    enum { SIDE = 16, N = SIDE * SIDE * SIDE };
+    static uint32_t ranks[N];
+    assert_ok(koksma_mask_void_and_cluster_3d(SIDE, SIDE, 5, NULL, ranks));
+    for (int percent = 10; percent <= 50; percent += 20) {
+        const uint32_t count = N * (uint32_t)percent / 100;
+        double sum = 0;
+        int bins = 0;
+        for (int f = 1; f < 125; f++) {
+            const int u = f % 5 - 2, v = f / 5 % 5 - 2, w = f / 25 - 2;
+            double re = 0, im = 0;
+            for (int p = 0; p < N && u * u + v * v + w * w; p++) {
+                const double phase =
+                    0.39269908169872414 * (u * (p % SIDE) + v * (p / SIDE % SIDE) + w * (p / SIDE / SIDE));
+                re += ranks[p] < count ? cos(phase) : 0;
+                im += ranks[p] < count ? sin(phase) : 0;
+            }
+            sum += (re * re + im * im) / count;
+            bins += (u || v || w);
+        }
+        if (!(sum / bins < 0.1 * (1 - percent / 100.0))) {
+            fail_msg("%d %%: power %.4f", percent, sum / bins);
+        }
+    }
+}
+
 /* The points of mask-offset with given masks. */
 static koksma_points tile_of(uint32_t *const ranks[3], size_t pixels, size_t spp, uint64_t seed)
 {
@@ -355,10 +436,15 @@ static void neighbours_errors_cancel(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(masks_are_ulichneys),        cmocka_unit_test(masks_keep_their_bits),
-        cmocka_unit_test(thresholded_masks_are_blue), cmocka_unit_test(the_header_has_the_patterns_points),
-        cmocka_unit_test(pixels_have_nets),           cmocka_unit_test(pixels_err_like_independent_ones),
+        cmocka_unit_test(masks_are_ulichneys),
+        cmocka_unit_test(masks_keep_their_bits),
+        cmocka_unit_test(thresholded_masks_are_blue),
+        cmocka_unit_test(the_header_has_the_patterns_points),
+        cmocka_unit_test(pixels_have_nets),
+        cmocka_unit_test(pixels_err_like_independent_ones),
         cmocka_unit_test(neighbours_errors_cancel),
+        cmocka_unit_test(masks_in_time_are_ulichneys),
+        cmocka_unit_test(thresholded_masks_in_time_are_blue),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

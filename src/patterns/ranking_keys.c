@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * ranking-keys: the points of all pixels of a square image, pixel after pixel: each pixel has its copy of one
+ * Owen-scrambled (0,2)-sequence, which optimised ranking and scrambling keys choose such that neighbours' errors cancel.
+ *
+ *     point s of pixel (x, y), pair of dimensions k = koksma_keys_2d(koksma_keys_of(seed, x, y, k, spp), s)
+ *
+ * n = width^2 spp; koksma/keys.h has the rule. The set of a pixel is a (0,m,2)-net in base 2 for spp = 2^m, in each pair of
+ * dimensions. Source: Heitz & others 2019; the flips behind the strata and the key that pairs strata are this project's.
+ */
+#include <koksma/keys.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "patterns/patterns.h"
+
+enum { BLOCK = 4096 };
+
+typedef struct filling {
+    uint64_t seed;
+    size_t width, spp;
+    koksma_points *out;
+} filling;
+
+static koksma_status fill_block(void *context, size_t block)
+{
+    const filling *f = context;
+    const size_t end = (block + 1) * BLOCK < f->out->n ? (block + 1) * BLOCK : f->out->n;
+    for (int k = 0; k < f->out->dim; k += 2) {
+        koksma_keys keys = {.rank = 0};
+        for (size_t i = block * BLOCK; i < end; i++) {
+            const size_t pixel = i / f->spp, s = i % f->spp;
+            double xy[2], *x = f->out->xs + i * (size_t)f->out->dim + (size_t)k;
+            if (i == block * BLOCK || s == 0) {
+                keys = koksma_keys_of(f->seed, (uint32_t)(pixel % f->width), (uint32_t)(pixel / f->width),
+                                      (uint32_t)k / 2, (uint32_t)f->spp);
+            }
+            koksma_keys_2d(&keys, (uint32_t)s, xy);
+            x[0] = xy[0];
+            if (k + 1 < f->out->dim) {
+                x[1] = xy[1];
+            }
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const size_t width = (size_t)args->params[0], pixels = width * width;
+    KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
+                    "ranking-keys: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n, pixels,
+                    (out->n / pixels + 1) * pixels);
+    filling f = {seed, width, out->n / pixels, out};
+    return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
+}
+
+static const koksma_param params[] = {
+    {"width", "pixels a side", 4, 1, 8192, NULL, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_ranking_keys = {
+    .name = "ranking-keys",
+    .title = "one (0,2)-sequence, varied from pixel to pixel by keys that make errors blue",
+    .cite = "heitz2019keys laine2011 burley2020",
+    .min_dim = 1,
+    .max_dim = 2 * KOKSMA_KEYS_PAIRS,
+    .claims = 0,
+    .params = params,
+    .generate = generate,
+};
