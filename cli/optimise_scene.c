@@ -28,7 +28,7 @@ enum {
     SIDE = 8,
     MOST_PATTERNS = 64,
     MOST_SCENES = 16,
-    MOST_PIXELS = 80 * 60,
+    MOST_PIXELS = 40 * 30,
     NAME = 32,
     SALT_CHOICE = 1,
     SALT_JUDGE
@@ -487,9 +487,9 @@ static bool parse(scene_job *j)
         return false;
     }
     if (!cli_whole(arguments, "n", 0, 1, 4096, &spp) || !cli_whole(arguments, "seed", 0, 0, UINT32_MAX, &j->seed) ||
-        !cli_whole(arguments, "candidates", 12, 1, 1000, &j->n_sets) ||
-        !cli_whole(arguments, "phases", 8, 1, 1000, &j->phases) ||
-        !cli_whole(arguments, "max-trials", 64, 8, KOKSMA_MAX_RANK_TRIALS, &j->max_trials) ||
+        !cli_whole(arguments, "candidates", 8, 1, 1000, &j->n_sets) ||
+        !cli_whole(arguments, "phases", 4, 1, 1000, &j->phases) ||
+        !cli_whole(arguments, "max-trials", 32, 8, KOKSMA_MAX_RANK_TRIALS, &j->max_trials) ||
         !cli_size(arguments, &j->width, &j->height) || !parse_lists(j)) {
         return false;
     }
