@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "optimise_scene.h"
 #include "source.h"
 
 enum { MOST_PROJECTIONS = 4096 };
@@ -198,6 +199,15 @@ static int run(const cli_arguments *arguments)
     koksma_points from = {0};
     koksma_optimum best = {0};
     job j = {.arguments = arguments, .measure = &measure, .options = {.progress = progress, .context = &j}};
+    static const char *const of_scenes[] = {"against", "held-out", "candidates", "phases", "size", "max-trials"};
+    if (cli_text(arguments, "scene", NULL)) {
+        return cli_optimise_scene(arguments);
+    }
+    for (size_t i = 0; i < sizeof of_scenes / sizeof *of_scenes; i++) {
+        if (cli_text(arguments, of_scenes[i], NULL)) {
+            return cli_usage_error(arguments, "--%s has an effect with --scene only", of_scenes[i]);
+        }
+    }
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one measure, such as star or l2-disk:r=0.25");
     }
@@ -249,6 +259,13 @@ static const cli_option options[] = {
      "end after the step in which so many seconds pass (default: 60, with --steps: none)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
     {'o', "output", "FILE.txt|.csv|.npy", "the best set, written anew after each gain"},
+    {0, "scene", "SCENE", "a set for the error of this scene's image with -n samples a pixel, used as file:FILE"},
+    {0, "held-out", "SCENE,..", "with --scene: scenes that decide (default: six of the library)"},
+    {0, "against", "PATTERN,..|all", "with --scene: patterns that it is compared with (default: 18)"},
+    {0, "candidates", "N", "with --scene: sets to choose from (default: 8)"},
+    {0, "phases", "N", "with --scene: shifts on the torus of each set (default: 4)"},
+    {0, "size", "WxH", "with --scene: pixels (default: the scene's, halved until at most 1,200)"},
+    {0, "max-trials", "N", "with --scene: images of each candidate and pattern, 8 to 65536 (default: 32)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -257,26 +274,38 @@ static const cli_option options[] = {
 const cli_command cli_command_optimise = {
     .name = "optimise",
     .summary = "search for points with a small value of a measure",
-    .synopsis = "MEASURE -n N [-d DIM] [--from FILE] [--keep WHAT] [--projections LIST] [--steps K] -o FILE",
-    .details = "MEASURE is any with exact values, such as star or l2-disk:law=area; a distance is made large. Equal "
-               "arguments\n"
-               "with --steps give equal sets, on any number of threads; after a time limit the row says how many "
-               "steps were\n"
-               "done, and --steps with that number gives the set again. FILE holds the best set at any moment: the "
-               "search may\n"
-               "be ended by Ctrl-C (exit code 130) or a kill, and --from FILE goes on.\n"
-               "--keep latin only changes which coordinates go together; --keep net leaves each in its interval of "
-               "length 1/n.\n"
-               "--keep sequence changes the generator matrices of a digital sequence in base 2; the value is the "
-               "geometric mean\n"
-               "of the measure over its first 2, 4, .., n points, and FILE is one that net-file:FILE reads. Under "
-               "mpirun the\n"
-               "ranks share the work.",
+    .synopsis = "MEASURE -n N [-d DIM] [--from FILE] [--keep WHAT] [--projections LIST] [--steps K] -o FILE | "
+                "--scene SCENE -n SPP [--held-out SCENE,..] [--against PATTERN,..] -o FILE",
+    .details =
+        "MEASURE is any with exact values, such as star or l2-disk:law=area; a distance is made large. Equal "
+        "arguments\n"
+        "with --steps give equal sets, on any number of threads; after a time limit the row says how many "
+        "steps were\n"
+        "done, and --steps with that number gives the set again. FILE holds the best set at any moment: the "
+        "search may\n"
+        "be ended by Ctrl-C (exit code 130) or a kill, and --from FILE goes on.\n"
+        "--keep latin only changes which coordinates go together; --keep net leaves each in its interval of "
+        "length 1/n.\n"
+        "--keep sequence changes the generator matrices of a digital sequence in base 2; the value is the "
+        "geometric mean\n"
+        "of the measure over its first 2, 4, .., n points, and FILE is one that net-file:FILE reads. Under "
+        "mpirun the\n"
+        "ranks share the work.\n"
+        "--scene SCENE renders: candidates by L2 discrepancies with the weights of x, y and both in the scene, "
+        "shifted, are\n"
+        "eliminated by the intervals of koksma rank; the best is compared with listed patterns there and in "
+        "held-out scenes.\n"
+        "gain: 1 - its error / theirs, with 95 % in each scene; shrinks_by: the gain in SCENE less that. Exit code "
+        "1: "
+        "on average\n"
+        "there is no gain in the held-out scenes.",
     .examples = "koksma optimise star -n 64 --time-limit 60 -o best.txt\n"
                 "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
                 "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n"
                 "koksma optimise star -n 256 --keep sequence --steps 4 -o net.txt\n"
-                "koksma measure pattern:net-file:net.txt@64 -m star\n",
+                "koksma measure pattern:net-file:net.txt@64 -m star\n"
+                "koksma optimise --scene ball -n 16 -o ball.txt\n"
+                "koksma render ball -p file:ball.txt --spp 16 -o ball.png\n",
     .options = options,
     .run = run,
 };

@@ -274,6 +274,9 @@ typedef struct koksma_rank_options {
     void *render_context;
     const char *reference; /* with `render`: the pattern of the reference, whose pictures have the true mean and
                               depend on their seed; NULL: the first pattern */
+    bool
+        best_only; /* end when the pattern with the least error is decided: without advice, checks at other sizes, and the order
+                       of the others */
 } koksma_rank_options;
 
 /* Whether a pattern was ranked. */

@@ -38,7 +38,19 @@ class Optimise(unittest.TestCase):
         kept = koksma.optimise("l2-centered", start=start, keep="latin", steps=1).points
         np.testing.assert_array_equal(np.sort(kept, axis=0), np.sort(start, axis=0))
 
+    def test_sequences_and_projections(self):
+        best = koksma.optimise("star", 16, keep="sequence", steps=1)
+        values = [float(koksma.measure(best.points[:n], "star")) for n in (2, 4, 8, 16)]
+        self.assertAlmostEqual(best.value, float(np.prod(values)) ** 0.25, 12)
+        best = koksma.optimise("l2-star", 8, projections=[(0,), (1,), (0, 1)], weights=[1, 2, 5], steps=1)
+        squares = [float(koksma.measure(best.points[:, u], "l2-star")) ** 2 for u in ([0], [1], [0, 1])]
+        self.assertAlmostEqual(best.value, float(np.dot([1, 2, 5], squares) / 8) ** 0.5, 12)
+
     def test_errors(self):
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.optimise("l2-star", 8, projections=[(0,), (1,)], weights=[1], steps=1)
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.optimise("l2-star", 8, projections=[(5,)], steps=1)
         for arguments in ({"keep": "all", "n": 4, "steps": 1}, {"steps": 1}, {"n": 4}, {"n": 0, "steps": 1}):
             with self.assertRaises(koksma.ArgumentError):
                 koksma.optimise("star", **arguments)

@@ -357,6 +357,9 @@ static koksma_status do_sequence(ranking *r, koksma_ranking *out)
     koksma_status status = koksma__contest_try_patterns(c);
     status = status ? status : nobody_can_serve(c);
     status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_LEADER);
+    if (r->options->best_only) {
+        return status ? status : nobody_can_serve(c);
+    }
     status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_ADVISED);
     status = status ? status : nobody_can_serve(c);
     for (int i = 0; !status && check_sizes(r->options) && checked(c) != NOBODY && i < KOKSMA_RANK_CHECKS; i++) {
