@@ -19,8 +19,8 @@ from ._datasheet import Datasheet, datasheet
 from ._display import load_ipython_extension, unload_ipython_extension
 from ._engine import Engine
 from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
-from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
-                       SystemError as SystemError, UnsupportedError)
+from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
+                       SystemError as SystemError, UnsupportedError, allow_exec)
 from ._optimise import Optimum, optimise
 from ._points import (Finding, Member, Modifier, Value, Witness, canonical, generate, has_ranges, measure, measures, modifiers, patterns,
                       read, verify, write)
@@ -33,10 +33,10 @@ from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
+    "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "ForbiddenError", "Finding",
     "Integrand", "Integration", "MalformedError", "Member", "MetricValue", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
     "Ranked", "Ranking", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
-    "Witness", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "has_ranges", "integrand", "integrands", "integrate", "measure", "measures",
+    "Witness", "allow_exec", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "has_ranges", "integrand", "integrands", "integrate", "measure", "measures",
     "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence",
     "rank", "read", "read_image", "render", "scenes", "sensitivity", "spectrum", "trials", "verify", "version", "write",
 ]
