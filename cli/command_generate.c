@@ -120,7 +120,9 @@ const cli_command cli_command_generate = {
     .details =
         "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'. Behind "
         "them\n"
-        "it takes modifiers, as in file:set.txt,shift=1; 'koksma list modifiers' says what each keeps.\n"
+        "it takes modifiers, as in file:set.txt,shift=1; 'koksma list modifiers' says what each keeps. A sampler of "
+        "your\n"
+        "own is exec:PROGRAM, run with n, dim and seed, or plugin:LIBRARY.so; both take --allow-exec.\n"
         "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N; all others "
         "are\n"
         "made whole in memory, where at most 2^28 coordinates fit.\n"

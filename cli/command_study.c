@@ -453,7 +453,7 @@ static int images(const cli_arguments *arguments)
 /* False after an error that names an option which this verb has no use for. */
 static bool takes_options(const cli_arguments *arguments, const char *own)
 {
-    static const char common[] = " threads progress quiet help ";
+    static const char common[] = " threads progress quiet allow-exec exec-seconds help ";
     for (int i = 0; arguments->command->options[i].name; i++) {
         char name[32];
         snprintf(name, sizeof name, " %s ", arguments->command->options[i].name);

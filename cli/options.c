@@ -232,6 +232,17 @@ static int read_shared_options(cli_arguments *arguments)
         }
         cli_set_style((int)digits, cli_flag(arguments, "long"));
     }
+    if (has_option(arguments->command, "allow-exec")) {
+        double seconds;
+        const bool allowed = cli_flag(arguments, "allow-exec");
+        if (!cli_real(arguments, "exec-seconds", 60, 1e-3, 86400, &seconds)) {
+            return CLI_USAGE;
+        }
+        if (!allowed && cli_text(arguments, "exec-seconds", NULL)) {
+            return cli_usage_error(arguments, "--exec-seconds takes --allow-exec");
+        }
+        koksma_allow_exec(allowed ? seconds : 0);
+    }
     return has_option(arguments->command, "patterns") && has_option(arguments->command, "n")
                ? cli_sources_expand(arguments)
                : CLI_YES;

@@ -160,7 +160,8 @@ static void statuses_keep_their_numbers(void **state)
                {KOKSMA_IO, 9, 4, "writing"},
                {KOKSMA_SYSTEM, 10, 4, "system"},
                {KOKSMA_UNSUPPORTED, 11, 2, "build"},
-               {KOKSMA_INTERRUPTED, 12, 130, "interrupted"}};
+               {KOKSMA_INTERRUPTED, 12, 130, "interrupted"},
+               {KOKSMA_FORBIDDEN, 13, 2, "code"}};
     assert_int_equal(sizeof all / sizeof *all, KOKSMA_STATUS_COUNT);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         assert_int_equal((int)all[i].status, all[i].number);

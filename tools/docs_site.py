@@ -22,6 +22,11 @@ PARTS = (("Koksma", "index.html", ""), ("Tutorial", "guide/tutorial.html", ""), 
          ("Python", "python/index.html", "python"), ("Findings", "findings/index.html", "findings"))
 
 
+def permitted(arguments):
+    """A command line that may run the samplers of the examples, where it names one."""
+    return [*arguments, "--allow-exec"] if re.search(r"\b(exec|plugin):", " ".join(arguments)) else list(arguments)
+
+
 class Program:
     """The program, run in the folder of the pictures; every picture and number keeps its command."""
 
@@ -31,7 +36,7 @@ class Program:
 
     def try_run(self, *arguments):
         """(stdout, None), or (None, the error's line)."""
-        done = subprocess.run([self.path, *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
+        done = subprocess.run([self.path, *permitted(arguments)], cwd=self.folder, capture_output=True, text=True, check=False)
         if done.returncode not in (0, 1):
             lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
             return None, re.sub(r"^koksma [a-z]+: ", "", lines[-1])
@@ -42,12 +47,12 @@ class Program:
         out, error = self.try_run(*arguments, "--json", *([] if arguments[0] == "list" else ["-q", "--threads", "1"]))
         if error:
             raise SystemExit(f"koksma {' '.join(arguments)}: {error}")
-        return [json.loads(line) for line in out.splitlines()], "koksma " + " ".join(arguments)
+        return [json.loads(line) for line in out.splitlines()], "koksma " + " ".join(permitted(arguments))
 
     def picture(self, name, *arguments, alt):
         """A figure with its command, or the reason why there is none."""
         _, error = self.try_run(*arguments, "-q", "--threads", "1", "-o", name)
-        command = html.escape("koksma " + " ".join(arguments + ("-o", name)))
+        command = html.escape("koksma " + " ".join(permitted(arguments + ("-o", name))))
         if error:
             return f"<p class='none'>No picture: {html.escape(error)}</p>"
         return (f"<figure><img src='../pictures/{name}' alt='{html.escape(alt, quote=True)}'>"

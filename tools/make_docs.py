@@ -11,6 +11,8 @@ import argparse
 import html
 import json
 import re
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -18,13 +20,15 @@ sys.dont_write_bytecode = True
 import docs_text as text
 from docs_guide import guide
 from docs_reference import c_reference, commands, python_reference
-from docs_site import ROOT, Program, Site, table
+from docs_site import ROOT, Program, Site, permitted, table
 from docs_tables import small_tables
 
 PLAIN = ("star", "l2-star", "extreme", "edge", "l2-periodic", "relative-radius")  # the columns of a pattern's page
 FILES = {  # what each pattern that reads a file (`koksma list patterns`) is shown with; file has points
     "file": ("from-elsewhere.csv", None),
     "lattice-file": ("vector.txt", "# lattice\n2 # dimensions\n1048576 # points\n1\n182667\n"),
+    "exec": ("./stratified.py", None),
+    "plugin": ("./lattice.so", None),
     "net-file": ("net.txt", "d s a m_i\n2 1 0 1\n"),
 }
 COMPARED = ("random", "jittered", "n-rooks", "sobol:scramble=owen")  # the curves of a chart
@@ -81,7 +85,7 @@ def taken(site, source, trials, names):
         arguments = ["measure", source, "--trials", trials, "-m", ",".join(names)]
         out, error = site.program.try_run(*arguments, "--json", "-q", "--threads", "1")
         if not error:
-            return [json.loads(line) for line in out.splitlines()], "koksma " + " ".join(arguments)
+            return [json.loads(line) for line in out.splitlines()], "koksma " + " ".join(permitted(arguments))
         if error.partition(":")[0] not in names:
             raise SystemExit(f"koksma {' '.join(arguments)}: {error}")
         names = [m for m in names if m != error.partition(":")[0]]
@@ -256,6 +260,9 @@ def main():
     pictures.mkdir(parents=True, exist_ok=True)
     program = Program(str(Path(arguments.program).resolve()), pictures, arguments.quick)
     program.try_run("generate", "r-sequence", "-n", "256", "-q", "-o", FILES["file"][0])
+    examples = ROOT / "examples/samplers"
+    shutil.copy(examples / FILES["exec"][0], pictures)
+    subprocess.run(["cc", "-shared", "-fPIC", "-I", ROOT / "include", "-o", pictures / FILES["plugin"][0], examples / "lattice.c"], check=True)
     for path, content in FILES.values():
         if content:
             (program.folder / path).write_text(content, encoding="utf-8")

@@ -30,7 +30,8 @@
  *              may be shared. A function that takes a koksma_run uses the threads that it allows; others use one.
  *   Bits       Equal arguments give equal bits for any number of threads, any instruction set and any locale; numbers
  *              in texts have a decimal point.
- *   Nothing    here prints, exits or keeps state between calls.
+ *   Nothing    here prints, exits or keeps state between calls but each thread's koksma_error_text() and
+ *              koksma_allow_exec().
  */
 #ifndef KOKSMA_KOKSMA_H
 #define KOKSMA_KOKSMA_H
@@ -229,6 +230,7 @@ struct koksma_pattern {
     /* Whether a point follows from its index alone with these parameters, so that koksma_generate_range serves it. NULL:
        with none. */
     bool (*ranges)(const double *params);
+    bool runs_code; /* it runs what its path names, after koksma_allow_exec */
 };
 
 /* A map of the cube to itself that every pattern accepts behind its own parameters. Several are applied in the order of
@@ -259,9 +261,16 @@ KOKSMA_API const koksma_pattern *koksma_pattern_find(const char *name);
      out   initialised by koksma_points_init with the n and dim that are wanted
    It never gives fewer points and always ends. Costs differ: most patterns take O(n dim), blue noise up to O(n^2).
    Errors: N, DIM, ARGUMENT (the pattern cannot serve this n, dim or parameter; the message says what would work),
-   IMPOSSIBLE (no such set exists, or none was found), MEMORY, INTERRUPTED; of a file MISSING and MALFORMED. */
+   IMPOSSIBLE (no such set exists, or none was found), MEMORY, INTERRUPTED; of a file MISSING and MALFORMED; of a pattern that
+   runs code these, FORBIDDEN and SYSTEM. */
 KOKSMA_API koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run,
                                          koksma_points *out);
+
+/* Allows the calling thread, and the threads that its calls start, to run what the patterns exec:PROGRAM and
+   plugin:LIBRARY name, wherever their spec comes from: a plan and a scene, too. Else they are FORBIDDEN.
+     seconds  the longest that a program may take for a set, up to 86400; 0, less or NaN: nothing is run, as at first
+   Returns what the thread allowed before. */
+KOKSMA_API double koksma_allow_exec(double seconds);
 
 /* Returns whether koksma_generate_range serves a pattern with these parameters. */
 KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);

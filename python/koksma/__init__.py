@@ -19,8 +19,8 @@ from ._datasheet import Datasheet, datasheet
 from ._display import load_ipython_extension, unload_ipython_extension
 from ._engine import Engine
 from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
-from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
-                       SystemError as SystemError, UnsupportedError)
+from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
+                       SystemError as SystemError, UnsupportedError, allow_exec)
 from ._optimise import Optimum, optimise
 from ._points import (Finding, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, measure, measures, modifiers,
                       patterns, read, verify, warps, write)
@@ -34,9 +34,12 @@ from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
-    "Integrand", "Integration", "Layers", "MalformedError", "Member", "MetricValue", "MissingError", "Modifier", "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
-    "Ranked", "Ranking", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
-    "Witness", "adaptive", "audit", "canonical", "compare", "convergence", "datasheet", "filters", "generate", "has_ranges", "integrand", "integrands", "integrate", "integrators", "measure", "measures",
-    "metrics", "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence",
-    "rank", "read", "read_image", "render", "scenes", "sensitivity", "spectrum", "trials", "verify", "version", "warps", "write", "write_image",
+    "ForbiddenError", "Integrand", "Integration", "Layers", "MalformedError", "Member", "MetricValue", "MissingError",
+    "Modifier", "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking",
+    "Sensitivity", "Share", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError",
+    "Value", "Witness", "adaptive", "allow_exec", "audit", "canonical", "compare", "convergence", "datasheet",
+    "filters", "generate", "has_ranges", "integrand", "integrands", "integrate", "integrators", "measure", "measures",
+    "metrics", "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare",
+    "plot_convergence", "rank", "read", "read_image", "render", "scenes", "sensitivity", "spectrum", "trials",
+    "verify", "version", "warps", "write", "write_image",
 ]

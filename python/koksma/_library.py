@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import re
+from contextlib import contextmanager
 from ctypes import POINTER, byref, c_bool, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache
 from operator import index
@@ -47,9 +48,14 @@ class UnsupportedError(Error, NotImplementedError):
     """Left out of this build, or not installed."""
 
 
+class ForbiddenError(Error, PermissionError):
+    """A pattern runs code of others; koksma.allow_exec() lets it."""
+
+
 # By the numbers of koksma/status.def, which never change.
 _CLASSES = (None, ArgumentError, ArgumentError, ArgumentError, ArgumentError, ArgumentError, MissingError,
-            MalformedError, OutOfMemoryError, SystemError, SystemError, UnsupportedError, KeyboardInterrupt)
+            MalformedError, OutOfMemoryError, SystemError, SystemError, UnsupportedError, KeyboardInterrupt,
+            ForbiddenError)
 
 
 def _places(name: str) -> Iterator[str]:
@@ -100,6 +106,7 @@ def core() -> ctypes.CDLL:
     _declare(library, POINTER(s.Modifier), "koksma_modifier_at", c_size_t)
     _declare(library, c_int, "koksma_generate", spec, c_uint64, run, points)
     _declare(library, c_bool, "koksma_has_ranges", spec)
+    _declare(library, c_double, "koksma_allow_exec", c_double)
     _declare(library, c_int, "koksma_generate_range", spec, c_uint64, c_uint64, c_uint64, run, points)
     _declare(library, c_int, "koksma_generate_whole", spec, c_uint64, run, c_int, points)
     _declare(library, None, "koksma_points_fini", points)
@@ -198,6 +205,24 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_coherence_add", coherence, image, image)
     _declare(library, None, "koksma_coherence_find", coherence, POINTER(s.CoherenceValues))
     return library
+
+
+@contextmanager
+def allow_exec(seconds: float = 60.0) -> Iterator[None]:
+    """Lets the patterns "exec:PROGRAM" and "plugin:LIBRARY" run code in a block, in this thread:
+
+        with koksma.allow_exec():
+            ranking = koksma.rank("ball", ["exec:./mysampler", "sobol"])
+
+    seconds: the longest that a program may take for one set.
+    """
+    if not seconds > 0:
+        raise ArgumentError(f"seconds {seconds}: it takes a number above 0")
+    before = core().koksma_allow_exec(seconds)
+    try:
+        yield
+    finally:
+        core().koksma_allow_exec(before)
 
 
 def check(status: int) -> None:

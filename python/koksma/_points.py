@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, spec, text, whole, without_zero
+from ._library import ArgumentError, allow_exec as allowing_exec, call, check, core, spec, text, whole, without_zero
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
@@ -229,7 +229,7 @@ def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes
 
 def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[SupportsIndex] = None,
              seed: SupportsIndex = 0, *, first: SupportsIndex = 0, threads: SupportsIndex = 0,
-             out: Optional[PointArray] = None) -> PointArray:
+             out: Optional[PointArray] = None, allow_exec: bool = False) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
@@ -238,9 +238,13 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     first: the number of the first point, of a sequence that has ranges (has_ranges): n points from there on.
     out: an aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one; n and dim may be left
     out, or are those of its shape.
+    allow_exec: run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
 
     Equal arguments give equal bits, and the same as `koksma generate`.
     """
+    if allow_exec:
+        with allowing_exec():
+            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out)
     parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
     first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)

@@ -5,7 +5,9 @@
 
 #include <string.h>
 
+#include "core/allow.h"
 #include "core/modifiers.h"
+#include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/spec.h"
 #include "core/status.h"
@@ -45,6 +47,19 @@ bool koksma__spec_is_deterministic(const koksma_spec *spec)
     return deterministic;
 }
 
+/* Who only tries a pattern's arguments, and stops at once, needs no permission. */
+static koksma_status check_permission(const koksma_spec *spec, const koksma_pattern *p, const koksma_run *run)
+{
+    if (!koksma__keep_going(run, 0)) {
+        return koksma__fail_interrupted();
+    }
+    KOKSMA__FAIL_IF(koksma__exec_seconds() <= 0, KOKSMA_FORBIDDEN,
+                    "%s:%s: it runs code of others; --allow-exec allows that (koksma_allow_exec in C, "
+                    "koksma.allow_exec in Python)",
+                    p->name, spec->path);
+    return KOKSMA_OK;
+}
+
 /* Points first .. first + out->n - 1 of the n of a set, or of a sequence, whose points do not depend on n. */
 static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, uint64_t seed, uint64_t n,
                               uint64_t first, const koksma_run *run, koksma_points *out)
@@ -54,6 +69,7 @@ static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, 
     args.first = first;
     KOKSMA__TRY(check_generate(spec, p, out->dim));
     KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
+    KOKSMA__TRY(p->runs_code ? check_permission(spec, p, run) : KOKSMA_OK);
     KOKSMA__TRY(p->generate(seed, &args, out));
     koksma__modify(spec->modifiers, seed, out);
     return KOKSMA_OK;

@@ -12,6 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "core/allow.h"
 #include "core/status.h"
 
 enum { MAX_THREADS = 256 };
@@ -26,6 +27,7 @@ typedef struct pool {
     pthread_mutex_t lock; /* guards what follows */
     pthread_cond_t ended; /* a helper has */
     int running;          /* helpers */
+    double exec_s;        /* what the caller's thread allows */
     char text[512];
 } pool;
 
@@ -78,6 +80,7 @@ static bool work_one(pool *p)
 static void *work(void *argument)
 {
     pool *p = argument;
+    koksma_allow_exec(p->exec_s);
     while (work_one(p)) {
     }
     pthread_mutex_lock(&p->lock);
@@ -121,6 +124,7 @@ koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__b
     pool p = {.f = f,
               .context = context,
               .n_blocks = n_blocks,
+              .exec_s = koksma__exec_seconds(),
               .lock = PTHREAD_MUTEX_INITIALIZER,
               .ended = PTHREAD_COND_INITIALIZER};
     pthread_t helpers[MAX_THREADS];

@@ -8,12 +8,12 @@ others=$(grep -nE '^ *# *(define|undef) +[A-Za-z_0-9]+' "$include"/koksma/* | gr
 [ -z "$others" ] || { echo "$others: no prefix KOKSMA_"; failed=1; }
 
 # A program that has a macro of every name that the headers put together or might use for a moment.
-names="X N OK DIM IO ARGUMENT UNKNOWN IMPOSSIBLE MISSING MALFORMED MEMORY SYSTEM UNSUPPORTED INTERRUPTED STATUS NAME"
+names="X N OK DIM IO ARGUMENT UNKNOWN IMPOSSIBLE MISSING MALFORMED MEMORY SYSTEM UNSUPPORTED INTERRUPTED FORBIDDEN STATUS NAME"
 for language in c c++; do
   {
     for name in $names; do echo "#define $name 4711 - 0"; done
     for header in "$include"/koksma/*.h; do echo "#include <koksma/$(basename "$header")>"; done
-    echo "typedef char all[2 * (sizeof(int) > 0 && KOKSMA_INTERRUPTED == 12 && KOKSMA_STATUS_COUNT == 13"
+    echo "typedef char all[2 * (sizeof(int) > 0 && KOKSMA_INTERRUPTED == 12 && KOKSMA_STATUS_COUNT == 14"
     for name in $names; do echo " && ($name) == 4711"; done
     echo ") - 1];"
     for name in $names KOKSMA_VERSION; do printf '#ifndef %s\n#error %s is gone\n#endif\n' "$name" "$name"; done

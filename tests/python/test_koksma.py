@@ -615,5 +615,25 @@ class Rendering(unittest.TestCase):
             koksma.render("/no/such.json")
 
 
+class Code(unittest.TestCase):
+    """exec: and plugin: run by the caller's word alone."""
+
+    def test_programs(self):
+        sampler = "exec:" + os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "samplers", "stratified.py")
+        with self.assertRaises(PermissionError) as refused:
+            koksma.generate(sampler, 8)
+        self.assertIsInstance(refused.exception, koksma.ForbiddenError)
+        points = koksma.generate(sampler, 8, 3, seed=5, allow_exec=True)
+        self.assertEqual(points.shape, (8, 3))
+        self.assertEqual(sorted((8 * points[:, 0]).astype(int)), list(range(8)))
+        with koksma.allow_exec(30):
+            np.testing.assert_array_equal(koksma.generate(sampler, 8, 3, seed=5), points)
+            threaded = threading.Thread(target=lambda: self.assertRaises(koksma.ForbiddenError, koksma.generate, sampler, 8))
+            threaded.start()
+            threaded.join()
+        self.assertRaises(koksma.ForbiddenError, koksma.generate, sampler, 8)
+        self.assertRaises(koksma.ArgumentError, lambda: koksma.allow_exec(0).__enter__())
+
+
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0]])

@@ -42,6 +42,7 @@ class Structs(unittest.TestCase):
         self.assertIs(_library._CLASSES[names.index("INTERRUPTED")], KeyboardInterrupt)
         self.assertIs(_library._CLASSES[names.index("MALFORMED")], _library.MalformedError)
         self.assertIs(_library._CLASSES[names.index("UNSUPPORTED")], _library.UnsupportedError)
+        self.assertIs(_library._CLASSES[names.index("FORBIDDEN")], _library.ForbiddenError)
 
 
 if __name__ == "__main__":

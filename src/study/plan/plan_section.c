@@ -57,10 +57,18 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return length < KOKSMA_MAX_SPEC ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "%.64s...: too long", text);
 }
 
-/* Whether a path may begin at `at`: after "file:" that is a whole text, or a single use's or group's (";lens=file:"). */
+/* Whether a path may begin at `at`: after a word such as "file:" that begins the text, or a single use's or group's
+   (";lens=file:"). */
 static bool begins_path(const char *text, const char *at)
 {
-    return at - text >= 5 && !strncmp(at - 5, "file:", 5) && (at - 5 == text || strchr("=;", at[-6]));
+    static const char *const words[] = {"file:", "exec:", "plugin:"};
+    bool found = false;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        const size_t length = strlen(words[i]);
+        found = found || ((size_t)(at - text) >= length && !strncmp(at - length, words[i], length) &&
+                          (at - length == text || strchr("=;", at[-(ptrdiff_t)length - 1])));
+    }
+    return found;
 }
 
 /* A relative path of a plan begins in the folder of the plan's file: *text, a scene's name or a pattern, becomes what
@@ -70,7 +78,7 @@ static koksma_status from_plan(const koksma__json_node *node, bool is_scene, cha
     const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
     const bool is_here = slash == name + 1 && *name == '.'; /* "./plan.json" */
     const size_t folder = slash && !is_here ? (size_t)(slash + 1 - name) : 0;
-    const bool is_path = is_scene ? strpbrk(*text, "/.") != NULL : strstr(*text, "file:") != NULL;
+    const bool is_path = is_scene ? strpbrk(*text, "/.") != NULL : strchr(*text, ':') != NULL;
     if (!folder || !is_path) {
         return KOKSMA_OK;
     }

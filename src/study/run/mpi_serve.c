@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/allow.h"
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 #include "core/status.h"
@@ -26,6 +27,7 @@ typedef struct server {
     const koksma__transport *mpi;
     int size, number; /* number: of the phase */
     koksma__run_state state;
+    double exec_s; /* what the caller's thread allows */
     /* For the serving thread alone: */
     koksma__request *requests; /* of each rank, the last */
     bool *ended;               /* ranks that know that the phase is over */
@@ -35,6 +37,7 @@ typedef struct server {
 static void *work_here(void *context)
 {
     server *s = context;
+    koksma_allow_exec(s->exec_s);
     koksma__work(&s->state, true);
     return NULL;
 }
@@ -221,8 +224,11 @@ static void close_server(server *s)
 koksma_status koksma__mpi_serve(koksma__phase *phase)
 {
     koksma__mpi *mpi = koksma__mpi_get();
-    server s = {
-        .phase = phase, .mpi = mpi->mpi, .size = mpi->size, .number = phase->tasks->n && phase->tasks->at[0].image};
+    server s = {.phase = phase,
+                .mpi = mpi->mpi,
+                .size = mpi->size,
+                .number = phase->tasks->n && phase->tasks->at[0].image,
+                .exec_s = koksma__exec_seconds()};
     pthread_t helper;
     koksma_status status = open_server(&s);
     if (status && !(s.requests && s.ended)) {

@@ -1,0 +1,248 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""file_programs.py PROGRAM FAULTS: patterns that run code, exec:PROGRAM and plugin:LIBRARY.
+
+Without --allow-exec no command runs them, whatever a spec, plan or stored study says: a marker file shows who ran. With it
+the examples take part as other patterns do, with the same results on any threads and ranks. Programs that hang, fork, print
+rubbish or too much, die or change their minds give one line and exit code 3; a mark in the environment, which every process
+below inherits, shows in /proc that none is left.
+"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import uuid
+
+import files
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+MARK = "KOKSMA_TEST_" + uuid.uuid4().hex
+os.environ[MARK] = "1"
+POINTS = "echo 0.1 0.2; echo 0.3 0.4"  # two points of two dimensions
+
+# NAME: what the program does, and words of the line.
+BAD = {
+    "hangs": ("sleep 1000", "ended after"),
+    "hangs_on": ("trap '' TERM INT HUP; while :; do sleep 1000; done", "ended after"),
+    "stopped": ("kill -STOP $$", "ended after"),
+    "closes": ("exec >&- 2>&-; sleep 1000", "ended after"),
+    "rubbish": ("echo '0.1 0.2'; echo 'here it is'", "line 2"),
+    "binary": ("head -c 4096 /dev/zero", "control character"),
+    "nothing": (":", "printed nothing"),
+    "few": ("echo 0.1 0.2", "printed 1 points"),
+    "many": (POINTS + "; echo 0.5 0.6", "printed 3 points"),
+    "flat": ("echo 0.1; echo 0.2", "1 dimensions"),
+    "edge": ("echo 0.1 0.2; echo 1 0.5", "coordinate of 1"),
+    "outside": ("echo 0.1 0.2; echo -0.1 0.5", "outside"),
+    "nan": ("echo 0.1 0.2; echo nan 0.5", "nan"),
+    "endless": ("while :; do echo 0.1 0.2; done", "prints more than"),
+    "torrent": ("cat /dev/zero", "prints more than"),
+    "fails": ("echo 'the disk is full' >&2; exit 3", "exit code 3: the disk is full"),
+    "escapes": ("printf 'a\\033[31mb\\n' >&2; exit 1", "exit code 1: a\\x1b[31mb"),
+    "mutters": ("yes 2>/dev/null | head -c 9000000 >&2; echo last >&2; exit 1", "exit code 1: last"),
+    "segv": (POINTS + "; kill -SEGV $$", "signal 11"),
+    "killed": (POINTS + "; kill -KILL $$", "signal 9"),
+    "clock": ("echo 0.1 0.2; echo 0.3 0.$(date +%N)1", "different points"),
+}
+# Programs with other processes: the points are right.
+FORKS = {
+    "background": "sleep 1000 & " + POINTS,
+    "session": "setsid sleep 1000 & " + POINTS,
+    "daemon": "setsid sh -c 'setsid sleep 1000 & sleep 1000 &' & " + POINTS,
+    "holds": POINTS + "; (sleep 1000) &",
+    "bomb": "for i in 1 2 3 4 5 6 7 8; do (sleep 1000 & setsid sleep 1000 & setsid sh -c 'sleep 1000; sleep 1000' &); done; " + POINTS,
+}
+PLUGIN = """#include <koksma/plugin.h>
+#include <stdio.h>
+static int good(uint64_t seed, size_t n, int dim, double *xs, char *reason)
+{ FILE *f = fopen("ran", "w"); fclose(f); for (size_t i = 0; i < n * (size_t)dim; i++) xs[i] = 0.25; return 0; }
+static int outside(uint64_t seed, size_t n, int dim, double *xs, char *reason) { for (size_t i = 0; i < n * (size_t)dim; i++) xs[i] = 1; return 0; }
+static int unwritten(uint64_t seed, size_t n, int dim, double *xs, char *reason) { xs[0] = 0.5; return 0; }
+static int fails(uint64_t seed, size_t n, int dim, double *xs, char *reason) { snprintf(reason, KOKSMA_PLUGIN_REASON, "only\\nprimes"); return 1; }
+static int moods(uint64_t seed, size_t n, int dim, double *xs, char *reason) { static double x; for (size_t i = 0; i < n * (size_t)dim; i++) xs[i] = x += 1e-3; return 0; }
+static const koksma_plugin all[] = {{1, "good", 1, 4, good}, {1, "outside", 1, 4, outside}, {1, "unwritten", 1, 4, unwritten},
+  {1, "fails", 1, 4, fails}, {1, "moods", 1, 4, moods}, {1, "none", 1, 4, NULL}};
+static const koksma_plugin other = {2, "other", 1, 4, good};
+const koksma_plugin *koksma_plugin_at(size_t i) { return i < 6 ? &all[i] : i == 6 ? &other : NULL; }
+"""
+
+
+def write_program(name, body, interpreter="/bin/sh"):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(f"#!{interpreter}\n{body}\n")
+    os.chmod(name, 0o755)
+
+
+def marked():
+    """The processes that have the mark, beside this one."""
+    found = []
+    for entry in os.listdir("/proc"):
+        if entry.isdigit() and int(entry) != os.getpid():
+            try:
+                with open(f"/proc/{entry}/environ", "rb") as file:
+                    found += [int(entry)] if MARK.encode() in file.read() else []
+            except OSError:
+                pass
+    return found
+
+
+def compile_plugin(source, out):
+    subprocess.run(["cc", "-shared", "-fPIC", "-w", "-O1", "-I", os.path.join(ROOT, "include"), "-o", out, source], check=True)
+
+
+def plan(pattern, **more):
+    return json.dumps({"name": "p", "title": "p", "discrepancies": [{"patterns": [pattern, "random"], "measures": ["l2-star"],
+                       "n": [2], "trials": 3}], **more})
+
+
+def check_permission(checks, program):
+    write_program("mark", "touch ran; " + POINTS)
+    with open("p.json", "w", encoding="utf-8") as file:
+        file.write(plan("exec:./mark"))
+    for spec in ("exec:./mark", "plugin:./p.so", "plugin:./p.so:good", "exec:./mark,shift=1"):
+        for command in (["generate", spec, "-n", "2"], ["measure", spec + "@2", "-m", "star"], ["integrate", "disk", spec + "@2"],
+                        ["verify", spec + "@2"], ["plot", spec + "@2", "-o", "o.svg"], ["generate", "-p", spec, "-n", "2"],
+                        ["curve", "power", spec + "@2"],
+                        ["render", "ball", "-p", spec, "-n", "2", "--size", "8x6", "-o", "o.pfm"],
+                        ["datasheet", spec, "--quick", "-o", "sheet.html"]):
+            done = files.run(program, *command)
+            checks.refused(" ".join(command), done, 2, "--allow-exec")
+    done = files.run(program, "rank", "ball", "-p", "exec:./mark,random", "--spp", "2", "--size", "8x6")
+    checks.check(b"--allow-exec" in done.out + done.err, f"rank: {done.out} {done.err}")
+    done = files.run(program, "study", "run", "p.json", "-o", "refused", "-q")
+    checks.check(done.code == 2 and b"--allow-exec" in done.err, f"study run: {done.code} {done.err}")
+    checks.refused("seconds alone", files.run(program, "generate", "random", "-n", "2", "--exec-seconds", "3"), 2, "--allow-exec")
+    checks.check(not os.path.exists("ran"), "a program or library ran without --allow-exec")
+
+
+def check_study(checks, program):
+    """A stored study: export and report without running, audit only with the word; any threads."""
+    figure = [{"id": "1", "title": "t", "pattern": "exec:./mark", "n": 2}]
+    with open("s.json", "w", encoding="utf-8") as file:
+        file.write(plan("exec:./mark", figures=figure))
+    done = files.run(program, "study", "run", "s.json", "-o", "one", "-q", "--threads", "1", "--allow-exec")
+    checks.check(done.code == 0 and os.path.exists("ran"), f"study run: {done.code} {done.err}")
+    done = files.run(program, "study", "run", "s.json", "-o", "four", "-q", "--threads", "4", "--allow-exec")
+    os.remove("ran")
+    rows = [files.run(program, "study", "export", folder) for folder in ("one", "four")]
+    checks.check(done.code == 0 and rows[0].out == rows[1].out and rows[0].out.count(b"exec:./mark") == 3, f"threads: {done.err} {rows[0].out}")
+    done = files.run(program, "study", "report", "one", "-q")
+    checks.check(done.code == 0, f"report: {done.code} {done.err}")
+    with open("one/report.html", encoding="utf-8") as file:
+        checks.check("takes --allow-exec" in file.read(), "the report does not say why it draws no points")
+    done = files.run(program, "study", "audit", "one", "--rows", "all", "-q")
+    checks.check(done.code != 0 and b"--allow-exec" in done.out + done.err, f"audit: {done.code} {done.out} {done.err}")
+    checks.check(not os.path.exists("ran"), "report, export or audit ran a program")
+    done = files.run(program, "study", "audit", "one", "--rows", "all", "-q", "--allow-exec")
+    checks.check(done.code == 0 and os.path.exists("ran"), f"audit --allow-exec: {done.code} {done.out} {done.err}")
+
+
+def check_ranks(checks, program):
+    allow = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    try:
+        version = files.run("mpirun", "-n", "1", program, "version", env=allow)
+    except FileNotFoundError:
+        return
+    if b"MPI: " not in version.out or b"MPI: left out" in version.out:
+        return
+    for options, code in (["--allow-exec"], 0), ([], 2):
+        done = files.run("mpirun", "-n", "3", program, "study", "run", "s.json", "-o", f"ranks{code}", "-q", *options, env=allow)
+        checks.check(done.code == code, f"ranks: {done.code} {done.err}")
+    rows = [files.run(program, "study", "export", folder) for folder in ("one", "ranks0")]
+    checks.check(rows[0].out == rows[1].out, "ranks give other rows than one process")
+    checks.check(b"exec" not in files.run(program, "study", "export", "ranks2").out, "ranks ran a program without --allow-exec")
+
+
+def check_bad(checks, program):
+    for name, (body, words) in BAD.items():
+        write_program(name, body)
+        seconds = "0.5" if words == "ended after" else "100"
+        done = files.run(program, "generate", f"exec:./{name}", "-n", "2", "--allow-exec", "--exec-seconds", seconds)
+        checks.refused(name, done, 3, f"exec:./{name}: ", words)
+        checks.check(not marked(), f"{name}: processes are left: {marked()}")
+    write_program("hog", "x = bytearray(16 << 30)", sys.executable)
+    checks.refused("hog", files.run(program, "generate", "exec:./hog", "-n", "2", "--allow-exec"), 3, "MemoryError")
+    with open("text", "w", encoding="utf-8") as file:
+        file.write("echo 0.1 0.2\n")
+    checks.refused("not executable", files.run(program, "generate", "exec:./text", "-n", "2", "--allow-exec"), 3, "ermission")
+    os.chmod("text", 0o755)
+    checks.refused("no #!", files.run(program, "generate", "exec:./text", "-n", "2", "--allow-exec"), 3, "#!")
+    checks.refused("missing", files.run(program, "generate", "exec:./absent", "-n", "2", "--allow-exec"), 3, "No such file")
+    checks.refused("a folder", files.run(program, "generate", "exec:.", "-n", "2", "--allow-exec"), 3, "ermission")
+    checks.refused("the search path", files.run(program, "generate", "exec:true", "-n", "2", "--allow-exec"), 3, "No such file")
+    for name, body in FORKS.items():
+        write_program(name, body)
+        done = files.run(program, "generate", f"exec:./{name}", "-n", "2", "--allow-exec")
+        checks.check(done.code == 0 and not marked(), f"{name}: {done.code} {done.err}, left: {marked()}")
+
+
+def check_signals(checks, program):
+    """Ctrl-C, and a caller that is killed: the keeper ends what runs."""
+    for number, code in (signal.SIGINT, 130), (signal.SIGKILL, -9):
+        if os.path.exists("started"):
+            os.remove("started")
+        write_program("starts", "setsid sleep 1000 & touch started; sleep 1000")
+        process = subprocess.Popen([program, "generate", "exec:./starts", "-n", "2", "--allow-exec", "--exec-seconds", "600"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not os.path.exists("started") and process.poll() is None:
+            time.sleep(0.01)
+        process.send_signal(number)
+        checks.check(process.wait() == code, f"{number}: {process.returncode}")
+        deadline = time.monotonic() + 300
+        while marked() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        checks.check(not marked(), f"{number}: processes are left: {marked()}")
+
+
+def check_plugins(checks, program):
+    run = lambda spec, *more: files.run(program, "generate", spec, "-n", "2", "--allow-exec", *more)
+    checks.check(run("plugin:./p.so").code == 0 and run("plugin:p.so:good").code == 0, "plugin: the good one")
+    for name, code, words in (("outside", 3, "is 1;"), ("unwritten", 3, "coordinate 1 of point 0"), ("fails", 2, "dim = 2: only"),
+                              ("moods", 3, "different points"), ("none", 3, "no function"), ("other", 3, "no function")):
+        checks.refused(name, run(f"plugin:./p.so:{name}"), code, words)
+    checks.refused("dimensions", run("plugin:./p.so", "-d", "5"), 2, "dim = 1 to 4")
+    with open("old.c", "w", encoding="utf-8") as file:
+        file.write(PLUGIN.replace("{1, \"good\"", "{7, \"good\""))
+    compile_plugin("old.c", "old.so")
+    checks.refused("version", run("plugin:./old.so"), 3, "version 7")
+    with open("empty.c", "w", encoding="utf-8") as file:
+        file.write("int nothing;\n")
+    compile_plugin("empty.c", "empty.so")
+    checks.refused("no entry", run("plugin:./empty.so"), 3, "koksma_plugin_at")
+    checks.refused("no library", run("plugin:./p.json"), 3, "can't be loaded")
+    checks.refused("missing", run("plugin:./absent.so"), 3, "no file")
+    checks.refused("not found by name", run("plugin:libm.so.6"), 3, "no file ./libm.so.6")
+
+
+def check_examples(checks, program):
+    examples = os.path.join(ROOT, "examples", "samplers")
+    compile_plugin(os.path.join(examples, "lattice.c"), "lattice.so")
+    for spec in (f"exec:{examples}/stratified.py", f"exec:{examples}/weyl.sh", "plugin:./lattice.so", "plugin:lattice.so:shifted"):
+        done = files.run(program, "generate", spec, "-n", "64", "-d", "3", "--seed", "9", "--allow-exec", "-o", "o.txt")
+        again = files.run(program, "measure", "o.txt", f"{spec}@64@3", "-m", "l2-star,star", "--json", "--allow-exec")
+        checks.check(done.code == 0 and again.code == 0 and again.out.count(b"value") == 4, f"{spec}: {done.err} {again.err}")
+        done = files.run(program, "render", "ball", "-p", f"{spec},shift=1", "-n", "4", "--size", "4x3", "-q", "--allow-exec", "-o", "o.pfm")
+        checks.check(done.code == 0, f"render {spec}: {done.err}")
+    done = files.run(program, "measure", "plugin:./lattice.so@64", "korobov:a=17@64", "-m", "l2-star", "--json", "--allow-exec")
+    values = [json.loads(line)["value"] for line in done.out.splitlines()]
+    checks.check(len(values) == 2 and values[0] == values[1], f"a lattice by both: {done.out} {done.err}")
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    checks = files.Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        with open("p.c", "w", encoding="utf-8") as file:
+            file.write(PLUGIN)
+        compile_plugin("p.c", "p.so")
+        for check in check_permission, check_study, check_ranks, check_bad, check_signals, check_plugins, check_examples:
+            check(checks, program)
+        os.chdir("/")
+    checks.end()
+
+
+main()
