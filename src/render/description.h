@@ -126,13 +126,13 @@ struct koksma_scene {
     koksma__mesh *meshes;
     koksma__placement *placements; /* of meshes */
     size_t n_materials, n_shapes, n_lights, n_meshes, n_placements;
-    bool grey;             /* no colour in it: images have one channel */
-    bool moves;            /* something depends on time */
-    bool is_model;         /* a bare mesh file: nobody wrote its materials for this program */
-    koksma__unread unread; /* of a bare mesh file */
+    bool grey;                /* no colour in it: images have one channel */
+    bool moves;               /* something depends on time */
+    bool is_model;            /* a bare mesh file: nobody wrote its materials for this program */
+    koksma__unread unread;    /* of a bare mesh file */
     koksma__unknown *unknown; /* of another renderer's scene */
     size_t n_unknown;
-    bool glows;            /* a placement with a material is a light, too */
+    bool glows; /* a placement with a material is a light, too */
     struct {
         size_t lights, shapes;
     } studio; /* how many of the last lights and shapes a bare mesh file got; each shape has one of the last materials */
