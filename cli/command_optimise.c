@@ -303,9 +303,7 @@ const cli_command cli_command_optimise = {
                 "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
                 "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n"
                 "koksma optimise star -n 256 --keep sequence --steps 4 -o net.txt\n"
-                "koksma measure pattern:net-file:net.txt@64 -m star\n"
-                "koksma optimise --scene ball -n 16 -o ball.txt\n"
-                "koksma render ball -p file:ball.txt --spp 16 -o ball.png\n",
+                "koksma optimise --scene ball -n 16 -o ball.txt\n",
     .options = options,
     .run = run,
 };
