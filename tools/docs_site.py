@@ -141,7 +141,7 @@ class Site:
 
     def explorer_link(self, name):
         """A pattern in the explorer."""
-        return f"<p><a href='../explorer.html#a={name}@16'>Try {name} in the explorer</a></p>" if self.explorer and name not in ("file", "lattice-file", "net-file", "exec", "plugin") else ""
+        return f"<p><a href='../explorer.html#a={name}@16'>Try {name} in the explorer</a></p>" if self.explorer and name not in ("file", "lattice-file", "net-file", "lattice-vector", "exec", "plugin") else ""
 
     def cite(self, keys, name, kind):
         """The references of a member as links, entered into the index of references."""
