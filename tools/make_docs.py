@@ -27,8 +27,9 @@ PLAIN = ("star", "l2-star", "extreme", "edge", "l2-periodic", "relative-radius")
 FILES = {  # what each pattern that reads a file (`koksma list patterns`) is shown with; file has points
     "file": ("from-elsewhere.csv", None),
     "lattice-file": ("vector.txt", "# lattice\n2 # dimensions\n1048576 # points\n1\n182667\n"),
+    "lattice-vector": ("1:182667", None),
     "exec": ("./stratified.py", None),
-    "plugin": ("./lattice.so", None),
+    "plugin": ("./rank1.so", None),
     "net-file": ("net.txt", "d s a m_i\n2 1 0 1\n"),
 }
 COMPARED = ("random", "jittered", "n-rooks", "sobol:scramble=owen")  # the curves of a chart
@@ -262,7 +263,7 @@ def main():
     program.try_run("generate", "r-sequence", "-n", "256", "-q", "-o", FILES["file"][0])
     examples = ROOT / "examples/samplers"
     shutil.copy(examples / FILES["exec"][0], pictures)
-    subprocess.run(["cc", "-shared", "-fPIC", "-I", ROOT / "include", "-o", pictures / FILES["plugin"][0], examples / "lattice.c"], check=True)
+    subprocess.run(["cc", "-shared", "-fPIC", "-I", ROOT / "include", "-o", pictures / FILES["plugin"][0], examples / "rank1.c"], check=True)
     for path, content in FILES.values():
         if content:
             (program.folder / path).write_text(content, encoding="utf-8")

@@ -19,21 +19,28 @@
  * always, and the smaller is taken, but for n = 12 and a few others below 30 (lattice.h); of others whose sums are
  * equal to the last bit, the smallest. Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9
  * (docs/findings/lattices.md). Time: O(dim n log n): 2^20 points in 10 dimensions take half a second, a prime number
- * of them hardly more. Memory beside the points: 28 n bytes for powers of two, up to 95 n for others.
+ * of them hardly more. order=Q counts only projections of up to Q coordinates, all of an order alike (finite-order weights, of
+ * the order-dependent ones of Cools, Kuo & Nuyens 2006): the product becomes its terms of up to Q factors; Q times 4 n bytes more. Memory beside the points: 28 n bytes for powers of two, up to 95 n for others.
  */
+
+#include <stdlib.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/lattice.h"
 
-enum { MAX_DIM = 256 };
+enum { MAX_DIM = 256, MOST_ORDER = 8 };
 
-static koksma_status search_all(koksma__lattice_search *search, int dim, uint64_t *z)
+/* sums: of koksma__lattice_extend_orders; NULL where all projections count. */
+static koksma_status search_all(koksma__lattice_search *search, int dim, int order, double *sums, uint64_t *z)
 {
     z[0] = 1;
     koksma_status status = dim > 1 ? koksma__lattice_second(search, &z[1]) : KOKSMA_OK;
     koksma__lattice_start(search);
+    for (size_t i = 1; sums && i <= search->n / 2; i++) {
+        sums[i * (size_t)order] = search->product[i];
+    }
     for (int k = 0; !status && k < dim; k++) {
         if (!koksma__keep_going(search->run, (double)k / dim)) {
             return koksma__fail_interrupted();
@@ -42,7 +49,11 @@ static koksma_status search_all(koksma__lattice_search *search, int dim, uint64_
             status = koksma__lattice_best(search, &z[k]);
         }
         if (!status && k < dim - 1) {
-            koksma__lattice_extend(search, z[k]);
+            if (sums) {
+                koksma__lattice_extend_orders(search, z[k], order, sums);
+            } else {
+                koksma__lattice_extend(search, z[k]);
+            }
         }
     }
     return status;
@@ -53,21 +64,35 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     (void)seed;
     uint64_t z[MAX_DIM] = {0};
     koksma_status status = KOKSMA_OK;
+    const int order = (int)args->params[0];
+    double *sums = NULL;
+    KOKSMA__FAIL_IF(order == 1, KOKSMA_ARGUMENT, "lattice-rank1: order=1: it takes 0, or 2 to %d", MOST_ORDER);
+    if (order) {
+        sums = calloc((out->n / 2 + 1) * (size_t)order, sizeof *sums);
+        KOKSMA__REQUIRE_MEMORY(sums, (out->n / 2 + 1) * (size_t)order * sizeof *sums);
+    }
     if (out->n > 1) {
         koksma__lattice_search search;
         status = koksma__lattice_open(&search, out->n, args->run);
-        status = status ? status : search_all(&search, out->dim, z);
+        status = status ? status : search_all(&search, out->dim, order, sums, z);
         koksma__lattice_close(&search);
     }
+    free(sums);
     return status ? status : koksma__fill_lattice(args->run, z, out);
 }
+
+static const koksma_param params[] = {
+    {"order", "only projections of up to so many coordinates count, 2 to 8; 0: all", 0, 0, MOST_ORDER, NULL, true},
+    {0},
+};
 
 const koksma_pattern koksma__pattern_lattice_rank1 = {
     .name = "lattice-rank1",
     .title = "rank-1 lattice built component by component for a low l2-wraparound",
-    .cite = "sloan2002 nuyens2006 nuyens2006a sloan1998 dick2013 hickernell1998",
+    .cite = "sloan2002 nuyens2006 nuyens2006a sloan1998 dick2013 cools2006 hickernell1998",
     .min_dim = 1,
     .max_dim = MAX_DIM,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE | KOKSMA_CLAIM_LATIN,
+    .params = params,
     .generate = generate,
 };

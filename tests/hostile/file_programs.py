@@ -219,14 +219,14 @@ def check_plugins(checks, program):
 
 def check_examples(checks, program):
     examples = os.path.join(ROOT, "examples", "samplers")
-    compile_plugin(os.path.join(examples, "lattice.c"), "lattice.so")
-    for spec in (f"exec:{examples}/stratified.py", f"exec:{examples}/weyl.sh", "plugin:./lattice.so", "plugin:lattice.so:shifted"):
+    compile_plugin(os.path.join(examples, "rank1.c"), "rank1.so")
+    for spec in (f"exec:{examples}/stratified.py", f"exec:{examples}/weyl.sh", "plugin:./rank1.so", "plugin:rank1.so:shifted"):
         done = files.run(program, "generate", spec, "-n", "64", "-d", "3", "--seed", "9", "--allow-exec", "-o", "o.txt")
         again = files.run(program, "measure", "o.txt", f"{spec}@64@3", "-m", "l2-star,star", "--json", "--allow-exec")
         checks.check(done.code == 0 and again.code == 0 and again.out.count(b"value") == 4, f"{spec}: {done.err} {again.err}")
         done = files.run(program, "render", "ball", "-p", f"{spec},shift=1", "-n", "4", "--size", "4x3", "-q", "--allow-exec", "-o", "o.pfm")
         checks.check(done.code == 0, f"render {spec}: {done.err}")
-    done = files.run(program, "measure", "plugin:./lattice.so@64", "korobov:a=17@64", "-m", "l2-star", "--json", "--allow-exec")
+    done = files.run(program, "measure", "plugin:./rank1.so@64", "korobov:a=17@64", "-m", "l2-star", "--json", "--allow-exec")
     values = [json.loads(line)["value"] for line in done.out.splitlines()]
     checks.check(len(values) == 2 and values[0] == values[1], f"a lattice by both: {done.out} {done.err}")
 

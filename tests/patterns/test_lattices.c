@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The searched lattices: their multipliers against a search of all in long double, that none comes twice, and that
    they integrate better than random points in many dimensions. test_lattice_errors.c has more points. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "test.h"
@@ -200,6 +201,140 @@ static void planar_multipliers_stay(void **state)
     }
 }
 
+/* The multipliers of the sequence, modulo 2^20: phi(2^19) = 2^-20. */
+static void sequence_multipliers(int dim, size_t *z)
+{
+    koksma_spec spec;
+    koksma_points point;
+    assert_ok(koksma_pattern_spec("lattice-sequence", &spec));
+    assert_ok(koksma_points_init(&point, 1, dim));
+    assert_ok(koksma_generate_range(&spec, 0, 0, 1 << 19, NULL, &point));
+    for (int k = 0; k < dim; k++) {
+        z[k] = (size_t)(point.xs[k] * 0x1p20);
+        assert_true(z[k] % 2 == 1 && (double)z[k] == point.xs[k] * 0x1p20);
+    }
+    koksma_points_fini(&point);
+}
+
+/* The first 2^m points are {i z / 2^m}; none of the multipliers comes twice. */
+static void embedded_lattices(void **state)
+{
+    (void)state;
+    const int dim = koksma_pattern_find("lattice-sequence")->max_dim;
+    size_t z[MAX_DIM];
+    sequence_multipliers(dim, z);
+    for (int k = 0; k < dim; k++) {
+        assert_false(is_among(z[k], 1 << 20, z, k));
+    }
+    for (size_t n = 1; n <= 1024; n *= 2) {
+        koksma_points points = test_points("lattice-sequence", n, dim, 0);
+        bool *seen = calloc(n, sizeof *seen);
+        assert_non_null(seen);
+        for (size_t p = 0; p < n; p++) {
+            const double *x = points.xs + p * (size_t)dim;
+            const size_t i = (size_t)(x[0] * (double)n);
+            assert_false(seen[i]);
+            seen[i] = true;
+            for (int k = 0; k < dim; k++) {
+                assert_true(x[k] == (double)(i * z[k] % n) / (double)n);
+            }
+        }
+        free(seen);
+        koksma_points_fini(&points);
+    }
+}
+
+/* What being good for all powers of two costs, against the best for each alone. */
+static void embedded_lattices_are_good(void **state)
+{
+    (void)state;
+    static const int dims[] = {2, 3, 5, 10};
+    for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
+        for (size_t n = 16; n <= 4096; n *= 2) {
+            koksma_points best = test_points("lattice-rank1", n, dims[d], 0);
+            koksma_points embedded = test_points("lattice-sequence", n, dims[d], 0);
+            const double ratio =
+                test_measure("l2-wraparound", &embedded).value / test_measure("l2-wraparound", &best).value;
+            if (!(ratio > 0.9 && ratio <= 1.4)) {
+                fail_msg("n = %zu, dim = %d: %.3f times the best", n, dims[d], ratio);
+            }
+            koksma_points_fini(&best);
+            koksma_points_fini(&embedded);
+        }
+    }
+}
+
+static void vectors_of_specs(void **state)
+{
+    (void)state;
+    koksma_points points = test_points("lattice-vector:1:182667:0:77", 55, 4, 0);
+    static const size_t z[] = {1, 182667, 0, 77};
+    for (size_t c = 0; c < 4 * 55; c++) {
+        assert_true(points.xs[c] == (double)(c / 4 * z[c % 4] % 55) / 55);
+    }
+    koksma_points_fini(&points);
+    static const char *const wrong[] = {":", "1:", "1::2", "x", "1:-2", "1: 2", "1;2", "4503599627370496"};
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+        char text[64];
+        koksma_spec spec;
+        snprintf(text, sizeof text, "lattice-vector:%s", wrong[w]);
+        assert_ok(koksma_pattern_spec(text, &spec));
+        assert_ok(koksma_points_init(&points, 5, 1));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_ARGUMENT);
+        koksma_points_fini(&points);
+    }
+    koksma_spec spec;
+    assert_ok(koksma_pattern_spec("lattice-vector:1:5", &spec));
+    assert_ok(koksma_points_init(&points, 5, 3));
+    assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_DIM);
+    koksma_points_fini(&points);
+}
+
+/* error_of with the products of up to `order` factors alone: elementary symmetric polynomials. */
+static long double error_of_order(size_t n, const size_t *z, int dim, int order)
+{
+    long double sum = 0;
+    for (size_t i = 1; i < n; i++) {
+        long double e[9] = {1};
+        for (int k = 0; k < dim; k++) {
+            const long double x = (long double)(i * z[k] % n) / (long double)n, term = 0.75L * (x * x - x + 1.0L / 6);
+            for (int l = order; l > 0; l--) {
+                e[l] += term * e[l - 1];
+            }
+        }
+        for (int l = 0; l <= order; l++) {
+            sum += e[l];
+        }
+    }
+    return sum;
+}
+
+static void components_of_an_order_are_the_best(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {5, 16, 31, 64, 67, 80, 101};
+    for (int order = 2; order <= 3; order++) {
+        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+            const size_t n = counts[c];
+            size_t z[7], other[7];
+            multipliers(order == 2 ? "lattice-rank1:order=2" : "lattice-rank1:order=3", n, 7, z);
+            for (int k = 1; k < 7; k++) {
+                long double least = HUGE_VALL;
+                memcpy(other, z, sizeof z);
+                for (other[k] = 1; other[k] < n; other[k]++) {
+                    least = common_divisor(other[k], n) == 1 ? fminl(least, error_of_order(n, other, k + 1, order))
+                                                             : least;
+                }
+                assert_near((double)error_of_order(n, z, k + 1, order), (double)least, 1e-13 * (double)n);
+            }
+        }
+    }
+    size_t all[5], limited[5];
+    multipliers("lattice-rank1", 1021, 5, all);
+    multipliers("lattice-rank1:order=8", 1021, 5, limited);
+    assert_memory_equal(all, limited, sizeof all);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -209,6 +344,10 @@ int main(void)
         cmocka_unit_test(multipliers_are_distinct),
         cmocka_unit_test(many_dimensions_are_better_than_random),
         cmocka_unit_test(planar_multipliers_stay),
+        cmocka_unit_test(embedded_lattices),
+        cmocka_unit_test(embedded_lattices_are_good),
+        cmocka_unit_test(vectors_of_specs),
+        cmocka_unit_test(components_of_an_order_are_the_best),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

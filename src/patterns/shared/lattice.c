@@ -172,6 +172,21 @@ double koksma__lattice_extend(koksma__lattice_search *s, uint64_t z)
     return sum;
 }
 
+void koksma__lattice_extend_orders(koksma__lattice_search *s, uint64_t z, int order, double *sums)
+{
+    uint64_t numerator = 0;
+    for (size_t i = 1; i <= s->n / 2; i++) {
+        double *of = sums + i * (size_t)order, all = 0;
+        numerator = next(numerator, z, s->n);
+        const double term = 0.75 * bernoulli(numerator, s->n);
+        for (int l = order - 1; l > 0; l--) {
+            of[l] += term * of[l - 1];
+            all += of[l];
+        }
+        s->product[i] = all + of[0];
+    }
+}
+
 koksma_status koksma__lattice_value(koksma__lattice_search *s, double *window)
 {
     *window = 0;

@@ -35,6 +35,11 @@ void koksma__lattice_close(koksma__lattice_search *search);
 void koksma__lattice_start(koksma__lattice_search *search);
 double koksma__lattice_extend(koksma__lattice_search *search, uint64_t z);
 
+/* The same with weights of projections of up to `order` coordinates alone: what a further coordinate multiplies is the
+   sum of the elementary symmetric polynomials of degree 0 to order - 1 of the terms so far. sums: (n/2 + 1) order numbers,
+   at i * order those of i, at first 1 in degree 0 (koksma__lattice_start's number) and 0. */
+void koksma__lattice_extend_orders(koksma__lattice_search *search, uint64_t z, int order, double *sums);
+
 /* What each z would add, in search->values: infinity at those that have a divisor in common with n. *window: those
    up to so much above the least may be the least. For few points, all are 0; units says only which have a divisor. */
 koksma_status koksma__lattice_value(koksma__lattice_search *search, double *window);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Two samplers as a shared library, for the patterns plugin:./lattice.so and plugin:./lattice.so:shifted: the rank-1 lattice
+ * Two samplers as a shared library, for the patterns plugin:./rank1.so and plugin:./rank1.so:shifted: the rank-1 lattice
  * with the vector (1, 17, 17^2, ...), and the same shifted by a hash of the seed.
  *
- *     cc -shared -fPIC -O2 -o lattice.so lattice.c
- *     koksma measure plugin:./lattice.so@64 plugin:./lattice.so:shifted@64 -m l2-star --allow-exec
+ *     cc -shared -fPIC -O2 -o rank1.so rank1.c
+ *     koksma measure plugin:./rank1.so@64 plugin:./rank1.so:shifted@64 -m l2-star --allow-exec
  */
 #include <koksma/plugin.h>
 
