@@ -106,6 +106,22 @@ static koksma_status walk_scene(graph *s)
 
 /* ---- Lights and cameras ------------------------------------------------------------------------------------- */
 
+/* A spot's angles. */
+static koksma_status take_cone(const field *from, koksma__file_light *light)
+{
+    static const char *const spot[] = {"spot", NULL};
+    field f;
+    light->outer = M_PI / 4;
+    if (!koksma__gltf_find(from, spot, &f)) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__json_get_number(&f, "outerConeAngle", false, 0, M_PI, &light->outer));
+    KOKSMA__TRY(koksma__json_get_number(&f, "innerConeAngle", false, 0, M_PI, &light->inner));
+    light->outer = fmin(fmax(light->outer, 0.01), M_PI / 2);
+    light->inner = fmin(light->inner, light->outer);
+    return KOKSMA_OK;
+}
+
 /* The node's light, if it has one (KHR_lights_punctual). */
 static koksma_status take_light(const graph *s, size_t i, const field *node)
 {
@@ -131,6 +147,8 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
     light->far_away = !strcmp(type, "directional");
     KOKSMA__JSON_FAIL_IF(!status && !light->far_away && strcmp(type, "point") != 0 && strcmp(type, "spot") != 0,
                          &from, "no lights of type '%.32s' are read", type);
+    light->is_spot = !strcmp(type, "spot");
+    status = status || !light->is_spot ? status : take_cone(&from, light);
     for (int k = 0; k < 3; k++) {
         light->colour[k] = intensity * colour[k];
     }

@@ -56,9 +56,10 @@ typedef struct koksma__file_placement {
     double matrix[12];
 } koksma__file_placement;
 
-/* A light at a node: a point at its origin, or, far_away, parallel light down its -z. */
+/* A light at a node: a point at its origin, or a spot, which shines down its -z; or, far_away, parallel light down its -z. */
 typedef struct koksma__file_light {
-    bool far_away;
+    bool far_away, is_spot;
+    double outer, inner;          /* angles of a spot's cone, in radians */
     double colour[3], matrix[12]; /* colour times intensity; the node's matrix */
 } koksma__file_light;
 

@@ -360,15 +360,21 @@ static koksma_status build_light(builder *build, size_t i)
     const koksma__file_light *from = (koksma__file_light *)build->file->lights.items + i;
     koksma__light *to = NULL;
     KOKSMA__TRY(koksma__scene_add_light(build->scene, &to));
-    to->kind = from->far_away ? &koksma__light_directional : &koksma__light_point;
+    to->kind = from->far_away  ? &koksma__light_directional
+               : from->is_spot ? &koksma__light_spot
+                               : &koksma__light_point;
+    if (from->is_spot) {
+        to->values[0] = from->outer * 360 / TURN;
+        to->values[1] = 1 - from->inner / from->outer;
+    }
     transform(from->matrix, origin, 1, to->centre);
     transform(from->matrix, ahead, 0, to->normal);
     for (int k = 0; k < 3; k++) {
         to->radiance[k] = from->colour[k];
     }
     dim(build, to->radiance);
-    KOKSMA__FAIL_IF(!within(to->centre, FAR) || (from->far_away && !koksma__normalise(to->normal)), KOKSMA_MALFORMED,
-                    "light %zu has a coordinate beyond 1e6 or a direction of length 0", i);
+    KOKSMA__FAIL_IF(!within(to->centre, FAR) || ((from->far_away || from->is_spot) && !koksma__normalise(to->normal)),
+                    KOKSMA_MALFORMED, "light %zu has a coordinate beyond 1e6 or a direction of length 0", i);
     return KOKSMA_OK;
 }
 
