@@ -13,7 +13,7 @@
 #   make check       for daily work, under 2 minutes from a warm build: unit tests, claims of the patterns that changed,
 #                    tests of the directories that changed, lint; BASE=main: changed since that branch
 #   make test        everything, as continuous integration runs it: with gcc and sanitizers, then with clang (10 to 15 minutes)
-#   make bench       print speeds, each beside a competitor's
+#   make bench       print a table of speeds beside peers and an older commit (bench/speed.py), in about 10 minutes
 #   make clean       remove build/ and demo/
 #
 #   Release
