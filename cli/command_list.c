@@ -233,14 +233,16 @@ static void list_parameters_of(cli_rows *rows, const char *member, const koksma_
     }
 }
 
+/* Those of all members that this function finds. */
+#define PARAMETERS_OF(at)                                                                                            \
+    for (size_t i = 0; at(i); i++) {                                                                                 \
+        list_parameters_of(rows, at(i)->name, at(i)->params);                                                        \
+    }
+
 static void list_parameters(cli_rows *rows)
 {
     const koksma_pattern *p;
     const koksma_modifier *x;
-    const koksma_measure *m;
-    const koksma_integrand *f;
-    const koksma_adaptive *a;
-    const koksma_metric *metric;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         if (p->takes_path) {
             cli_row_text(rows, "of", p->name);
@@ -256,18 +258,10 @@ static void list_parameters(cli_rows *rows)
         const koksma_param one[] = {{x->name, x->title, 0, x->min > 1 ? x->min : 0, x->max, NULL, true}, {0}};
         list_parameters_of(rows, "any pattern", one);
     }
-    for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
-        list_parameters_of(rows, m->name, m->params);
-    }
-    for (size_t i = 0; (f = koksma_integrand_at(i)); i++) {
-        list_parameters_of(rows, f->name, f->params);
-    }
-    for (size_t i = 0; (a = koksma_adaptive_at(i)); i++) {
-        list_parameters_of(rows, a->name, a->params);
-    }
-    for (size_t i = 0; (metric = koksma_metric_at(i)); i++) {
-        list_parameters_of(rows, metric->name, metric->params);
-    }
+    PARAMETERS_OF(koksma_measure_at)
+    PARAMETERS_OF(koksma_integrand_at)
+    PARAMETERS_OF(koksma_adaptive_at)
+    PARAMETERS_OF(koksma_metric_at)
 }
 
 static const struct {

@@ -215,4 +215,16 @@ static inline double chi_square(const sphere_cells *t, double *limit)
     return sum;
 }
 
+/* Two axes that make an orthonormal frame with the unit vector n (Duff et al. 2017). */
+static inline void frame3(const float n[3], float u[3], float v[3])
+{
+    const float sign = copysignf(1, n[2]), a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
+    u[0] = 1 + sign * n[0] * n[0] * a;
+    u[1] = sign * b;
+    u[2] = -sign * n[0];
+    v[0] = b;
+    v[1] = sign + n[1] * n[1] * a;
+    v[2] = -n[1];
+}
+
 #endif

@@ -34,18 +34,6 @@ static inline float koksma__luminance3(const float v[3])
     return 0.2126f * v[0] + 0.7152f * v[1] + 0.0722f * v[2];
 }
 
-/* Two axes that make an orthonormal frame with the unit vector n (Duff et al. 2017). */
-static inline void koksma__frame3(const float n[3], float u[3], float v[3])
-{
-    const float sign = copysignf(1, n[2]), a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
-    u[0] = 1 + sign * n[0] * n[0] * a;
-    u[1] = sign * b;
-    u[2] = -sign * n[0];
-    v[0] = b;
-    v[1] = sign + n[1] * n[1] * a;
-    v[2] = -n[1];
-}
-
 /* The mirror image of the direction w (towards the eye) at the unit normal n. */
 static inline void koksma__mirror3(const float w[3], const float n[3], float out[3])
 {

@@ -34,6 +34,8 @@ while read -r command; do
     *.obj*) [ "$meshes" -eq 1 ] && command="$command --size 32x32 -q" || command=true ;;
     'koksma verify '*) command="$command || [ \$? -eq 1 ]" ;; # "no" is an answer
     'koksma manual '*) command -v man >/dev/null || command=true ;;
+    'koksma optimise --scene '*)
+      command="$command --candidates 2 --phases 1 --max-trials 8 --size 16x12 --held-out checker --against random,jittered" ;;
     'koksma optimise '*) command=$(echo "$command" | sed 's/--time-limit [0-9]*/--steps 2/') ;;
     'koksma render '*) command="$command --size 32x32 -q" ;;
   esac

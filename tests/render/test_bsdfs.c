@@ -75,7 +75,7 @@ static koksma__surface surface_of(const koksma__shading_material *m, uint64_t st
     const double u = draw(stream, 8000 + i), v = draw(stream, 9000 + i);
     const double cosine = u < 0.2 ? 1 : u < 0.4 ? 0.02 + 0.2 * v : 0.05 + 0.95 * v, sine = sqrt(1 - cosine * cosine);
     draw_unit(stream, 10000 + i, s.n);
-    koksma__frame3(s.n, side, other);
+    frame3(s.n, side, other);
     for (int k = 0; k < 3; k++) {
         s.out[k] = (float)(cosine * (double)s.n[k] + sine * (double)side[k]);
         s.albedo[k] = m->albedo[u < 0.7][k];
@@ -159,7 +159,7 @@ static void check_density(const koksma__surface *s, unsigned lobes, uint64_t str
     size_t n = 0, kept = 0;
     assert_non_null(points);
     memcpy(t.axis, s->n, sizeof t.axis);
-    koksma__frame3(t.axis, t.u, t.v);
+    frame3(t.axis, t.u, t.v);
     for (uint64_t i = 0; i < SAMPLES; i++) {
         koksma__scatter out;
         if (sample_of(s, lobes, stream, i, &out)) {

@@ -215,7 +215,7 @@ static void set_view(const koksma__lights *lights, int number, uint64_t stream, 
         v->n[k] = -away[k] + 0.5f * (float)(draw(stream, 70 + (uint64_t)k) - 0.5);
     }
     koksma__unit3(v->n);
-    koksma__frame3(v->axis, v->u, v->v);
+    frame3(v->axis, v->u, v->v);
     if (l->kind->distance == KOKSMA__LIGHT_NEAR) {
         const double sine = 1.001 * (double)l->reach / distance;
         v->cosine = sqrt(1 - sine * sine);

@@ -26,9 +26,15 @@
 
 enum { MAX_PATH = 4096, HEADER = 100 };
 
+/* The system layer refers to the name until the file is closed. */
+typedef struct held_file {
+    char *name;
+    sqlite3_file file; /* and behind it what the system layer has of it */
+} held_file;
+
 struct koksma__database {
     sqlite3 *file;
-    sqlite3_file *lock;          /* to read: holds SQLite's shared lock */
+    held_file *lock;             /* to read: holds SQLite's shared lock */
     char *path;                  /* for errors */
     char real[MAX_PATH];         /* absolute: no name begins as a URI does */
     char uri[3 * MAX_PATH + 64]; /* by which it is read */
@@ -73,42 +79,44 @@ static koksma_status fail(koksma__database *database)
 
 /* ---- The file before SQLite ---------------------------------------------------------------------------- */
 
+static void close_file(held_file *held)
+{
+    if (held) {
+        if (held->file.pMethods) {
+            held->file.pMethods->xClose(&held->file);
+        }
+        sqlite3_free_filename(held->name);
+        sqlite3_free(held);
+    }
+}
+
 /* A file by SQLite's own system layer, which knows what else this process has open: closing a second descriptor of a
    file would end its locks (POSIX). */
-static koksma_status open_file(const char *path, sqlite3_file **out)
+static koksma_status open_file(const char *path, held_file **out)
 {
     sqlite3_vfs *vfs = sqlite3_vfs_find(NULL);
     int flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB;
-    sqlite3_file *file = sqlite3_malloc64((sqlite3_uint64)vfs->szOsFile);
-    const char *name = sqlite3_create_filename(path, "", "", 0, NULL);
+    const size_t size = offsetof(held_file, file) + (size_t)vfs->szOsFile;
+    held_file *held = sqlite3_malloc64(size);
     *out = NULL;
-    if (!file || !name) {
-        sqlite3_free(file);
-        sqlite3_free_filename((char *)name);
-        return koksma__fail_memory((size_t)vfs->szOsFile);
+    if (!held) {
+        return koksma__fail_memory(size);
     }
-    memset(file, 0, (size_t)vfs->szOsFile);
+    memset(held, 0, size);
+    held->name = (char *)sqlite3_create_filename(path, "", "", 0, NULL);
+    if (!held->name) {
+        close_file(held);
+        return koksma__fail_memory(size);
+    }
     errno = 0;
-    const int code = vfs->xOpen(vfs, name, file, flags, &flags);
+    const int code = vfs->xOpen(vfs, held->name, &held->file, flags, &flags);
     const int reason = errno;
-    sqlite3_free_filename((char *)name);
     if (code != SQLITE_OK) {
-        if (file->pMethods) {
-            file->pMethods->xClose(file);
-        }
-        sqlite3_free(file);
+        close_file(held);
         return koksma__fail(KOKSMA_IO, "%s: can't be read: %s", path, strerror(reason ? reason : EIO));
     }
-    *out = file;
+    *out = held;
     return KOKSMA_OK;
-}
-
-static void close_file(sqlite3_file *file)
-{
-    if (file) {
-        file->pMethods->xClose(file);
-        sqlite3_free(file);
-    }
 }
 
 /* Whether there is such a file, and how large it is; what is no plain file is refused, as a pipe would never end. */
@@ -141,7 +149,7 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
 {
     unsigned char bytes[HEADER];
     long long size;
-    sqlite3_file *file;
+    held_file *held;
     *header = (koksma__database_header){0};
     long long journal = 0;
     koksma_status status = look_at(path, &header->exists, &size);
@@ -155,14 +163,14 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
         header->has_journal = journal > 0;
     }
     status = status ? status
-             : real ? open_file(real, &file)
+             : real ? open_file(real, &held)
                     : koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(errno));
     free(real);
     if (status) {
         return status;
     }
-    const int code = file->pMethods->xRead(file, bytes, HEADER, 0);
-    close_file(file);
+    const int code = held->file.pMethods->xRead(&held->file, bytes, HEADER, 0);
+    close_file(held);
     KOKSMA__FAIL_IF(code != SQLITE_OK && code != SQLITE_IOERR_SHORT_READ, KOKSMA_IO, "%s: can't be read: %s", path,
                     strerror(EIO));
     KOKSMA__FAIL_IF(code != SQLITE_OK || memcmp(bytes, "SQLite format 3", 16) != 0, KOKSMA_MALFORMED,
@@ -178,7 +186,7 @@ static koksma_status lock_to_read(koksma__database *database)
 {
     koksma_status status = open_file(database->real, &database->lock);
     for (int waited = 0; !status; waited += LOOK_AGAIN_MS) {
-        const int code = database->lock->pMethods->xLock(database->lock, SQLITE_LOCK_SHARED);
+        const int code = database->lock->file.pMethods->xLock(&database->lock->file, SQLITE_LOCK_SHARED);
         if (code == SQLITE_OK) {
             return KOKSMA_OK;
         }
