@@ -140,7 +140,7 @@ static koksma_status find_format(const unsigned char *bytes, size_t size, const 
                 : koksma__fail(KOKSMA_MALFORMED, "empty");
 }
 
-static koksma_status check_start(const unsigned char *bytes, size_t size)
+koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size)
 {
     const koksma__image_format *format;
     return find_format(bytes, size, &format);
@@ -197,7 +197,7 @@ koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksm
     unsigned char *bytes;
     size_t size;
     *out = (koksma_image){0};
-    KOKSMA__TRY(koksma__read_file(path, kind, by, check_start, &bytes, &size));
+    KOKSMA__TRY(koksma__read_file(path, kind, by, koksma__image_check_start, &bytes, &size));
     const koksma_status status = koksma__image_read_bytes(bytes, size, kind, out);
     free(bytes);
     return status ? koksma__fail_in(status, path) : KOKSMA_OK;

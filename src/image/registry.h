@@ -20,6 +20,9 @@ typedef enum koksma__image_part {
 koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, koksma__image_part part,
                                       koksma_image *out);
 
+/* For koksma__read_file: whether a file begins as an image that is read. Errors: MALFORMED, UNSUPPORTED. */
+koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size);
+
 /* koksma_image_write of a file that the program names, below a folder (koksma__atomic_open). */
 koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
                                      const char *metadata);

@@ -50,7 +50,8 @@ static koksma_status read_texture(const builder *build, const koksma__file_textu
     if (!from->bytes) {
         KOKSMA__FAIL_IF(!koksma__find_named(build->file->path, from->name, full), KOKSMA_MALFORMED,
                         "%s: there is no such file", from->name);
-        KOKSMA__TRY(koksma__read_file(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, NULL, &bytes, &size));
+        KOKSMA__TRY(
+            koksma__read_file(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, koksma__image_check_start, &bytes, &size));
     }
     status = koksma__image_read_part(from->bytes ? from->bytes : bytes, size, part, image);
     status = status ? koksma__fail_in(status, from->bytes ? from->name : full) : KOKSMA_OK;
