@@ -150,7 +150,7 @@ void koksma__import_black_body(double kelvin, double rgb[3])
 
 bool koksma__import_metal(const char *name, double rgb[3])
 {
-    /* linear sRGB of the reflectance along the normal, from tables of refractive indices (Gulbrandsen 2014 has some) */
+    /* linear sRGB of the reflectance along the normal: rounded common values, not computed from spectra here */
     static const struct {
         const char *name;
         double rgb[3];

@@ -77,7 +77,7 @@ VALID = {
     "koksma_image_write_layers.n": "2", "koksma_image_check_finite.name": "\"image\"",
     "koksma_image_difference.out": "a_buffer(sizeof(koksma_image))", "koksma_coherence_init.coherence": "a_buffer(sizeof(koksma_coherence))",
     "koksma_coherence_init.width": "4", "koksma_coherence_init.height": "4", "koksma_coherence_fini.coherence": "a_zero(sizeof(koksma_coherence))",
-    "koksma_scene_open.name_or_path": "\"ball\"", "koksma_scene_warning.size": "256", "koksma_integrator_find.name": "\"whitted\"",
+    "koksma_scene_open.name_or_path": "\"ball\"", "koksma_scene_warning.size": "256", "koksma_scene_unknown.size": "256", "koksma_integrator_find.name": "\"whitted\"",
     "koksma_filter_find.name": "\"tent\"", "koksma_render_warning.size": "256", "koksma_layers_fini.layers": "a_zero(sizeof(koksma_layers))",
     "koksma_scene_close.scene": "open_scene()", "koksma_render.out": "a_buffer(sizeof(koksma_image))",
     "koksma_render_patterns.text": "\"random;pixel+time=scan-time\"",

@@ -96,14 +96,14 @@ measure pattern:n-r^ n-rooks
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
 study ^ run quick new estimate export report audit images
-study run ^ shirley1991 mitchell1992 open-questions FILES
-study estimate ^ shirley1991 mitchell1992 open-questions FILES
+study run ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
+study estimate ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 study export ^ FILES
 study export x --format ^ csv json npy sha256
 study export x --format=js^ json
 study images ^ FILES
 study images x --reference ^ FILES
-reproduce ^ shirley1991 mitchell1992 open-questions FILES
+reproduce ^ shirley1991 mitchell1992 open-questions literature-scenes FILES
 reproduce shirley1991 --table ^ all none
 reproduce shirley1991 -o ^ FILES
 list ^ patterns modifiers measures integrands claims properties warps curves scenes materials lights shapes formats integrators pipelines filters uses metrics adaptive methods records plans questions sections parameters
