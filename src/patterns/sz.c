@@ -84,10 +84,10 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     (void)seed;
     KOKSMA__TRY(koksma__range_fits("sz", args, out));
     const size_t bytes = (size_t)out->dim * BITS * sizeof(uint32_t);
-    uint32_t(*directions)[BITS] = malloc(bytes);
+    uint32_t(*directions)[BITS] = calloc(1, bytes);
     KOKSMA__REQUIRE_MEMORY(directions, bytes);
-    for (int d = 0; d < out->dim; d++) {
-        for (int b = 0; b < BITS; b++) {
+    for (int d = 0; d < out->dim; d++) { /* the columns that indices below first + n need */
+        for (int b = 0; b < BITS && (args->first + out->n - 1) >> b; b++) {
             directions[d][b] = column_of(d, b);
         }
     }
