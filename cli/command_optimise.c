@@ -261,7 +261,7 @@ static const cli_option options[] = {
     {'o', "output", "FILE.txt|.csv|.npy", "the best set, written anew after each gain"},
     {0, "scene", "SCENE", "a set for the error of this scene's image with -n samples a pixel, used as file:FILE"},
     {0, "held-out", "SCENE,..", "with --scene: scenes that decide (default: six of the library)"},
-    {0, "against", "PATTERN,..|all", "with --scene: patterns that it is compared with (default: 18)"},
+    {0, "against", "PATTERN,..|all", "with --scene: patterns that it is compared with (default: 17)"},
     {0, "candidates", "N", "with --scene: sets to choose from (default: 8)"},
     {0, "phases", "N", "with --scene: shifts on the torus of each set (default: 4)"},
     {0, "size", "WxH", "with --scene: pixels (default: the scene's, halved until at most 1,200)"},

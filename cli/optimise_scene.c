@@ -37,7 +37,7 @@ enum {
 static const char listed[] =
     "n-rooks,jittered,multi-jittered,correlated-multi-jittered,sobol,sobol:scramble=owen,"
     "halton:scramble=owen,pmj02,pmj02bn:levels=4,r-sequence:shift=1,hammersley,hammersley:shift=1,"
-    "fibonacci,fibonacci:shift=1,zaremba,regular,best-candidate,gaussian-blue-noise";
+    "fibonacci,fibonacci:shift=1,zaremba,regular,best-candidate";
 static const char scenes[] = "ball,balls,checker,checker-45,cornell,glossy,mirror-block";
 
 /* The sets that candidates are: of this process, for the pattern below, which is in no table. */

@@ -5,7 +5,7 @@
     tools/scene_sets.py build/release/koksma [SCENE] [SEED] >tables.md
 
 Runs `koksma optimise --scene SCENE -n 16` (default: ball, 0), which takes minutes of processor time, and prints what its rows say:
-the error of the set in the scene and in six that took no part, beside that of the best of 18 listed patterns there, and the gain
+the error of the set in the scene and in six that took no part, beside that of the best of 17 listed patterns there, and the gain
 with its interval of 95 %.
 """
 import json
