@@ -89,7 +89,7 @@ static int run(const cli_arguments *arguments)
         cli_work_end();
         return code;
     }
-    const bool given = cli_text(arguments, "dim", NULL) || !pattern->takes_path;
+    const bool given = cli_text(arguments, "dim", NULL) || !pattern->operand;
     points = (koksma_points){.dim = given ? (int)dim : 0};
     const koksma_status status = source.n ? koksma_points_init(&points, source.n, source.dim) : KOKSMA_OK;
     if (status) {

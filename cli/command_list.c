@@ -105,10 +105,14 @@ static const char *scene_title(const char *name)
     return title;
 }
 
-/* What the file is whose path its spec has: points, or the parameters of a rule that makes them. */
+/* What the text after the colon of its spec gives, itself or as the path of a file. */
 static const char *reads(const koksma_pattern *p)
 {
-    return !p->takes_path ? "-" : p->whole ? "points" : "parameters";
+    return !p->operand                  ? "-"
+           : p->whole                   ? "points"
+           : p->runs_code               ? "code"
+           : strcmp(p->operand, "PATH") ? "numbers"
+                                        : "parameters";
 }
 
 /* list_TABLE: a row for each x that `next` finds as item i: its name, what it is, and `columns`. */
@@ -244,10 +248,13 @@ static void list_parameters(cli_rows *rows)
     const koksma_pattern *p;
     const koksma_modifier *x;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
-        if (p->takes_path) {
+        if (p->operand) {
             cli_row_text(rows, "of", p->name);
-            cli_row_text(rows, "parameter", "PATH");
-            cli_row_text(rows, "what", "the file that it reads, behind the colon: NAME:PATH");
+            cli_row_text(rows, "parameter", p->operand);
+            cli_row_text(rows, "what",
+                         p->runs_code                 ? "what it runs, after the colon, with --allow-exec"
+                         : strcmp(p->operand, "PATH") ? "numbers, after the colon"
+                                                      : "the file that it reads, after the colon");
             cli_row_text(rows, "default", "-");
             cli_row_text(rows, "range", reads(p));
             cli_row_end(rows);

@@ -176,8 +176,8 @@ bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC])
         return cli_list_item(list, i, spec, KOKSMA_MAX_SPEC);
     }
     const koksma_pattern *pattern = koksma_pattern_at(0);
-    for (size_t at = 0; pattern && (pattern->takes_path || i > 0); pattern = koksma_pattern_at(++at)) {
-        i -= !pattern->takes_path;
+    for (size_t at = 0; pattern && (pattern->operand || i > 0); pattern = koksma_pattern_at(++at)) {
+        i -= !pattern->operand;
     }
     snprintf(spec, KOKSMA_MAX_SPEC, "%s", pattern ? pattern->name : "");
     return pattern;

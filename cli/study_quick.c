@@ -67,7 +67,7 @@ static void put_all_patterns(FILE *out)
     koksma_spec spec;
     fputs("\"patterns\": [", out);
     for (size_t i = 0, n = 0; (pattern = koksma_pattern_at(i)); i++) {
-        if (!pattern->takes_path && !koksma_pattern_spec(pattern->name, &spec) && is_named(&spec, pattern->name)) {
+        if (!pattern->operand && !koksma_pattern_spec(pattern->name, &spec) && is_named(&spec, pattern->name)) {
             fprintf(out, "%s\"%s\"", n++ ? ", " : "", pattern->name);
         }
     }

@@ -221,7 +221,7 @@ struct koksma_pattern {
     unsigned claims;
     const koksma_param *params; /* NULL: none */
     koksma_status (*generate)(uint64_t seed, const koksma_args *args, koksma_points *out);
-    bool takes_path;      /* the text after the colon of its spec is the path of a file */
+    const char *operand;  /* what the text after the colon of its spec is, as PATH; NULL: parameters */
     const char *alias_of; /* this entry is another name of that pattern; NULL: it is not */
     /* Allocates all points of a pattern whose parameters decide how many there are (koksma_generate_whole). out->dim
        is set by the caller; 0: any. Returns N where the parameters leave the number open. NULL for other patterns. */
@@ -230,7 +230,7 @@ struct koksma_pattern {
     /* Whether a point follows from its index alone with these parameters, so that koksma_generate_range serves it. NULL:
        with none. */
     bool (*ranges)(const double *params);
-    bool runs_code; /* it runs what its path names, after koksma_allow_exec */
+    bool runs_code; /* it runs what its operand names, after koksma_allow_exec */
 };
 
 /* A map of the cube to itself that every pattern accepts behind its own parameters. Several are applied in the order of

@@ -142,7 +142,7 @@ def table(at: object) -> List[Member]:
             i += 1
         claims = tuple(name for bit, name in enumerate(_CLAIMS) if getattr(m, "claims", 0) >> bit & 1)
         members.append(Member(m.name.decode(), m.title.decode(), m.cite.decode(), m.min_dim, m.max_dim, tuple(names),
-                              getattr(m, "takes_path", False), claims))
+                              getattr(m, "operand", None) == b"PATH", claims))
     return members
 
 
@@ -255,7 +255,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         if first:
             raise ArgumentError("first takes n, the number of points")
         points = s.Points()
-        known = dim or (0 if parsed.pattern.contents.takes_path else 2)
+        known = dim or (0 if parsed.pattern.contents.operand else 2)
         try:
             call(core().koksma_generate_whole, byref(parsed), seed, known, byref(points), threads=threads, run_at=2)
         except BaseException:  # a signal's handler's, perhaps, when the points were there

@@ -30,7 +30,7 @@ class Run(Structure):
 
 class Pattern(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("min_dim", c_int), ("max_dim", c_int),
-                ("claims", c_uint), ("params", POINTER(Param)), ("generate", c_void_p), ("takes_path", c_bool),
+                ("claims", c_uint), ("params", POINTER(Param)), ("generate", c_void_p), ("operand", c_char_p),
                 ("alias_of", c_char_p), ("whole", c_void_p), ("revision", c_int), ("ranges", c_void_p),
                 ("runs_code", c_bool)]
 

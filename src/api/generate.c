@@ -138,7 +138,7 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     if (!p->whole) {
         return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
     }
-    koksma_status status = dim || !p->takes_path ? check_generate(spec, p, dim) : check_spec(spec, p);
+    koksma_status status = dim || !p->operand ? check_generate(spec, p, dim) : check_spec(spec, p);
     const koksma_args args = koksma__spec_arguments(spec, run);
     if (!status) {
         out->dim = dim;

@@ -31,12 +31,13 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     koksma__all_params all;
     double values[KOKSMA_MAX_PARAMS + KOKSMA_MAX_MODIFIERS] = {0};
     koksma__all_params_init(&all, pattern->params);
-    if (pattern->takes_path) {
+    if (pattern->operand) {
         const char *end = koksma__modifiers_of_path(rest);
         const size_t length = (size_t)(end - rest);
         if (length == 0 || length >= KOKSMA_MAX_SPEC - 80) {
-            return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a path of 1 to %d characters, as in %s:PATH", name,
-                                KOKSMA_MAX_SPEC - 81, name);
+            return koksma__fail(KOKSMA_ARGUMENT,
+                                "%s: it takes a text of 1 to %d characters after the colon, as in %s:%s", name,
+                                KOKSMA_MAX_SPEC - 81, name, pattern->operand);
         }
         memcpy(spec->path, rest, length);
         rest = end + (*end == ',');

@@ -182,7 +182,7 @@ void koksma_spec_text(const koksma_spec *spec, char *text)
     double values[KOKSMA_MAX_PARAMS + KOKSMA_MAX_MODIFIERS];
     memcpy(values, spec->params, all.own * sizeof *values);
     memcpy(values + all.own, spec->modifiers, sizeof spec->modifiers);
-    if (spec->pattern->takes_path) {
+    if (spec->pattern->operand) {
         const size_t used = strlen(text);
         snprintf(text + used, KOKSMA_MAX_SPEC - used, ":%.*s", KOKSMA_MAX_SPEC - 80, spec->path);
     }

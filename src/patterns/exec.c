@@ -105,6 +105,6 @@ const koksma_pattern koksma__pattern_exec = {
     .max_dim = KOKSMA_MAX_DIM,
     .claims = 0,
     .generate = generate,
-    .takes_path = true,
+    .operand = "PROGRAM",
     .runs_code = true,
 };

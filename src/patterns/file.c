@@ -83,6 +83,6 @@ const koksma_pattern koksma__pattern_file = {
     .max_dim = KOKSMA_MAX_DIM,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE,
     .generate = generate,
-    .takes_path = true,
+    .operand = "PATH",
     .whole = whole,
 };

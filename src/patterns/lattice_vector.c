@@ -60,6 +60,6 @@ const koksma_pattern koksma__pattern_lattice_vector = {
     .max_dim = MOST,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE,
     .generate = generate,
-    .takes_path = true,
+    .operand = "Z1:Z2:..",
     .ranges = koksma__ranges_always,
 };

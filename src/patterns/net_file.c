@@ -338,6 +338,6 @@ const koksma_pattern koksma__pattern_net_file = {
     .max_dim = KOKSMA_MAX_DIM,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE,
     .generate = generate,
-    .takes_path = true,
+    .operand = "PATH",
     .ranges = koksma__ranges_always,
 };

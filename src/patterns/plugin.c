@@ -128,6 +128,6 @@ const koksma_pattern koksma__pattern_plugin = {
     .max_dim = KOKSMA_MAX_DIM,
     .claims = 0,
     .generate = generate,
-    .takes_path = true,
+    .operand = "LIBRARY.so[:NAME]",
     .runs_code = true,
 };

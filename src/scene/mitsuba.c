@@ -3,7 +3,7 @@
  * Scenes of Mitsuba 3 (Jakob et al. 2022), and of the versions before it where names alone have changed: xml.c makes a tree
  * of the text, and here its sensors, shapes, emitters and BSDFs become ours. A BSDF is made where a shape first refers to
  * it. Not read: media, volumes, motion, .serialized meshes; integrators and samplers are passed over, because the
- * program's own options choose them.
+ * program's own options choose them. Long because one file knows Mitsuba's names.
  */
 #include "scene/mitsuba.h"
 

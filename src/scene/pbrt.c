@@ -3,7 +3,7 @@
  * Scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4): directives, each with a text and parameters,
  * that change a graphics state or add a shape or light with it. pbrt_values.c makes colours, materials and meshes of
  * parameters. Not read: media, motion, curves; directives that don't say what is in the scene (Sampler, Integrator, ...)
- * are passed over, because the program's own options choose them.
+ * are passed over, because the program's own options choose them. Long because one file knows pbrt's directives.
  */
 #include "scene/pbrt.h"
 

@@ -216,7 +216,7 @@ static void patterns_keep_their_claims(void **state)
     const koksma_pattern *p;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         koksma_spec specs[16];
-        if (p->takes_path || p->alias_of || !wanted(p->name)) {
+        if (p->operand || p->alias_of || !wanted(p->name)) {
             continue;
         }
         const size_t n_specs = specs_of(p, specs, 16);
@@ -241,7 +241,7 @@ static void large_sets_are_equal_on_any_threads(void **state)
     const koksma_pattern *p;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         koksma_spec specs[16];
-        if (p->takes_path || p->alias_of) {
+        if (p->operand || p->alias_of) {
             continue;
         }
         const size_t n_specs = specs_of(p, specs, 16);
@@ -270,7 +270,7 @@ static void wrong_arguments_are_refused(void **state)
         koksma_spec spec;
         koksma_points points;
         char text[KOKSMA_MAX_SPEC];
-        if (p->takes_path) {
+        if (p->operand) {
             continue;
         }
         snprintf(text, sizeof text, "%s:nosuch=1", p->name);

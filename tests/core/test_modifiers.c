@@ -37,7 +37,7 @@ static const koksma_modifier *modifier(const char *name, size_t *at)
 static bool make(size_t i, size_t n, uint64_t seed, koksma_spec *spec, koksma_points *points)
 {
     const koksma_pattern *p = koksma_pattern_at(i);
-    if (p->takes_path || p->alias_of) {
+    if (p->operand || p->alias_of) {
         return false;
     }
     assert_ok(koksma_pattern_spec(!strcmp(p->name, "mask-offset") ? "mask-offset:width=8" : p->name, spec));
@@ -354,14 +354,14 @@ static void texts_are_read_and_printed(void **state)
             for (int k = 0; p->params && p->params[k].name; k++) {
                 assert_string_not_equal(p->params[k].name, m->name);
             }
-            snprintf(text, sizeof text, "%s:%s%s=%.0f", p->name, p->takes_path ? "a,b=c/d," : "", m->name, m->min);
+            snprintf(text, sizeof text, "%s:%s%s=%.0f", p->name, p->operand ? "a,b=c/d," : "", m->name, m->min);
             assert_ok(koksma_pattern_spec(text, &spec));
             assert_true(spec.modifiers[at] > 0);
             koksma_spec_text(&spec, wrong);
             assert_string_equal(strchr(wrong, ':'), strchr(text, ':'));
             static const char *const values[] = {"-1", "x", "1e10", "", "0.5"};
-            for (size_t v = 0; v < sizeof values / sizeof *values - p->takes_path; v++) {
-                snprintf(wrong, sizeof wrong, "%s:%s%s=%s", p->name, p->takes_path ? "a," : "", m->name, values[v]);
+            for (size_t v = 0; v < sizeof values / sizeof *values - !!p->operand; v++) {
+                snprintf(wrong, sizeof wrong, "%s:%s%s=%s", p->name, p->operand ? "a," : "", m->name, values[v]);
                 assert_int_equal(koksma_pattern_spec(wrong, &spec), KOKSMA_ARGUMENT);
                 assert_non_null(strstr(koksma_error_text(), m->name));
             }

@@ -124,7 +124,7 @@ static void rates_are_met(void **state)
                                          "uniform-jittered:columns=2", "correlated-multi-jittered:columns=2"};
     for (int m = 0; m < 5; m++) {
         for (size_t i = 0; koksma_pattern_at(i); i++) {
-            assert_rate_is_met(koksma_pattern_at(i)->name, koksma_pattern_at(i)->takes_path, measures[m], m < 3);
+            assert_rate_is_met(koksma_pattern_at(i)->name, koksma_pattern_at(i)->operand, measures[m], m < 3);
         }
         for (size_t i = 0; i < sizeof narrow / sizeof *narrow; i++) {
             assert_rate_is_met(narrow[i], false, measures[m], m < 3);

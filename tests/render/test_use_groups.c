@@ -61,7 +61,7 @@ static void samples_are_the_points_of_one_set(void **state)
         const koksma_pattern *pattern = koksma_pattern_at(p);
         koksma_points points;
         koksma_spec spec;
-        if (pattern->takes_path || pattern->min_dim > 3 || pattern->max_dim < 3) {
+        if (pattern->operand || pattern->min_dim > 3 || pattern->max_dim < 3) {
             continue;
         }
         assert_ok(koksma_pattern_spec(pattern->name, &spec));

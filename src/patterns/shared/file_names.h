@@ -10,7 +10,7 @@
 /* Whether a pattern's points are those of a file, and not made from its parameters. */
 static inline bool koksma__reads_points(const koksma_pattern *pattern)
 {
-    return pattern->takes_path && pattern->whole;
+    return pattern->operand && pattern->whole;
 }
 
 /* Whether a path has the place, "{n}" or "{seed}". */

@@ -19,9 +19,7 @@ static const char *path_in(const char *spec, size_t *length)
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         char key[80];
         snprintf(key, sizeof key, ":%s:", p->name);
-        const char *found = !p->takes_path                             ? NULL
-                            : !strncmp(spec, key + 1, strlen(key + 1)) ? spec
-                                                                       : strstr(spec, key);
+        const char *found = !p->operand ? NULL : !strncmp(spec, key + 1, strlen(key + 1)) ? spec : strstr(spec, key);
         const char *end = !found ? NULL : found == spec ? spec + strlen(spec) : strrchr(found, '@');
         if (end) {
             const char *path = found + strlen(key) - (found == spec), *modifiers = koksma__modifiers_of_path(path);

@@ -146,7 +146,7 @@ static void the_theorem_holds(void **state)
     for (size_t i = 0; koksma_pattern_at(i); i++) {
         const koksma_pattern *p = koksma_pattern_at(i);
         for (int dim = 1; dim <= 2; dim++) {
-            for (size_t n = 1; n <= 256 && !p->takes_path; n *= 4) {
+            for (size_t n = 1; n <= 256 && !p->operand; n *= 4) {
                 koksma_spec spec;
                 koksma_points points;
                 assert_ok(koksma_pattern_spec(p->name, &spec));
