@@ -128,6 +128,6 @@ const koksma_pattern koksma__pattern_plugin = {
     .max_dim = KOKSMA_MAX_DIM,
     .claims = 0,
     .generate = generate,
-    .operand = "LIBRARY.so[:NAME]",
+    .operand = "LIBRARY.so",
     .runs_code = true,
 };
