@@ -4,7 +4,8 @@
 // into the one of the whole page, chooses rows.
 import { element } from "../../../../explorer/page/dom.mjs";
 
-const dash = "–", fewRows = 8, manyIntervals = 5, manyColumns = 8; // intervals then stand below their values
+const dash = "–", fewRows = 8, manyIntervals = 5, manyColumns = 8; // intervals then are below their values
+const wideColumns = 6; // above, the first column keeps room for names on narrow screens
 
 // ---- Numbers and words
 
@@ -185,7 +186,7 @@ export function table(block) {
   const tools = moves ? element("div", { class: "tools" }, rows.length > fewRows ? element("label", {}, "rows with ", field) : null, state) : null;
   const grouped = visible.some(column => column.group);
   const node = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `table ${block.name}` },
-    element("table", { class: visible.filter(c => c.type === "interval").length > manyIntervals || visible.length > manyColumns ? "many" : null }, element("thead", {}, grouped ? groupHeads(visible) : null, element("tr", {}, ...heads)), body));
+    element("table", { class: visible.filter(c => c.type === "interval").length > manyIntervals || visible.length > manyColumns ? "many wide" : grouped || visible.length > wideColumns ? "wide" : null }, element("thead", {}, grouped ? groupHeads(visible) : null, element("tr", {}, ...heads)), body));
   const link = element("a", { download: `${block.name}.csv`, href: `data:text/csv;charset=utf-8,${encodeURIComponent(csvOf(block))}` }, `${block.name}.csv`);
   return [tools, node, element("p", { class: "csv" }, link)].filter(Boolean);
 }
