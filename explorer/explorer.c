@@ -160,8 +160,7 @@ const char *explorer_tables(void)
         put(i ? "," : "");
         put_head(p->name, p->title, p->cite, p->min_dim, p->max_dim);
         put_claims(p->claims);
-        put("\"takes_path\":%s,\"alias_of\":\"%s\",", p->operand ? "true" : "false",
-            p->alias_of ? p->alias_of : "");
+        put("\"takes_path\":%s,\"alias_of\":\"%s\",", p->operand ? "true" : "false", p->alias_of ? p->alias_of : "");
         put_params(p->params);
         put("}");
     }

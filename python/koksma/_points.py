@@ -36,7 +36,7 @@ class Member:
     min_dim: int
     max_dim: int
     parameters: Tuple[str, ...]
-    reads_file: bool = False  # its text has the path of a file: "file:PATH"
+    operand: str = ""  # what its text has after the colon, as PATH in "file:PATH"; "": parameters only
     claims: Tuple[str, ...] = ()
 
 
@@ -142,7 +142,7 @@ def table(at: object) -> List[Member]:
             i += 1
         claims = tuple(name for bit, name in enumerate(_CLAIMS) if getattr(m, "claims", 0) >> bit & 1)
         members.append(Member(m.name.decode(), m.title.decode(), m.cite.decode(), m.min_dim, m.max_dim, tuple(names),
-                              getattr(m, "operand", None) == b"PATH", claims))
+                              (getattr(m, "operand", None) or b"").decode(), claims))
     return members
 
 

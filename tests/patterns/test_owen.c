@@ -67,7 +67,8 @@ static void all_that_scramble_are_tested(void **state)
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         for (int k = 0; p->params && p->params[k].name; k++) {
             for (int c = 0; p->params[k].choices && p->params[k].choices[c]; c++) {
-                if (!strcmp(p->params[k].choices[c], "owen")) {
+                /* Interlacing after scrambling leaves no net in base 2 of its own: test_interlaced.c has that pattern. */
+                if (!strcmp(p->params[k].choices[c], "owen") && strcmp(p->name, "interlaced-sobol") != 0) {
                     assert_string_equal(p->params[k].name, "scramble");
                     assert_string_equal(p->params[k].choices[0], "none");
                     assert_non_null(of_name(p->name));
