@@ -130,7 +130,7 @@ typedef struct koksma_figure {
     const char *title; /* line above the figure; may be NULL */
     const koksma_cell *cells;
     size_t n_cells;
-    /* points or pixels. Width 0: the width of the rows at the cells' default sizes. Height 0: the height that
+    /* size in points or pixels. Width 0: the width of the rows at the cells' default sizes. Height 0: the height that
        follows from the width; another height scales squares and axes to fit */
     double width, height;
     /* true: break a row into several lines if a panel would be less than 128, or a chart less than 300, wide */
