@@ -27,9 +27,9 @@ typedef struct koksma_warp {
     const char *name, *title, *cite;
     koksma_warp_domain domain;
     int dim; /* coordinates of a mapped point: 2 or 3 */
-    void (*map)(const double in[2],
-                double *out); /* maps one point; out may equal in if it has room for dim numbers */
-    int revision;             /* as koksma_pattern.revision (koksma.h) */
+    /* maps the point `in` to `out`; out may equal in if it has room for dim numbers */
+    void (*map)(const double in[2], double *out);
+    int revision; /* as koksma_pattern.revision (koksma.h) */
 } koksma_warp;
 
 /* Returns warp i of the table, or the warp with this name; NULL if there is none. */
