@@ -24,13 +24,13 @@ extern "C" {
 /* A method of adaptive sampling. */
 typedef struct koksma_adaptive {
     const char *name, *title, *cite; /* cite: keys of docs/references.bib, separated by blanks */
-    const koksma_param *params;      /* array that ends at a member whose name is NULL; NULL: no parameters */
+    const koksma_param *params;      /* array that ends at a member whose name is NULL (NULL: no parameters) */
     bool own_samples;      /* true: the method places the samples by subdividing the unit square of each dimension
                               pair, so patterns and pairing have no effect */
     const void *functions; /* used only inside the renderer */
 } koksma_adaptive;
 
-/* Returns method i of the table, or the method with this name; NULL if there is none. */
+/* Returns method i of the table, or the method with this name, or NULL if there is none. */
 KOKSMA_API const koksma_adaptive *koksma_adaptive_at(size_t i);
 KOKSMA_API const koksma_adaptive *koksma_adaptive_find(const char *name);
 
@@ -61,7 +61,7 @@ KOKSMA_API void koksma_strata_fini(koksma_strata *strata);
 /* A method of adaptive sampling with its parameters, and limits on its samples. */
 typedef struct koksma_adaptive_options {
     const koksma_adaptive *method;
-    double params[KOKSMA_MAX_PARAMS]; /* in the order of method->params */
+    double params[KOKSMA_MAX_PARAMS]; /* values of the parameters, in the order of method->params */
     double budget;                    /* largest number of samples per pixel, averaged over the image; 0: no
                                          limit */
     int probes; /* number of extra samples in each stratum that is split, 0 to KOKSMA_MAX_PROBES. Probes test
@@ -86,8 +86,8 @@ typedef struct koksma_adaptive_report {
     uint64_t samples;  /* samples of all pixels, including samples that only guided the method; probes are not
                           counted */
     uint64_t first;    /* samples of all pixels in the first round */
-    uint64_t rounds;   /* rounds after the first */
-    uint64_t splits;   /* strata that were split */
+    uint64_t rounds;   /* number of rounds after the first */
+    uint64_t splits;   /* number of strata that were split */
     uint64_t needless; /* splits that were not needed: the values of the sample and all probes differ by less than
                           the threshold */
 } koksma_adaptive_report;

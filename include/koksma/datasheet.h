@@ -31,7 +31,7 @@ typedef struct koksma_datasheet_options {
     const char *const *scenes; /* up to KOKSMA_MAX_SHEET_SCENES scenes, as for koksma_scene_open; NULL: three scenes
                                   of the library */
     size_t n_scenes;           /* length of `scenes` if that is not NULL; may be 0 */
-    const char *metric;        /* metric of the image error, as for koksma_metric_parse (image.h); NULL: mae */
+    const char *metric;        /* metric of the image error, as for koksma_metric_parse (image.h) (NULL: mae) */
     bool quick;                /* true: use fewer point sets, sizes and images */
 } koksma_datasheet_options;
 

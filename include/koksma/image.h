@@ -47,7 +47,7 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
    MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
-/* Returns the name of image format i; NULL past the last format.
+/* Returns the name of image format i, or NULL past the last format.
      left_out  receives the name of the library that the format needs and this build lacks, or NULL if the format is
                available */
 KOKSMA_API const char *koksma_image_format(size_t i, const char **left_out);
@@ -113,7 +113,7 @@ KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, cons
 /* The two images that a metric compares: width x height pixels of metric->channels values each, row by row from the
    top. */
 typedef struct koksma_metric_input {
-    const double *params; /* in the order of the metric's table */
+    const double *params; /* values of the parameters, in the order of koksma_metric.params */
     int width, height;
     const double *image, *reference;
 } koksma_metric_input;
@@ -122,7 +122,7 @@ typedef struct koksma_metric_input {
    of that mean. */
 typedef struct koksma_metric {
     const char *name, *title;
-    const char *cite;           /* a key of docs/references.bib */
+    const char *cite;           /* source of the metric: a key of docs/references.bib */
     const koksma_param *params; /* NULL: none */
     int channels;               /* 1: the metric compares Rec. 709 luminance; 3: it compares linear red, green and
                                    blue */
@@ -131,7 +131,7 @@ typedef struct koksma_metric {
     koksma_status (*errors)(const koksma_metric_input *input, double *errors);
 } koksma_metric;
 
-/* Returns metric i of the table, or the metric with this name; NULL if there is none. */
+/* Returns metric i of the table, or the metric with this name, or NULL if there is none. */
 KOKSMA_API const koksma_metric *koksma_metric_at(size_t i);
 KOKSMA_API const koksma_metric *koksma_metric_find(const char *name);
 
@@ -171,7 +171,7 @@ KOKSMA_API koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, 
    coherence is the ratio of the largest peak of the power spectrum to white noise. With e the luminance of a W x H
    image minus that of the reference, less the mean of this difference,
 
-       P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / mean of the same over all (u, v) but (0, 0);
+       P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / (its mean over (u, v) != (0, 0));
 
    the coherence is the largest value of P after P is averaged over the images that were added. Errors that are
    independent between pixels have an expected P of 1 at every frequency, whatever their distribution is, even if
@@ -191,7 +191,7 @@ typedef struct koksma_coherence_values {
     size_t images;      /* number of images used; if it is 0, the numbers below are NaN */
     double coherence;   /* the peak of P */
     double low, high;   /* 95 % interval (Student's t) of the mean over the images of P at the frequency of the
-                           peak; NaN if there is one image */
+                           peak, or NaN if there is one image */
     double frequency_x; /* horizontal frequency of the peak, 0 .. 1/2 cycles per pixel */
     double frequency_y; /* vertical frequency of the peak, -1/2 .. 1/2 cycles per pixel; positive values point up in
                            the image */

@@ -27,7 +27,7 @@ extern "C" {
 /* A function on [0,1]^dim with its parameters and known properties. Opaque. */
 typedef struct koksma_integral koksma_integral;
 
-/* A line of `koksma list integrands`. */
+/* An integrand: a row of the table that `koksma list integrands` prints. */
 typedef struct koksma_integrand {
     const char *name, *title, *cite; /* cite: keys of docs/references.bib, separated by blanks */
     const char *known;               /* how the integral was obtained, such as "closed form" */
@@ -43,7 +43,7 @@ typedef struct koksma_integrand {
     int revision;                                                   /* as koksma_pattern.revision (koksma.h) */
 } koksma_integrand;
 
-/* Returns integrand i of the table, or the integrand with this name; NULL if there is none. */
+/* Returns integrand i of the table, or the integrand with this name, or NULL if there is none. */
 KOKSMA_API const koksma_integrand *koksma_integrand_at(size_t i);
 KOKSMA_API const koksma_integrand *koksma_integrand_find(const char *name);
 
@@ -51,8 +51,8 @@ KOKSMA_API const koksma_integrand *koksma_integrand_find(const char *name);
 
        const koksma_function *koksma_function_at(size_t i);
 
-   which returns function i, or NULL past the last one. Functions and names must stay valid while the library is
-   loaded. */
+   koksma_function_at returns function i, or NULL past the last one. Functions and names must stay valid
+   while the library is loaded. */
 typedef struct koksma_function {
     const char *name; /* 1 to 63 characters */
     int min_dim, max_dim;
@@ -60,7 +60,7 @@ typedef struct koksma_function {
                                                               depend on x alone. Several threads call it at once
                                                               unless koksma_run.threads is 1 */
     void *context;                                         /* passed to at */
-    double integral;                                       /* the integral over [0,1]^dim; NaN if it is not known */
+    double integral; /* the integral over [0,1]^dim, or NaN if it is not known */
 } koksma_function;
 
 /* Opens an integrand in dim dimensions; allocates out.
@@ -103,13 +103,13 @@ KOKSMA_API koksma_status koksma_integrate(const koksma_integral *integral, const
 /* Statistics of the estimates of an integral by sets of n points. */
 typedef struct koksma_integration_row {
     size_t n;
-    uint64_t trials;  /* number of point sets; always 1 for a deterministic pattern */
-    double mean, sd;  /* mean and standard deviation of the estimates; sd is NaN with one set */
-    double rmse;      /* root mean square of estimate minus integral; with one set the absolute error. If the
-                         integral is not known, rmse is sd, which is equal for unbiased estimates */
-    double low, high; /* 95 % confidence interval of rmse (delta method on its logarithm, Student's t); NaN with one
-                         set */
-    double gain; /* variance / n / rmse^2: how many times more random points would be needed for this error; NaN if
+    uint64_t trials; /* number of point sets; always 1 for a deterministic pattern */
+    double mean, sd; /* mean and standard deviation of the estimates; sd is NaN with one set */
+    double rmse;     /* root mean square of estimate minus integral; with one set the absolute error. If the
+                        integral is not known, rmse is sd, which is equal for unbiased estimates */
+    /* 95 % confidence interval of rmse (delta method on its logarithm, Student's t), or NaN with one set */
+    double low, high;
+    double gain; /* variance / n / rmse^2: how many times more random points would be needed for this error, or NaN if
                     it is not known, or if the error is only rounding */
 } koksma_integration_row;
 
@@ -141,7 +141,7 @@ KOKSMA_API koksma_status koksma_integration_errors(const koksma_integral *integr
                                                    koksma_integration *out);
 
 /* Computes the statistics of koksma_integration_errors from estimates that the caller provides.
-     value, variance  integral and variance of the integrand; NaN if not known
+     value, variance  integral and variance of the integrand, or NaN if not known
      options          its seed has no effect
      estimates        trials * n_sizes numbers: estimates[t * n_sizes + i] is the estimate of trial t at size i
    Errors: ARGUMENT, MEMORY. */

@@ -34,8 +34,8 @@
  *              functions use one.
  *   Bits       Equal arguments give equal bits for any number of threads, any instruction set and any locale; numbers
  *              in texts have a decimal point.
- *   Nothing    here prints, exits or keeps state between calls but each thread's koksma_error_text() and
- *              koksma_allow_exec().
+ *   State      No function prints, exits or keeps state between calls, except that each thread keeps its
+ *              koksma_error_text() and koksma_allow_exec().
  */
 #ifndef KOKSMA_KOKSMA_H
 #define KOKSMA_KOKSMA_H
@@ -83,7 +83,7 @@ KOKSMA_API const char *koksma_error_text(void);
 /* A function that returns name i of a table, or NULL past the last name. */
 typedef const char *koksma_name_at(const void *table, size_t i);
 
-/* Returns the name in a table that is most similar to a misspelt word, for "did you mean" messages; NULL if no name
+/* Returns the name in a table that is most similar to a misspelt word, for "did you mean" messages, or NULL if no name
    is similar, or if the word is empty or longer than 64 characters. Upper and lower case are equal.
      name, table  name(table, i) is called for i = 0, 1, ... until it returns NULL; table may be NULL */
 KOKSMA_API const char *koksma_closest_name(const char *word, koksma_name_at *name, const void *table);
@@ -171,8 +171,8 @@ typedef struct koksma_param {
     const char *name, *help;
     double fallback, min, max;  /* default value and closed range; if choices is not NULL, those of the index into
                                    choices */
-    const char *const *choices; /* the words that the parameter accepts, ended by NULL; NULL if it is a number */
-    bool whole;                 /* accepts whole numbers only */
+    const char *const *choices; /* the words that the parameter accepts, ended by NULL, or NULL if it is a number */
+    bool whole;                 /* true: the parameter accepts only whole numbers */
 } koksma_param;
 
 enum { KOKSMA_MAX_PARAMS = 8, KOKSMA_MAX_MODIFIERS = 8, KOKSMA_MAX_SPEC = 512 };
@@ -181,7 +181,7 @@ enum { KOKSMA_MAX_PARAMS = 8, KOKSMA_MAX_MODIFIERS = 8, KOKSMA_MAX_SPEC = 512 };
    koksma_run of the call. */
 typedef struct koksma_args {
     double params[KOKSMA_MAX_PARAMS];
-    const char *path;      /* the file, for a pattern that reads one; else NULL */
+    const char *path;      /* path of the file of a pattern that reads one; otherwise NULL */
     const koksma_run *run; /* may be NULL */
     /* for a pattern that has ranges: index of the first point to generate, and the size of the whole set (0 for a
        sequence); otherwise both are 0 */
@@ -233,7 +233,7 @@ struct koksma_pattern {
     const koksma_param *params; /* NULL: none */
     koksma_status (*generate)(uint64_t seed, const koksma_args *args, koksma_points *out);
     bool takes_path;      /* true: the text after the colon of its spec is the path of a file */
-    const char *alias_of; /* name of the pattern for which this entry is an alias; NULL: not an alias */
+    const char *alias_of; /* name of the pattern for which this entry is an alias (NULL: not an alias) */
     /* For a pattern whose parameters determine the number of points: allocates all points (koksma_generate_whole).
        The caller sets out->dim; 0: any dimension. The function returns N if these parameters do not determine the
        number. NULL for other patterns. */
@@ -254,7 +254,7 @@ typedef struct koksma_modifier {
     double min, max;        /* range of its value, a whole number; the value 0 means not applied */
     bool random;            /* true: the map depends on the seed */
     unsigned claims;        /* claims of a pattern that remain true after the modifier */
-    unsigned claims_binary; /* claims that remain true if n is a power of 2 */
+    unsigned claims_binary; /* claims of a pattern that remain true after the modifier if n is a power of 2 */
     unsigned gives;         /* claims that are true for the points of any pattern after the modifier */
     /* names, separated by blanks, of the measures whose values it changes only by rounding; "*": all exact
        measures */
@@ -262,10 +262,10 @@ typedef struct koksma_modifier {
     const char *keeps; /* description of what the modifier preserves */
 } koksma_modifier;
 
-/* Returns modifier i of the table; NULL if there is none. */
+/* Returns modifier i of the table, or NULL if there is none. */
 KOKSMA_API const koksma_modifier *koksma_modifier_at(size_t i);
 
-/* Returns pattern i of the table, or the pattern with this name; NULL if there is none. */
+/* Returns pattern i of the table, or the pattern with this name, or NULL if there is none. */
 KOKSMA_API const koksma_pattern *koksma_pattern_at(size_t i);
 KOKSMA_API const koksma_pattern *koksma_pattern_find(const char *name);
 
@@ -275,7 +275,7 @@ KOKSMA_API const koksma_pattern *koksma_pattern_find(const char *name);
      out   points initialised by koksma_points_init with the required n and dim
    The function never generates fewer than n points and always ends. Most patterns take O(n dim), blue noise up to
    O(n^2).
-   Errors: N, DIM, ARGUMENT (the pattern cannot serve this n, dim or parameter; the message says what would work),
+   Errors: N, DIM, ARGUMENT (the pattern does not accept this n, dim or parameter; the message says what would work),
    IMPOSSIBLE (no such set exists, or none was found), MEMORY, INTERRUPTED; for patterns with a path MISSING and
    MALFORMED; for patterns that run code also FORBIDDEN and SYSTEM. */
 KOKSMA_API koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run,
@@ -354,16 +354,16 @@ typedef struct koksma_witness {
 typedef struct koksma_value {
     double value;          /* the measure; for an L2 measure the root of the mean square */
     double square;         /* square of value, if it is known to more digits; otherwise NaN */
-    double lower, upper;   /* proven bounds; both equal value if exact is true */
+    double lower, upper;   /* proven lower and upper bounds; both equal `value` if exact is true */
     double standard_error; /* standard error of a sampled measure, NaN with one sample; 0 for other measures */
-    bool exact;            /* value is exact up to rounding */
+    bool exact;            /* true: value is exact up to rounding */
     koksma_witness witness;
 } koksma_value;
 
 /* The kind of region for which a measure compares the share of points with the volume. Known rates of decay depend
    on this kind. */
 typedef enum koksma_family {
-    KOKSMA_FAMILY_NONE, /* no regions: distances, the quality of a digital net */
+    KOKSMA_FAMILY_NONE, /* the measure has no regions: a distance, or the quality of a digital net */
     KOKSMA_FAMILY_BOXES,
     KOKSMA_FAMILY_EDGES,
     KOKSMA_FAMILY_DISKS
@@ -393,7 +393,7 @@ struct koksma_measure {
     koksma_status (*gradient)(const koksma_points *points, const koksma_args *args, double *square, double *gradient);
 };
 
-/* Returns measure i of the table, or the measure with this name; NULL if there is none. */
+/* Returns measure i of the table, or the measure with this name, or NULL if there is none. */
 KOKSMA_API const koksma_measure *koksma_measure_at(size_t i);
 KOKSMA_API const koksma_measure *koksma_measure_find(const char *name);
 

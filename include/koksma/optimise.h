@@ -37,7 +37,7 @@ typedef struct koksma_optimum {
     koksma_points points;
     double value;       /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE the geometric mean
                            described there */
-    double lower;       /* lower bound of the measure over all sets of n points in this dimension; NaN if no bound
+    double lower;       /* lower bound of the measure over all sets of n points in this dimension, or NaN if no bound
                            is known */
     uint64_t steps;     /* number of steps done */
     uint64_t last_gain; /* number of the step that found these points; 0: they are the first set */
@@ -74,7 +74,7 @@ typedef struct koksma_optimise_options {
        projections, or with KOKSMA_KEEP_SEQUENCE the weighted geometric mean. NULL: measure the points in all
        coordinates */
     const uint64_t *projections;
-    const double *weights; /* n_projections weights above 0; NULL: all weights are 1 */
+    const double *weights; /* n_projections weights above 0 (NULL: all weights are 1) */
     size_t n_projections;
     const koksma_processes *processes; /* processes that share the search; NULL: this process does all of the
                                           work */
@@ -93,7 +93,7 @@ typedef struct koksma_method {
                             double value, koksma_points *points);
 } koksma_method;
 
-/* Returns method i of the table, or the method with this name; NULL if there is none. */
+/* Returns method i of the table, or the method with this name, or NULL if there is none. */
 KOKSMA_API const koksma_method *koksma_method_at(size_t i);
 KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 
@@ -122,7 +122,7 @@ typedef struct koksma_record {
     const char *source; /* source of the published value: a key of docs/references.bib, or "-" */
 } koksma_record;
 
-/* Returns record i, sorted by measure and n; NULL past the last record. */
+/* Returns record i, sorted by measure and n, or NULL past the last record. */
 KOKSMA_API const koksma_record *koksma_record_at(size_t i);
 
 /* Frees the points and zeroes the struct. best may be NULL, or zeroed. */

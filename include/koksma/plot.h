@@ -46,7 +46,7 @@ typedef struct koksma_scatter_options {
                                 NULL: no warp. Needs points of 2 dimensions and cannot be combined with witness */
     const koksma_witness *witness; /* draw this box, line or disk; a box of more than 2 dimensions is drawn as its
                                       projections. May be NULL */
-    const char *caption;           /* a line below the picture; may be NULL */
+    const char *caption;           /* a line of text below the picture; may be NULL */
 } koksma_scatter_options;
 
 /* Returns the library that draws PDF and PNG, such as "cairo 1.16.0"; NULL: this build has none, and PDF and PNG
@@ -84,7 +84,7 @@ KOKSMA_API koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n
 
 /* A curve of a chart: n points joined by straight lines. A point between two gaps is drawn as a mark. */
 typedef struct koksma_curve {
-    const char *label; /* name in the legend; NULL: the legend omits the curve */
+    const char *label; /* name in the legend (NULL: the legend omits the curve) */
     size_t n;
     const double *xs, *ys, *errors; /* arrays of n. `errors`, which may be NULL, has half the lengths of error bars,
                                        or without marks half the widths of a band. A point that is not finite leaves
@@ -145,7 +145,7 @@ KOKSMA_API koksma_status koksma_plot_figure(const koksma_figure *figure, koksma_
 
 /* A cell of a subdivided unit square, with its sample. */
 typedef struct koksma_stratum {
-    double x, y, width, height; /* from the upper left corner */
+    double x, y, width, height; /* position from the upper left corner of the square, and size */
     double at[2];               /* position of the sample */
     double value;               /* grey level: 0 black, 1 white */
     int level;                  /* number of splits from the unit square to this cell */
@@ -153,7 +153,7 @@ typedef struct koksma_stratum {
 
 /* A cell that was split in four. */
 typedef struct koksma_split {
-    double x, y, width, height; /* from the upper left corner */
+    double x, y, width, height; /* position from the upper left corner of the square, and size */
     int level;                  /* number of splits from the unit square to this cell */
     bool needless;              /* true: the values in the four parts are nearly equal, so the split was not
                                    needed */
@@ -165,7 +165,7 @@ typedef struct koksma_strata_panel {
     size_t n;
     const koksma_split *splits; /* array of n_splits, drawn as needed or needless */
     size_t n_splits;            /* 0: none */
-    const char *caption;        /* a line below; may be NULL */
+    const char *caption;        /* a line of text below the square; may be NULL */
 } koksma_strata_panel;
 
 /* Draws n subdivided squares in a row, with y downwards. Each stratum is filled with the grey of its value and

@@ -49,8 +49,8 @@
 
        const koksma_plugin *koksma_plugin_at(size_t i);
 
-   which returns sampler i = 0, 1, ..., or NULL past the last one. Samplers and names must stay valid while the
-   library is loaded. */
+   koksma_plugin_at returns sampler i = 0, 1, ..., or NULL past the last one. Samplers and names must stay
+   valid while the library is loaded. */
 typedef struct koksma_plugin {
     int version; /* KOKSMA_PLUGIN_VERSION */
     const char *name;

@@ -30,7 +30,7 @@ extern "C" {
 
 typedef struct koksma_scene koksma_scene;
 
-/* Returns the name of scene i of the library; NULL past the last scene. */
+/* Returns the name of scene i of the library, or NULL past the last scene. */
 KOKSMA_API const char *koksma_scene_name_at(size_t i);
 
 /* Name and description of an entry of a table, such as a kind of material or a pipeline.
@@ -99,7 +99,7 @@ KOKSMA_API bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma
 
 /* Sets the environment light of a scene that has not been rendered yet. It replaces the scene's environment and,
    for a mesh file, the default key light, sky and ground. `image` is the path of an environment map in latitude and
-   longitude, which is multiplied by `radiance`; NULL: light with this radiance, 0 to 1e6, from all directions. The
+   longitude, which is multiplied by `radiance` (NULL: light with this radiance, 0 to 1e6, from all directions). The
    scene's hash changes. Errors: ARGUMENT, MISSING, MALFORMED, UNSUPPORTED, MEMORY. */
 KOKSMA_API koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, double radiance);
 
@@ -134,7 +134,7 @@ typedef enum koksma_light_selection {
                               has more than 8 lights, otherwise ALL */
 } koksma_light_selection;
 
-/* Return the word for an enumeration value in scene files and options: "shuffled", "pixel", "all", ...; NULL for an
+/* Return the word for an enumeration value in scene files and options: "shuffled", "pixel", "all", ..., or NULL for an
    unknown value. */
 KOKSMA_API const char *koksma_pairing_name(koksma_pairing pairing);
 KOKSMA_API const char *koksma_scope_name(koksma_scope scope);
@@ -150,7 +150,7 @@ typedef struct koksma_use {
     int dim; /* 1 or 2 */
 } koksma_use;
 
-/* Returns use i; NULL past the end. */
+/* Returns use i, or NULL past the last use. */
 KOKSMA_API const koksma_use *koksma_use_at(size_t i);
 
 /* A group of uses that share the dimensions of one point set: sample i takes the coordinates of point i, in the
@@ -159,7 +159,7 @@ KOKSMA_API const koksma_use *koksma_use_at(size_t i);
    pattern, combined with the others by `pairing`. */
 typedef struct koksma_use_group {
     koksma_spec pattern;
-    int n_uses;              /* 2 or more; 0: no group */
+    int n_uses;              /* number of uses in the group, 2 or more; 0: no group */
     int uses[KOKSMA_N_USES]; /* indices for koksma_use_at */
 } koksma_use_group;
 
@@ -172,7 +172,7 @@ typedef struct koksma_integrator {
     const void *flags; /* used only inside the renderer */
 } koksma_integrator;
 
-/* Returns integrator i of the table, or the integrator with this name; NULL if there is none. */
+/* Returns integrator i of the table, or the integrator with this name, or NULL if there is none. */
 KOKSMA_API const koksma_integrator *koksma_integrator_at(size_t i);
 KOKSMA_API const koksma_integrator *koksma_integrator_find(const char *name);
 
@@ -184,7 +184,7 @@ typedef struct koksma_filter {
     double (*value)(double x);
 } koksma_filter;
 
-/* Returns filter i of the table, or the filter with this name; NULL if there is none. */
+/* Returns filter i of the table, or the filter with this name, or NULL if there is none. */
 KOKSMA_API const koksma_filter *koksma_filter_at(size_t i);
 KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
 

@@ -62,9 +62,10 @@
  * koksma_to_float, because (float)0.99999999 is 1. `docs/put-it-into-your-renderer.md` has an example of each
  * function.
  *
- * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021. Seeds:
- * constants of Wellons 2018 and of Degski's hash. PMJ02 by matrices: Helmer, Christensen & Kensler 2021. Correlated
- * multi-jitter: Kensler 2013. R-sequence: Roberts 2018. Padding by shuffled copies: Burley 2020. Z-order: Ahmed & Wonka 2020.
+ * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021.
+ * Seeds: constants of Wellons 2018 and of Degski's hash. PMJ02 by matrices: Helmer, Christensen & Kensler 2021.
+ * Correlated multi-jitter: Kensler 2013. R-sequence: Roberts 2018. Padding by shuffled copies: Burley 2020.
+ * Z-order: Ahmed & Wonka 2020.
  */
 #ifndef KOKSMA_SAMPLER_H
 #define KOKSMA_SAMPLER_H

@@ -21,7 +21,7 @@ extern "C" {
 /* Running mean and variance of values (Welford 1962). A struct of zeros has no values yet. */
 typedef struct koksma_tally {
     double count, mean;
-    double spread; /* sum of squared deviations from the mean */
+    double spread; /* sum of squared deviations of the values from the mean */
     double min, max;
 } koksma_tally;
 
@@ -29,17 +29,17 @@ typedef struct koksma_tally {
 KOKSMA_API void koksma_tally_add(koksma_tally *tally, double value);
 
 /* Return the standard deviation of the values, the standard error of their mean, and half the length of the mean's
-   95 % confidence interval (Student's t). NaN with fewer than two values. */
+   95 % confidence interval (Student's t). All three are NaN with fewer than two values. */
 KOKSMA_API double koksma_tally_sd(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_error(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_interval(const koksma_tally *tally);
 
-/* Returns the 97.5 % quantile of Student's t distribution; NaN for 0 degrees of freedom. */
+/* Returns the 97.5 % quantile of Student's t distribution, or NaN for 0 degrees of freedom. */
 KOKSMA_API double koksma_student_975(size_t degrees);
 
 /* The line log y = slope log x + intercept by least squares; slope_error is the standard error from the residuals. */
 typedef struct koksma_line {
-    size_t count; /* pairs used: those with x and y positive and finite */
+    size_t count; /* number of pairs used: those with x and y positive and finite */
     double slope, slope_error, intercept;
 } koksma_line;
 
@@ -73,11 +73,11 @@ KOKSMA_API koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, co
                                                   koksma_value *values);
 
 /* Returns the exponent a of the proven decay n^-a (up to powers of log n) of a measure, for the points of a pattern
-   with its parameters in dim dimensions; NaN if no theorem covers the claims of the pattern. */
+   with its parameters in dim dimensions, or NaN if no theorem covers the claims of the pattern. */
 KOKSMA_API double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, int dim);
 
 /* Returns the largest exponent a of a decay n^-a (up to powers of log n) of a measure that any point sets can
-   reach; NaN if it is not known. */
+   reach, or NaN if it is not known. */
 KOKSMA_API double koksma_best_rate(const koksma_measure *measure, int dim);
 
 #ifdef __cplusplus

@@ -25,9 +25,9 @@ typedef enum koksma_spectrum_method { KOKSMA_SPECTRUM_EXACT, KOKSMA_SPECTRUM_FAS
 
 /* Power at the frequencies k = (kx, ky), |kx|, |ky| <= half, averaged over the sets:
 
-       P(k) = (1/n) |sum_j exp(-2 pi i k.x_j)|^2,
+       P(k) = (1/n) |sum_j exp(-2 pi i k.x_j)|^2.
 
-   which is 1 on average for random points. P(-k) = P(k), so that only ky >= 0 is stored. */
+   The mean of P is 1 for random points. P(-k) = P(k), so that only ky >= 0 is stored. */
 typedef struct koksma_spectrum {
     int half;
     size_t sets;         /* number of sets added so far */
@@ -52,7 +52,7 @@ KOKSMA_API void koksma_spectrum_fini(koksma_spectrum *spectrum);
 KOKSMA_API koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
                                              koksma_spectrum_method method, const koksma_run *run);
 
-/* Returns the mean power at frequency (kx, ky); NaN where |kx| or |ky| is above half. */
+/* Returns the mean power at frequency (kx, ky), or NaN if |kx| or |ky| is above half. */
 KOKSMA_API double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky);
 
 /* Writes the power to a file in the formats of koksma_points_write: one row for each ky = -half .. half, with
@@ -76,7 +76,7 @@ typedef struct koksma_ring {
    Errors: MEMORY. */
 KOKSMA_API koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings);
 
-/* Two numbers for the quality of blue noise (Heck, Schlömer & Deussen 2013), from the radial mean p(f) of n
+/* Numbers for the quality of blue noise (Heck, Schlömer & Deussen 2013), from the radial mean p(f) of n
    points. */
 typedef struct koksma_spectrum_quality_values {
     /* Effective Nyquist frequency: signals up to it alias little. It is half of the largest f at which the mean of
@@ -97,7 +97,7 @@ typedef struct koksma_spectrum_quality_values {
 KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_spectrum_quality_values *out);
 
 /* Computes the pair correlation of 2D points on the unit torus: values[b] is the density of pairs at distances from
-   b r_max / bins to (b + 1) r_max / bins, divided by that of random points; NaN with n = 1.
+   b r_max / bins to (b + 1) r_max / bins, divided by that of random points, or NaN with n = 1.
      r_max   above 0, at most 1/2
      values  receives bins numbers
    O(n (1 + n r_max^2)) for evenly spread points, O(n^2) if many lie close together.

@@ -27,7 +27,7 @@ extern "C" {
 /* An open study. Only one thread at a time may use it. */
 typedef struct koksma_study koksma_study;
 
-/* Returns the name of plan i of the library; NULL past the last plan. */
+/* Returns the name of plan i of the library, or NULL past the last plan. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
 /* Sets *out to question type i of those that a plan may contain, or to section i of the report; returns false past
@@ -35,7 +35,7 @@ KOKSMA_API const char *koksma_plan_name_at(size_t i);
 KOKSMA_API bool koksma_question_at(size_t i, koksma_entry *out);
 KOKSMA_API bool koksma_report_section_at(size_t i, koksma_entry *out);
 
-/* Returns the path of the module that links MPI; NULL: this build has no MPI. */
+/* Returns the path of the module that links MPI (NULL: this build has no MPI). */
 KOKSMA_API const char *koksma_study_mpi(void);
 
 /* Returns the MPI rank of this process; 0 without mpirun. Ranks other than 0 open a study with folder NULL; their
@@ -164,14 +164,14 @@ KOKSMA_API koksma_status koksma_study_audit(const koksma_audit_options *options,
    report in one file that needs no network. Errors: ARGUMENT (the study has no folder), IO. */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);
 
-/* Returns the id of published table i of the plan, such as "5.1"; NULL past the last table. The string is valid
+/* Returns the id of published table i of the plan, such as "5.1", or NULL past the last table. The string is valid
    until the study is closed. */
 KOKSMA_API const char *koksma_study_table_at(const koksma_study *study, size_t i);
 
 /* Whether our mean agrees with the published one. */
 typedef enum koksma_study_verdict {
-    KOKSMA_VERDICT_NEW,       /* the paper has no number */
-    KOKSMA_VERDICT_WAITING,   /* too few trials so far */
+    KOKSMA_VERDICT_NEW,       /* the paper has no number to compare with */
+    KOKSMA_VERDICT_WAITING,   /* there are too few trials so far for a verdict */
     KOKSMA_VERDICT_AGREES,    /* the difference is explained by chance and rounding (|z| < 2.6), or for images at most
                                  25 % */
     KOKSMA_VERDICT_FITTED,    /* the difference is at most 25 %, but the scene was fitted to the published numbers */
@@ -179,14 +179,14 @@ typedef enum koksma_study_verdict {
     KOKSMA_VERDICT_UNEXPLAINED /* the means differ and the reason is unknown */
 } koksma_study_verdict;
 
-/* Returns the word of a verdict, such as "agrees"; NULL for another value. */
+/* Returns the word of a verdict, such as "agrees", or NULL for another value. */
 KOKSMA_API const char *koksma_study_verdict_name(koksma_study_verdict verdict);
 
 /* A row of a published table with our numbers. NaN marks a missing number. */
 typedef struct koksma_study_row {
     const char *pattern, *label;
-    long long n;            /* points, or samples per pixel */
-    double published[3];    /* mean, standard deviation, maximum */
+    long long n;            /* number of points, or of samples per pixel */
+    double published[3];    /* published mean, standard deviation and maximum */
     double mean, low, high; /* our mean over the trials and its 95 % interval (NaN with one trial) */
     double sd, max;         /* in image tables: means over the trials of each image's standard deviation and
                                maximum. In discrepancy tables: standard deviation over the sets, and mean of the
@@ -223,7 +223,7 @@ typedef struct koksma_images_row {
                                                smallest mean has 1 */
     double behind, behind_low, behind_high; /* relative excess of the mean over that of the group at position 1 (0.1
                                                is 10 %), and its 95 % interval from the differences of images with
-                                               equal {trial}; NaN if the two groups have different trials */
+                                               equal {trial}, or NaN if the two groups have different trials */
 } koksma_images_row;
 
 /* Compares all images whose paths match a template with a reference image.
@@ -280,18 +280,18 @@ typedef struct koksma_rank_options {
                                             at most 19,200 pixels */
     const koksma_integrator *integrator; /* NULL: distribution */
     const koksma_filter *filter;         /* NULL: box */
-    const koksma_metric_spec *metric;    /* metric of the image error by which patterns are ranked; NULL: mae */
+    const koksma_metric_spec *metric;    /* metric of the image error by which patterns are ranked (NULL: mae) */
     double time_limit_s;                 /* time limit in seconds; 0: none. The limit ends the work early and changes
                                             nothing else */
     long long max_trials;        /* largest number of trials per pattern, 8 to KOKSMA_MAX_RANK_TRIALS; 0: 4096 */
     bool one_size;               /* true: leave out the checks at half and twice the image size */
-    koksma_rank_renderer render; /* external renderer for all images; NULL: render with this library. For an
+    koksma_rank_renderer render; /* external renderer for all images (NULL: render with this library). For an
                                     external renderer scene and patterns may be any texts, integrator and filter are
                                     not used, and width 0 means the size of the first image, without checks at other
                                     sizes */
     void *render_context;
     const char *reference; /* for an external renderer: pattern of the reference image, whose images must have the
-                              true mean and depend on their seed; NULL: the first pattern */
+                              true mean and depend on their seed (NULL: the first pattern) */
     /* true: end when the pattern with the least error is decided, without advice, checks at other sizes, or the
        order of the other patterns */
     bool best_only;
@@ -316,7 +316,7 @@ typedef enum koksma_rank_decision {
    and rounds, contain the true value. The intervals include the error of the reference. NaN marks a missing
    number. */
 typedef struct koksma_rank_row {
-    size_t pattern;  /* index into the options' patterns */
+    size_t pattern;  /* index of the pattern in koksma_rank_options.patterns */
     size_t position; /* 1 + the number of patterns that are decided to have less error; 0: not ranked */
     koksma_rank_state state;
     koksma_rank_decision decision;
@@ -338,13 +338,13 @@ typedef enum koksma_rank_check_state {
                                limit ended the work */
     KOKSMA_RANK_CONFIRMED,  /* the checked pattern is the best, or equal to the best within 2 % */
     KOKSMA_RANK_OVERTURNED, /* another pattern is decided to have less error than the checked one */
-    KOKSMA_RANK_UNSETTLED,  /* too few trials to decide */
+    KOKSMA_RANK_UNSETTLED,  /* there were too few trials to decide */
 } koksma_rank_check_state;
 
 /* The result of checking whether a pattern is also the best at another image size. */
 typedef struct koksma_rank_check_result {
     koksma_rank_check_state state;
-    size_t pattern; /* if OVERTURNED: the better pattern, an index into the options' patterns */
+    size_t pattern; /* if OVERTURNED: the better pattern, an index into koksma_rank_options.patterns */
     bool coherent;  /* whether the error of the best pattern at this size is coherent */
     double behind, behind_low, behind_high; /* if OVERTURNED: relative difference of the error of the checked
                                                pattern to that of the better one, and its interval */
@@ -373,7 +373,7 @@ typedef struct koksma_ranking {
     long long needed_trials;
     double needed_s; /* seconds that needed_trials would take; 0: unknown */
     int width, height;
-    double reference_error; /* expected mean absolute error of the reference; NaN: the reference was not finished */
+    double reference_error; /* expected mean absolute error of the reference (NaN: the reference was not finished) */
     koksma_rank_check checks[KOKSMA_RANK_CHECKS]; /* checks at half and at twice the image size */
     double seconds;
     bool advised;       /* true: the pattern with the least error among those whose error is not coherent is

@@ -37,7 +37,7 @@ typedef struct koksma_findings {
 
 enum { KOKSMA_VERIFY_NET_DIM = 32 }; /* nets are tested for pairs of the first KOKSMA_VERIFY_NET_DIM coordinates */
 
-/* Returns property i of the table; NULL past the last one. */
+/* Returns property i of the table, or NULL past the last one. */
 KOKSMA_API const koksma_property *koksma_property_at(size_t i);
 
 /* Tests a point set for all properties; allocates findings. The function skips tests that would take too long for

@@ -32,7 +32,7 @@ typedef struct koksma_warp {
     int revision; /* as koksma_pattern.revision (koksma.h) */
 } koksma_warp;
 
-/* Returns warp i of the table, or the warp with this name; NULL if there is none. */
+/* Returns warp i of the table, or the warp with this name, or NULL if there is none. */
 KOKSMA_API const koksma_warp *koksma_warp_at(size_t i);
 KOKSMA_API const koksma_warp *koksma_warp_find(const char *name);
 
