@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Datasheets: everything that is known about one sampler beside a few others, as one page. Part of libkoksma-lab.
+ * Datasheets: one page with all measurements of one sampler, compared with a few other samplers. Part of
+ * libkoksma-lab.
  *
  *     const koksma_datasheet_options options = {.sampler = "sobol:scramble=owen"};
  *     char *json, *page;
@@ -19,32 +20,35 @@ extern "C" {
 
 enum { KOKSMA_MAX_BESIDE = 7, KOKSMA_MAX_SHEET_SCENES = 16 };
 
-/* What a datasheet is about. A sampler is the spec of a pattern, a file of points, or the name of a family of files
-   with {n} and {seed} in it, such as "my_{n}_{seed}.npy": my_256_3.npy has the 256 points of seed 3. */
+/* The sampler that a datasheet describes, and what to compare it with. A sampler is the spec of a pattern, a file
+   of points, or a template of file names with {n} and {seed}. With the template "my_{n}_{seed}.npy" the file
+   my_256_3.npy has the 256 points of seed 3. */
 typedef struct koksma_datasheet_options {
     const char *sampler;
     const char *const *beside; /* up to KOKSMA_MAX_BESIDE samplers to compare with; NULL: random, jittered and
                                   sobol:scramble=owen, without the sampler itself */
-    size_t n_beside;           /* with beside not NULL; may be 0 */
-    const char *const *scenes; /* up to KOKSMA_MAX_SHEET_SCENES, as for koksma_scene_open; NULL: three that ship */
-    size_t n_scenes;           /* with scenes not NULL; may be 0 */
-    const char *metric;        /* of images, as for koksma_metric_parse (image.h); NULL: mae */
-    bool quick;                /* fewer sets, sizes and images */
+    size_t n_beside;           /* length of `beside` if that is not NULL; may be 0 */
+    const char *const *scenes; /* up to KOKSMA_MAX_SHEET_SCENES scenes, as for koksma_scene_open; NULL: three scenes
+                                  of the library */
+    size_t n_scenes;           /* length of `scenes` if that is not NULL; may be 0 */
+    const char *metric;        /* metric of the image error, as for koksma_metric_parse (image.h) (NULL: mae) */
+    bool quick;                /* true: use fewer point sets, sizes and images */
 } koksma_datasheet_options;
 
-/* Measures a sampler and writes all that was found as JSON (docs/report-format.md). Files decide the sizes; patterns
-   have 16, 64, 256, ... points. All counts are fixed: the text depends on the options and on what the files hold, but
-   for the member "seconds", which is the last line but one.
+/* Measures a sampler and writes all results as JSON (docs/report-format.md). A sampler made of files is measured at
+   the sizes of the files, a pattern at 16, 64, 256, ... points. Equal options and files give equal texts, except
+   the member "seconds", which is the last line but one.
      json  receives a text that the caller frees with free()
-   Errors: those of koksma_generate for the sampler (MISSING names the files that were looked for), of
-   koksma_rank_patterns for a scene, ARGUMENT (too many samplers or scenes, one given twice), MEMORY, INTERRUPTED. A
-   sampler beside it, or a measure, that cannot serve a size is left out, and the sheet says why. */
+   Errors: those of koksma_generate for the sampler (the message of MISSING names the files that were looked for),
+   those of koksma_rank_patterns for a scene, ARGUMENT (too many samplers or scenes, or one given twice), MEMORY,
+   INTERRUPTED. The datasheet leaves out a compared sampler or a measure that does not accept a size, and gives the
+   reason. */
 KOKSMA_API koksma_status koksma_datasheet(const koksma_datasheet_options *options, const koksma_run *run,
                                           char **json);
 
-/* Puts a datasheet into the page that shows it, one HTML file that needs no network.
+/* Makes the HTML page of a datasheet: one file that needs no network.
      page  receives a text that the caller frees with free()
-   Errors: ARGUMENT (no datasheet), MEMORY. */
+   Errors: ARGUMENT (json is not a datasheet), MEMORY. */
 KOKSMA_API koksma_status koksma_datasheet_page(const char *json, char **page);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Images of linear light in floats: read, write, and compare them. Part of libkoksma-lab.
- * Formats: OpenEXR, PNG and PFM. EXR and PFM keep every float exactly.
+ * Read, write and compare images of linear light, stored as floats. Part of libkoksma-lab. Formats: OpenEXR, PNG
+ * and PFM. EXR and PFM keep every float exactly.
  */
 #ifndef KOKSMA_IMAGE_H
 #define KOKSMA_IMAGE_H
@@ -26,7 +26,7 @@ typedef struct koksma_image {
 
 /* Allocates an image of zeros.
      image          out; its old content is overwritten, not freed
-     width, height  1 to KOKSMA_MAX_IMAGE_SIDE, at most KOKSMA_MAX_PIXELS together
+     width, height  1 to KOKSMA_MAX_IMAGE_SIDE, width * height at most KOKSMA_MAX_PIXELS
      channels       1 or 3
    Errors: ARGUMENT, MEMORY. */
 KOKSMA_API koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels);
@@ -35,20 +35,24 @@ KOKSMA_API koksma_status koksma_image_init(koksma_image *image, int width, int h
 KOKSMA_API void koksma_image_fini(koksma_image *image);
 
 /* Reads an image; recognises the format by the file's content; allocates out.
-     EXR   the first part; scan lines or tiles; channels R, G and B, or Y, or a single channel. Files with compression
-           B44, B44A, DWAA or DWAB are read with half precision, and a single channel must be called Y
-     PNG   1 to 16 bits, sRGB; the chunk gAMA sets another power (1.0: linear) unless sRGB or iCCP is present
+     EXR   the first part of the file; scan lines or tiles; channels R, G and B, or Y, or a single channel. Files
+           with compression B44, B44A, DWAA or DWAB are read with half precision, and if they have a single channel,
+           its name must be Y
+     PNG   1 to 16 bits, sRGB; if the file has a gAMA chunk but neither sRGB nor iCCP, its power law replaces the
+           sRGB curve (1.0: linear)
      PFM   Pf and PF in either byte order; the magnitude of the scale is ignored; extra bytes at the end are an error
    Alpha and further channels are dropped; colours are not multiplied by alpha.
-   Errors: MISSING, MALFORMED (also a kind that is not read: a deep or subsampled EXR; with B44 and DWA other channels
-   and values above 65504), UNSUPPORTED (a format that this build lacks), MEMORY, SYSTEM. */
+   Errors: MISSING, MALFORMED (also for valid files that this function cannot read: deep or subsampled EXR files,
+   and with B44 or DWA compression other channels or values above 65504), UNSUPPORTED (this build lacks the format),
+   MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
-/* Returns the name of image format i, NULL past the end.
-     left_out  receives the name of the library that the format needs and this build lacks; NULL: none is missing */
+/* Returns the name of image format i, or NULL past the last format.
+     left_out  receives the name of the library that the format needs and this build lacks, or NULL if the format is
+               available */
 KOKSMA_API const char *koksma_image_format(size_t i, const char **left_out);
 
-/* Checks whether an image could be written to this path, by its ending; touches no file.
+/* Checks by the ending of a path whether koksma_image_write supports the format; touches no file.
    Errors: ARGUMENT (unknown ending), UNSUPPORTED (this build lacks the library). */
 KOKSMA_API koksma_status koksma_image_check_path(const char *path);
 
@@ -57,21 +61,22 @@ KOKSMA_API bool koksma_image_has_layers(const char *path);
 
 /* Writes an image, completely or not at all.
      path      ends in .exr, .png (values are clamped to [0,1] and encoded as sRGB with 8 bits) or .pfm
-     metadata  text that is stored in formats that can hold it; may be NULL
-   Errors: ARGUMENT (the ending; an image without pixels, or with sides or channels that koksma_image_init does not
-   accept), UNSUPPORTED (this build lacks the format), IO, MEMORY. */
+     metadata  text to store in the file if its format has room for text; may be NULL
+   Errors: ARGUMENT (unknown ending; an image without pixels, or with a size or number of channels that
+   koksma_image_init does not accept), UNSUPPORTED (this build lacks the format), IO, MEMORY. */
 KOKSMA_API koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata);
 
-/* One of several images of equal size in one file. The name of the first layer is "". */
+/* One layer of a file with several images of equal size. The name of the first layer is "". */
 typedef struct koksma_layer {
     const char *name; /* up to 63 characters */
     const koksma_image *image;
 } koksma_layer;
 
-/* Writes n layers: all of them to an EXR, the first to other formats. An EXR's channels are called R, G and B, or Y,
-   after the layer's name and a dot ("normal.R"); a named layer of one channel has its own name ("depth").
-   Errors: those of koksma_image_write; ARGUMENT also for no layers, different sizes, a name that is too long, and two
-   channels of one name. */
+/* Writes n layers: an EXR file receives all layers, other formats receive only the first. The name of an EXR
+   channel is the layer's name, a dot, and R, G or B ("normal.R"); a named layer with one channel uses the layer's
+   name alone ("depth"). The channels of the first layer are R, G and B, or Y.
+   Errors: those of koksma_image_write; also ARGUMENT for n = 0, layers of different sizes, a name that is too long,
+   and two channels with the same name. */
 KOKSMA_API koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n,
                                                    const char *metadata);
 
@@ -80,7 +85,7 @@ KOKSMA_API koksma_status koksma_image_write_layers(const char *path, const koksm
    Errors: ARGUMENT (as for koksma_image_write), UNSUPPORTED (this build lacks libpng), MEMORY. */
 KOKSMA_API koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **bytes, size_t *size);
 
-/* Statistics over all pixels of the error e = luminance - luminance of the reference (Rec. 709 luminance). */
+/* Statistics over all pixels of the error e, the Rec. 709 luminance of the image minus that of the reference. */
 typedef struct koksma_image_error {
     double mean; /* mean of |e| */
     double sd;   /* standard deviation of |e| over the pixels */
@@ -89,7 +94,7 @@ typedef struct koksma_image_error {
 } koksma_image_error;
 
 /* Checks that all pixels are finite numbers.
-     name  what the message calls the image, such as its path
+     name  name of the image in the error message, such as its path
    Errors: MALFORMED (the message names the first pixel that is not finite). */
 KOKSMA_API koksma_status koksma_image_check_finite(const koksma_image *image, const char *name);
 
@@ -105,25 +110,28 @@ KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, cons
 
 /* ---- Metrics of the error ------------------------------------------------------------------------------------ */
 
-/* What a metric compares: width x height pixels of metric->channels values each, row by row from the top. */
+/* The two images that a metric compares: width x height pixels of metric->channels values each, row by row from the
+   top. */
 typedef struct koksma_metric_input {
-    const double *params; /* in the order of the metric's table */
+    const double *params; /* values of the parameters, in the order of koksma_metric.params */
     int width, height;
     const double *image, *reference;
 } koksma_metric_input;
 
-/* A metric of the error of images: each pixel has an error of at least 0; the value is the mean of them, or its root. */
+/* A metric of image error. Each pixel has an error >= 0; the value is the mean over the pixels or the square root
+   of that mean. */
 typedef struct koksma_metric {
     const char *name, *title;
-    const char *cite;           /* a key of docs/references.bib */
+    const char *cite;           /* source of the metric: a key of docs/references.bib */
     const koksma_param *params; /* NULL: none */
-    int channels;               /* 1: of the luminance (Rec. 709); 3: of linear red, green and blue */
-    bool root;                  /* the value is the root of the mean */
-    /* errors  receives width x height numbers. Errors: MEMORY. */
+    int channels;               /* 1: the metric compares Rec. 709 luminance; 3: it compares linear red, green and
+                                   blue */
+    bool root;                  /* true: the value is the square root of the mean error */
+    /* Computes the error of each pixel; `errors` receives width x height numbers. Returns OK or MEMORY. */
     koksma_status (*errors)(const koksma_metric_input *input, double *errors);
 } koksma_metric;
 
-/* Returns metric i of the table, NULL past the end; the metric of a name, NULL if unknown. */
+/* Returns metric i of the table, or the metric with this name, or NULL if there is none. */
 KOKSMA_API const koksma_metric *koksma_metric_at(size_t i);
 KOKSMA_API const koksma_metric *koksma_metric_find(const char *name);
 
@@ -137,81 +145,87 @@ typedef struct koksma_metric_spec {
    Errors: ARGUMENT (a parameter), UNKNOWN (the name). */
 KOKSMA_API koksma_status koksma_metric_parse(const char *text, koksma_metric_spec *spec);
 
-/* Writes the canonical text of a spec, without parameters at their defaults.
-     text  KOKSMA_MAX_SPEC characters; empty if the spec has no metric */
+/* Writes the canonical text of a spec; parameters at their defaults are left out.
+     text  buffer of KOKSMA_MAX_SPEC characters; receives an empty text if the spec has no metric */
 KOKSMA_API void koksma_metric_text(const koksma_metric_spec *spec, char *text);
 
 typedef struct koksma_metric_value {
     double value;
-    double robust;    /* the value without the `top` pixels of largest error */
-    double top_share; /* the share of the sum of all pixels' errors that these carry, 0 .. 1 */
-    size_t top;       /* 0.1 % of the pixels, rounded down */
+    double robust;    /* the value over all pixels except the `top` pixels with the largest error */
+    double top_share; /* fraction, 0 .. 1, of the summed error of all pixels that comes from the `top` pixels */
+    size_t top;       /* number of pixels that `robust` leaves out: 0.1 % of all, rounded down */
 } koksma_metric_value;
 
-/* From this top_share on, few pixels carry most of the error. */
+/* If top_share is at least this number, a few pixels carry most of the error. */
 #define KOKSMA_FEW_PIXELS 0.5
 
-/* Evaluates a metric; image and reference have equal sizes, and 1 or 3 channels each. Values outside a metric's
-   range (negative light in FLIP) are clamped as its definition says.
+/* Evaluates a metric; image and reference have equal sizes, and 1 or 3 channels each. Pixel values outside the
+   range of the metric (such as negative light in FLIP) are clamped as the definition of the metric says.
    Errors: ARGUMENT (the sizes differ, a spec without a metric), MEMORY. */
 KOKSMA_API koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, const koksma_image *image,
                                                 const koksma_image *reference, koksma_metric_value *out);
 
 /* ---- Coherence: whether the error is noise, or bands and patterns -------------------------------------------- */
 
-/* Whether the errors of images are noise, or have a regular pattern: how far the largest peak of their power spectrum
-   stands above white noise. With e = luminance - luminance of the reference on W x H pixels, minus its mean,
+/* Accumulates the error spectra of images to test whether the error is noise or has a regular pattern: the
+   coherence is the ratio of the largest peak of the power spectrum to white noise. With e the luminance of a W x H
+   image minus that of the reference, less the mean of this difference,
 
-       P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / mean of the same over all (u, v) but (0, 0);
+       P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / (its mean over (u, v) != (0, 0));
 
-   the coherence is the largest P, where P is averaged over the images that were added. Errors that are independent
-   between pixels have an expected P of 1 at every frequency, for any distribution, also one that varies over the
-   image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H A^2 / (4 s^2). Where rings of
-   finer detail have more power than the mean (blue noise), P is divided by theirs: docs/findings/coherence.md.
-   Equal images in equal order give equal bits. One thread at a time may use the struct. */
+   the coherence is the largest value of P after P is averaged over the images that were added. Errors that are
+   independent between pixels have an expected P of 1 at every frequency, whatever their distribution is, even if
+   the distribution varies over the image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H
+   A^2 / (4 s^2). In frequency rings where finer detail has more power than the mean (blue noise), P is divided by
+   the power of the ring: docs/findings/coherence.md. Equal images added in equal order give bit-identical results.
+   One thread at a time may use the struct. */
 typedef struct koksma_coherence {
     int width, height;
-    size_t images;   /* added, without those whose error is the same in every pixel */
-    double *error;   /* [y * width + x]: the sum of the errors, each divided by its standard deviation */
-    double *power;   /* [v * (width / 2 + 1) + u]: the mean of P */
-    double *squares; /* likewise of P^2 */
+    size_t images;   /* number of images added, not counting images whose error is the same in every pixel */
+    double *error;   /* [y * width + x]: sum over the images of the error divided by its standard deviation */
+    double *power;   /* [v * (width / 2 + 1) + u]: mean of P over the images */
+    double *squares; /* [v * (width / 2 + 1) + u]: mean of P^2 over the images */
 } koksma_coherence;
 
 typedef struct koksma_coherence_values {
-    size_t images;      /* images that count; 0: there is no coherence, and the numbers below are NaN */
+    size_t images;      /* number of images used; if it is 0, the numbers below are NaN */
     double coherence;   /* the peak of P */
-    double low, high;   /* 95 % interval of the mean of P over images at the peak's frequency, by Student's t;
-                           NaN of one image */
-    double frequency_x; /* where the peak is, in cycles a pixel: 0 .. 1/2 */
-    double frequency_y; /* -1/2 .. 1/2; up in the image where it is as positive as frequency_x */
-    double common;      /* the share of the squared error that all images have in common, 0 .. 1: that of a
-                           pattern without random numbers is 1; NaN of one image */
-    double noise_low, noise_high; /* 95 % of white-noise errors, with as much in common, have a coherence in here */
-    double p;                     /* the probability that those have at least this coherence */
-    bool coherent;                /* p < KOKSMA_COHERENT_P, and the coherence is at least KOKSMA_COHERENT_LEAST */
+    double low, high;   /* 95 % interval (Student's t) of the mean over the images of P at the frequency of the
+                           peak, or NaN if there is one image */
+    double frequency_x; /* horizontal frequency of the peak, 0 .. 1/2 cycles per pixel */
+    double frequency_y; /* vertical frequency of the peak, -1/2 .. 1/2 cycles per pixel; positive values point up in
+                           the image */
+    double common;      /* fraction, 0 .. 1, of the squared error that all images have in common: 1 for a pattern
+                           without random numbers, NaN if there is one image */
+    double noise_low, noise_high; /* interval that contains the coherence of 95 % of white-noise errors with the
+                                     same `common` */
+    double p;                     /* probability that white-noise errors with the same `common` have at least this
+                                     coherence */
+    bool coherent;                /* true if p < KOKSMA_COHERENT_P and the coherence is at least
+                                     KOKSMA_COHERENT_LEAST */
 } koksma_coherence_values;
 
-/* An error is called coherent if it passes both limits. The second one excludes peaks that are significant over many
-   images but invisible in each. */
+/* Limits of koksma_coherence_values.p and .coherence for an error to be called coherent. KOKSMA_COHERENT_LEAST
+   excludes peaks that are significant over many images but invisible in each image. */
 #define KOKSMA_COHERENT_P 0.005
 #define KOKSMA_COHERENT_LEAST 2.0
 
-/* Allocates an accumulator for images of width x height pixels, 16 bytes a pixel. Errors: ARGUMENT (a side that
-   koksma_image_init does not accept), MEMORY. */
+/* Allocates an accumulator for images of width x height pixels; it takes 16 bytes per pixel. Errors: ARGUMENT (a
+   size that koksma_image_init does not accept), MEMORY. */
 KOKSMA_API koksma_status koksma_coherence_init(koksma_coherence *coherence, int width, int height);
 
 /* Frees the arrays and zeroes the struct. coherence may be NULL, or zeroed. */
 KOKSMA_API void koksma_coherence_fini(koksma_coherence *coherence);
 
 /* Adds the error of an image against its reference; each image may have its own reference. O(n log n) for n pixels,
-   of any width and height. An image whose error is the same in every pixel has no P and is not counted.
-   Errors: ARGUMENT (another size),
-   MALFORMED (a pixel is not a finite number), MEMORY. */
+   for any width and height. An image whose error is the same in every pixel has no power spectrum P and is
+   not counted. Errors: ARGUMENT (the size differs from that of the accumulator), MALFORMED (a pixel is not a finite
+   number), MEMORY. */
 KOKSMA_API koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_image *image,
                                               const koksma_image *reference);
 
-/* Computes the coherence of the images added so far. Images with fewer than two frequencies (up to 1 x 3 pixels) have
-   none: out->images is 0. */
+/* Computes the coherence of the images added so far. Images with fewer than two frequencies (up to 1 x 3 pixels)
+   have no coherence: out->images is then 0. */
 KOKSMA_API void koksma_coherence_find(const koksma_coherence *coherence, koksma_coherence_values *out);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Integration: functions whose integral over the unit cube is known, the error of the mean over points, and the share
- * of a function's variance that each projection carries. Part of libkoksma.
+ * Numerical integration: test functions with known integrals over the unit cube, the error of the mean over a point
+ * set, and the share of a function's variance that each projection carries. Part of libkoksma.
  *
  *     koksma_integral *f;
  *     koksma_spec sobol;
@@ -24,39 +24,43 @@
 extern "C" {
 #endif
 
-/* A function on [0,1]^dim with its parameters, and what is known of it. Opaque. */
+/* A function on [0,1]^dim with its parameters and known properties. Opaque. */
 typedef struct koksma_integral koksma_integral;
 
-/* A line of `koksma list integrands`. */
+/* An integrand: a row of the table that `koksma list integrands` prints. */
 typedef struct koksma_integrand {
     const char *name, *title, *cite; /* cite: keys of docs/references.bib, separated by blanks */
-    const char *known;               /* how its integral is known, as "closed form" */
+    const char *known;               /* how the integral was obtained, such as "closed form" */
     int min_dim, max_dim;
-    int axes;                                            /* it depends on so many leading coordinates; 0: on all */
+    int axes;                                            /* number of leading coordinates on which the function
+                                                            depends; 0: on all */
     const koksma_param *params;                          /* NULL: none */
-    koksma_status (*prepare)(koksma_integral *integral); /* computes what is known for dim and parameters */
-    double (*at)(const koksma_integral *integral, const double *x); /* the value; x as in koksma_points */
-    const void *constants;                                          /* of the member's file; may be NULL */
-    int revision;                                                   /* as of a pattern (koksma.h) */
+    koksma_status (*prepare)(koksma_integral *integral); /* computes the known properties (koksma_integral_facts)
+                                                            for dim and parameters */
+    double (*at)(const koksma_integral *integral, const double *x); /* returns the value at x, which has dim
+                                                                       coordinates */
+    const void *constants;                                          /* private data of the integrand; may be NULL */
+    int revision;                                                   /* as koksma_pattern.revision (koksma.h) */
 } koksma_integrand;
 
-/* Returns integrand i of the table, or the integrand with this name; NULL if there is none. */
+/* Returns integrand i of the table, or the integrand with this name, or NULL if there is none. */
 KOKSMA_API const koksma_integrand *koksma_integrand_at(size_t i);
 KOKSMA_API const koksma_integrand *koksma_integrand_find(const char *name);
 
-/* A function of the caller, or of a shared library: a library for `koksma integrate ./LIBRARY.so` exports
+/* An integrand that the caller or a shared library provides. A library for `koksma integrate ./LIBRARY.so` exports
 
        const koksma_function *koksma_function_at(size_t i);
 
-   which returns function i, NULL past the last. Functions and names stay valid while the library is loaded. */
+   koksma_function_at returns function i, or NULL past the last one. Functions and names must stay valid
+   while the library is loaded. */
 typedef struct koksma_function {
-    const char *name; /* of 1 to 63 characters */
+    const char *name; /* 1 to 63 characters */
     int min_dim, max_dim;
-    double (*at)(const double *x, int dim, void *context); /* the value at x, 0 <= x[k] <= 1. It depends on x alone;
-                                                              several threads call it at once unless koksma_run says
-                                                              otherwise */
+    double (*at)(const double *x, int dim, void *context); /* returns the value at x, 0 <= x[k] <= 1, which must
+                                                              depend on x alone. Several threads call it at once
+                                                              unless koksma_run.threads is 1 */
     void *context;                                         /* passed to at */
-    double integral;                                       /* over [0,1]^dim; NaN: not known */
+    double integral; /* the integral over [0,1]^dim, or NaN if it is not known */
 } koksma_function;
 
 /* Opens an integrand in dim dimensions; allocates out.
@@ -64,28 +68,29 @@ typedef struct koksma_function {
    Errors: UNKNOWN (the name; the message suggests the nearest one), ARGUMENT (a parameter), DIM, MEMORY. */
 KOKSMA_API koksma_status koksma_integral_open(const char *text, int dim, koksma_integral **out);
 
-/* Opens a function of the caller as an integrand in dim dimensions; *function is copied. Errors: ARGUMENT (no name or
-   function), DIM, MEMORY. */
+/* Opens a function that the caller provides as an integrand in dim dimensions; *function is copied. Errors:
+   ARGUMENT (the name or the function is missing), DIM, MEMORY. */
 KOKSMA_API koksma_status koksma_integral_of_function(const koksma_function *function, int dim, koksma_integral **out);
 
-/* integral may be NULL. */
+/* Frees an integrand; it may be NULL. */
 KOKSMA_API void koksma_integral_close(koksma_integral *integral);
 
-/* What is known. Unknown numbers are NaN. */
+/* The known properties of an integrand. Unknown numbers are NaN. */
 typedef struct koksma_integral_facts {
     char text[KOKSMA_MAX_SPEC]; /* the canonical spec */
-    int dim, axes;              /* axes: it depends on so many leading coordinates */
+    int dim, axes;              /* axes: number of leading coordinates on which it depends */
     double value;               /* the integral */
-    double variance;            /* the integral of the squared difference from it */
-    double variation; /* in the sense of Hardy and Krause, anchored at 1, as Koksma's inequality has it; infinite
-                               where no grid's rectangles are small enough */
-    double lowest, highest; /* bounds of its values; the closest ones where the range is simple */
+    double variance;            /* the integral of (f - value)^2 */
+    double variation; /* variation in the sense of Hardy and Krause, anchored at 1, as in Koksma's inequality; may
+                         be infinite */
+    double lowest, highest; /* lower and upper bounds of the function values; tight if the range has a simple
+                               form */
 } koksma_integral_facts;
 
 KOKSMA_API void koksma_integral_about(const koksma_integral *integral, koksma_integral_facts *facts);
 
 /* Computes the value at each point, or the mean over all points.
-     points  of the integral's dim, coordinates in [0,1]
+     points  of the integrand's dimension, with coordinates in [0,1]
      values  receives points->n numbers
    Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_integral_values(const koksma_integral *integral, const koksma_points *points,
@@ -95,25 +100,25 @@ KOKSMA_API koksma_status koksma_integrate(const koksma_integral *integral, const
 
 /* ---- Errors over randomisations and sizes ------------------------------------------------------------- */
 
-/* The estimates by sets of n points. */
+/* Statistics of the estimates of an integral by sets of n points. */
 typedef struct koksma_integration_row {
     size_t n;
-    uint64_t trials; /* sets; of a pattern that is deterministic always 1 */
-    double mean, sd; /* of the estimates; sd NaN with one set */
-    double rmse;     /* root mean square of estimate minus integral. Where the integral is not known, sd: without bias
-                        the same. With one set the absolute error */
-    double low,
-        high;    /* 95 % interval of rmse over all sets (delta method on its logarithm, Student's t); NaN with one
-                         set */
-    double gain; /* variance / n / rmse^2: how many times more random points give this error; NaN if not known, or if
-                         the error is rounding */
+    uint64_t trials; /* number of point sets; always 1 for a deterministic pattern */
+    double mean, sd; /* mean and standard deviation of the estimates; sd is NaN with one set */
+    double rmse;     /* root mean square of estimate minus integral; with one set the absolute error. If the
+                        integral is not known, rmse is sd, which is equal for unbiased estimates */
+    /* 95 % confidence interval of rmse (delta method on its logarithm, Student's t), or NaN with one set */
+    double low, high;
+    double gain; /* variance / n / rmse^2: how many times more random points would be needed for this error, or NaN if
+                    it is not known, or if the error is only rounding */
 } koksma_integration_row;
 
-/* The slope of log rmse against log n by least squares, with its 95 % interval: from the trials as koksma_joint_line,
-   of one set from the residuals. Sizes whose rmse is rounding take no part: below 2^-44 of the integral, the
-   largest estimate or the root of the variance. All NaN with fewer than three sizes left. */
+/* The slope of log rmse against log n by least squares, with its 95 % interval. The standard error comes from the
+   trials as in koksma_joint_line, or with one set from the residuals. The fit leaves out sizes whose rmse is only
+   rounding: below 2^-44 of the integral, of the largest estimate or of the root of the variance. All numbers are
+   NaN if fewer than three sizes are left. */
 typedef struct koksma_integration_slope {
-    size_t count; /* sizes used */
+    size_t count; /* number of sizes used */
     double value, standard_error, low, high;
 } koksma_integration_slope;
 
@@ -124,21 +129,21 @@ typedef struct koksma_integration {
 
 typedef struct koksma_integration_options {
     size_t sizes[KOKSMA_MAX_SIZES];
-    size_t n_sizes;  /* 1 to KOKSMA_MAX_SIZES; row i is of sizes[i] points */
-    uint64_t seed;   /* trial t has seed + t */
-    uint64_t trials; /* 1 to 1000000 sets of each size */
+    size_t n_sizes;  /* 1 to KOKSMA_MAX_SIZES; row i of the result is for sizes[i] points */
+    uint64_t seed;   /* trial t uses seed + t */
+    uint64_t trials; /* number of point sets of each size, 1 to 1000000 */
 } koksma_integration_options;
 
 /* Generates sets of each size and integrates over them.
-   Errors: those of koksma_generate and koksma_integrate, ARGUMENT (options). */
+   Errors: those of koksma_generate and koksma_integrate, ARGUMENT (a bad option). */
 KOKSMA_API koksma_status koksma_integration_errors(const koksma_integral *integral, const koksma_spec *pattern,
                                                    const koksma_integration_options *options, const koksma_run *run,
                                                    koksma_integration *out);
 
-/* Computes the same from estimates that the caller has.
-     value, variance  of the integrand; NaN: not known
+/* Computes the statistics of koksma_integration_errors from estimates that the caller provides.
+     value, variance  integral and variance of the integrand, or NaN if not known
      options          its seed has no effect
-     estimates        trials * n_sizes numbers: that of trial t and size i is estimates[t * n_sizes + i]
+     estimates        trials * n_sizes numbers: estimates[t * n_sizes + i] is the estimate of trial t at size i
    Errors: ARGUMENT, MEMORY. */
 KOKSMA_API koksma_status koksma_integration_summary(double value, double variance,
                                                     const koksma_integration_options *options,
@@ -146,37 +151,41 @@ KOKSMA_API koksma_status koksma_integration_summary(double value, double varianc
 
 /* ---- Analysis of variance ----------------------------------------------------------------------------- */
 
-/* A part of the variance, 0 to 1, and its 95 % interval; both ends equal value where it is exact. */
+/* A fraction of the variance, 0 to 1, and its 95 % interval; if the value is exact, low and high are equal to
+   it. */
 typedef struct koksma_share {
     double value, low, high;
 } koksma_share;
 
 /* Sobol' indices of a set u of coordinates. */
 typedef struct koksma_sensitivity {
-    koksma_share component; /* of the ANOVA component of exactly u: of one coordinate its first-order index */
-    koksma_share closed;    /* of all components within u: Var(E(f | x_u)) / Var(f) */
-    koksma_share total;     /* of all components that meet u */
-    double variance;        /* of the integrand; an estimate unless exact */
-    bool exact; /* by a closed form; else by pick-freeze estimates (Saltelli et al. 2010, Jansen 1999) over
-                               16 Owen-scrambled Sobol' sets, whose spread gives the interval */
+    koksma_share component; /* index of the ANOVA component of exactly the set u; for one coordinate this is its
+                               first-order index */
+    koksma_share closed;    /* sum of the indices of all subsets of u: Var(E(f | x_u)) / Var(f) */
+    koksma_share total;     /* sum of the indices of all sets that have a coordinate in common with u */
+    double variance;        /* variance of the integrand; an estimate unless exact is true */
+    bool exact; /* true: all values come from a closed form; false: from pick-freeze estimates (Saltelli et al.
+                   2010, Jansen 1999) over 16 Owen-scrambled Sobol' sets, whose spread gives the intervals */
 } koksma_sensitivity;
 
 enum { KOKSMA_MAX_ANOVA_AXES = 8 };
 
-/* Computes them for the coordinates axes[0] .. axes[n_axes - 1], numbered from 0.
-     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different ones below dim. An exact component takes 2^n_axes closed forms, an
-              estimated one as many evaluations of each sample
-     samples  points in each of the 16 sets, up to 2^20; 0: the closed form where there is one, else 4096
-   Errors: ARGUMENT (axes, samples, a function without variance), MEMORY, INTERRUPTED. */
+/* Computes the Sobol' indices of the coordinates axes[0] .. axes[n_axes - 1], numbered from 0.
+     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different coordinates below dim. An exact component takes 2^n_axes closed
+              forms, an estimated one 2^n_axes evaluations for each sample
+     samples  number of points in each of the 16 sets, up to 2^20; 0: use the closed form if there is one, else 4096
+              points
+   Errors: ARGUMENT (bad axes or samples, a function with variance 0), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_integral_sensitivity(const koksma_integral *integral, const int *axes, size_t n_axes,
                                                      size_t samples, uint64_t seed, const koksma_run *run,
                                                      koksma_sensitivity *out);
 
-/* Opens the ANOVA component of the coordinates axes[0] .. axes[n_axes - 1] as an integral of its own, 0; allocates out. The
-   errors of all components add up to that of the integrand, so that koksma_integration_errors of them shows which
-   projections of a pattern make it.
-     n_axes  1 to KOKSMA_MAX_ANOVA_AXES different ones, below the axes of the integrand
-   Errors: ARGUMENT (axes), UNSUPPORTED (the integrand is no product of functions of one coordinate), MEMORY. */
+/* Opens the ANOVA component of the coordinates axes[0] .. axes[n_axes - 1] as an integrand, whose integral is 0;
+   allocates out. The errors of all components add up to the error of the integrand, so koksma_integration_errors of
+   the components shows which projections of a pattern cause that error.
+     n_axes  1 to KOKSMA_MAX_ANOVA_AXES different coordinates, all below koksma_integral_facts.axes of the integrand
+   Errors: ARGUMENT (bad axes), UNSUPPORTED (the integrand is not a product of functions of one coordinate),
+   MEMORY. */
 KOKSMA_API koksma_status koksma_integral_component(const koksma_integral *integral, const int *axes, size_t n_axes,
                                                    koksma_integral **out);
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Ranking and scrambling keys (Heitz & others 2019): each pixel of an image draws from its own copy of one Owen-scrambled
- * (0,2)-sequence, which two keys of the pixel choose such that the errors of neighbouring pixels cancel. No library, no
- * allocation; tables of 64 x 64 pixels are in koksma/keys.def. After koksma/sampler.h, whose notes on compilers hold.
+ * Blue-noise sampling with ranking and scrambling keys (Heitz & others 2019). All pixels share one Owen-scrambled
+ * (0,2)-sequence; the keys of a pixel reorder and scramble it such that the errors of neighbouring pixels cancel.
+ * This header needs no library and allocates nothing; koksma/keys.def has tables for tiles of 64 x 64 pixels. The
+ * notes on compilers in koksma/sampler.h also hold for this header.
  *
  *     const koksma_keys pixel = koksma_keys_of(seed, x, y, pair, spp);
  *     for (uint32_t i = 0; i < spp; i++) {
@@ -11,22 +12,24 @@
  *
  *     sample i = sequence(i XOR ranking key) XOR scrambling keys
  *
- * There is a table for each of 1, 4 and 16 = 2^m samples a pixel. Its scrambling keys flip 8 digits of x and of y, the same
- * ones in all samples: those behind the first m, which place the samples within their strata; digits further down are
- * Owen-scrambled anew in each pixel. A third key pairs the strata in y with those in x, by an Owen scrambling of the first
- * m digits. The ranking key decides which part of the sequence comes first, so that the errors of smaller powers of two are
- * blue, too. More than 16 samples take the last table, where digits of the pairing behind the fourth are random; powers of
- * two then have an m of their own. Aligned blocks of 2^k samples of a pixel are (0,k,2)-nets in base 2, for all k.
- * docs/findings/blue-noise.md has the
- * measured errors: beyond 100 samples they can be larger than those of independent pixels.
+ * There are three tables, for 2^m = 1, 4 and 16 samples per pixel. The two scrambling keys of a pixel flip binary
+ * digits of x and y by XOR, equally in all its samples: the 8 digits after the first m, which position the samples
+ * within their strata. Later digits are Owen-scrambled independently in each pixel. A pairing key pairs the strata
+ * in y with those in x by an Owen scrambling of the first m digits of y. The ranking key decides which part of the
+ * sequence comes first, so that the errors are blue noise also for smaller powers of two. More than 16 samples per
+ * pixel use the table for 16, and the digits of the pairing after the fourth are then random; for numbers of
+ * samples that are powers of two m grows with the number. Aligned blocks of 2^k samples of a pixel are (0,k,2)-nets
+ * in base 2, for all k. docs/findings/blue-noise.md has the measured errors: beyond 100 samples per pixel they can
+ * be larger than those of independently scrambled pixels.
  *
- * A pair of dimensions is a number of your choice, 0, 1, 2 ... below 64: it moves the table by its own distance. Errors
- * that come from one pair of dimensions are blue, those from several pairs together are white. Samples 2^m .. 2^(m+1) - 1
- * of all pairs but the first are in an order of their own for each pixel and pair, so that pairs are independent but for
- * that: the first half of one pair's samples meets the first half of another's.
+ * Number the pairs of dimensions 0, 1, 2 ... as you like, below 64: each number shifts the table by a different
+ * offset. Errors that come from one pair of dimensions are blue noise, errors from several pairs together are white
+ * noise. In each pixel and each pair except pair 0, the samples 2^k .. 2^(k+1) - 1, for each k, are in a different
+ * random order. Pairs are therefore independent, with one exception: the first half of one pair's samples meets the
+ * first half of another pair's.
  *
- * The tables are fixed and the seed moves them, so that a pixel takes the errors of 4,096 pixels in turn: the mean over
- * seeds is the mean over a tile, not exactly the integral.
+ * The tables are fixed and the seed shifts them, so over the seeds a pixel takes the errors of the 4,096 pixels of
+ * a tile. The mean of a pixel over all seeds is therefore the mean over a tile, which is not exactly the integral.
  */
 #ifndef KOKSMA_KEYS_H
 #define KOKSMA_KEYS_H
@@ -35,22 +38,23 @@
 
 enum { KOKSMA_KEYS_SIZE = 64, KOKSMA_KEYS_DIGITS = 8, KOKSMA_KEYS_PAIRS = 64 };
 
-/* What one pixel and pair of dimensions need: compute it once for all samples. */
+/* The keys of one pixel and pair of dimensions. Compute them once for all samples. */
 typedef struct koksma_keys {
     uint32_t sequence[2]; /* seeds of the sequence that all pixels share */
-    uint32_t below[2];    /* seeds of the digits below the keys */
-    uint32_t flips[2];    /* scrambling keys; bits are reversed: bit 0 flips the first digit */
-    uint32_t mask;        /* the digits above those below */
-    uint32_t coarse;      /* the first digits, which the pairing key scrambles, 4 at most */
-    uint32_t strata;      /* the first m digits */
-    uint32_t pairing;     /* seeds of the scramblings that pair strata */
-    uint32_t finer;
-    uint32_t rank;  /* ranking key */
-    uint32_t order; /* of the samples 2^m .. 2^(m+1) - 1, if ordered */
+    uint32_t below[2];    /* seeds that scramble the digits after those that the scrambling keys flip */
+    uint32_t flips[2];    /* scrambling keys with bits reversed: bit 0 flips the first digit */
+    uint32_t mask;        /* bit mask of the digits that `below` does not scramble */
+    uint32_t coarse;      /* bit mask of the first digits, at most 4, which the pairing key scrambles */
+    uint32_t strata;      /* bit mask of the first m digits */
+    uint32_t pairing;     /* seed of the scrambling of the digits in `coarse`, which pairs strata */
+    uint32_t finer;       /* seed of the scrambling of the digits in `strata` that are not in `coarse` */
+    uint32_t rank;        /* ranking key */
+    uint32_t order;       /* seed of the order of samples 2^k .. 2^(k+1) - 1, used if ordered is 1 */
     uint32_t ordered;
 } koksma_keys;
 
-/* Sets what a word of a table says: 8 bits of flips of x, 8 of y, 8 of the pairing, and the rank; m as above. */
+/* Sets the members of `keys` that a word of a table determines. The word has 8 bits that flip digits of x, 8 that
+   flip digits of y, 8 of the pairing key, and the ranking key. m is log2 of the number of samples of the table. */
 KOKSMA_INLINE void koksma__keys_of_word(uint32_t word, uint32_t m, koksma_keys *keys)
 {
     const uint32_t digits = (1u << KOKSMA_KEYS_DIGITS) - 1;
@@ -64,7 +68,7 @@ KOKSMA_INLINE void koksma__keys_of_word(uint32_t word, uint32_t m, koksma_keys *
     keys->rank = word >> 3 * KOKSMA_KEYS_DIGITS;
 }
 
-/* Computes the sample of the shared sequence at an index, with the keys of a pixel, as 32-bit fractions. */
+/* Computes the point of the shared sequence at an index, scrambled by the keys of a pixel, as 32-bit fractions. */
 KOKSMA_INLINE void koksma__keyed(const koksma_keys *keys, uint32_t index, uint32_t words[2])
 {
     const uint32_t y = koksma_pascal(index);
@@ -81,8 +85,8 @@ KOKSMA_INLINE void koksma__keyed(const koksma_keys *keys, uint32_t index, uint32
     }
 }
 
-/* Returns the index at place i of an order that keeps each of the sets 0 .. 2^m - 1: the samples 2^m .. 2^(m+1) - 1 are
-   shuffled, by Owen hashing, so that aligned blocks remain aligned blocks. */
+/* Returns index i of a random order that permutes the indices 2^m .. 2^(m+1) - 1 among themselves, for each m. Owen
+   hashing shuffles the range, so aligned blocks remain aligned blocks. */
 KOKSMA_INLINE uint32_t koksma__shuffled_by_octaves(uint32_t i, uint32_t order)
 {
     uint32_t m = 0;
@@ -95,7 +99,8 @@ KOKSMA_INLINE uint32_t koksma__shuffled_by_octaves(uint32_t i, uint32_t order)
     return 1u << m | koksma_shuffled(i << (32 - m), order + m * 0x9e3779b9u) >> (32 - m);
 }
 
-/* Returns word i of a table: 0 is the key of the sequence that all its pixels share, 1 + p that of pixel p of the tile. */
+/* Returns word i of a table: word 0 is the key of the sequence that all pixels share, word 1 + p has the keys of
+   pixel p of the tile. */
 KOKSMA_INLINE uint32_t koksma__keys_word(int table, uint32_t i)
 {
     static const uint32_t words[3][1 + 64 * 64] = {
@@ -104,7 +109,8 @@ KOKSMA_INLINE uint32_t koksma__keys_word(int table, uint32_t i)
     return words[table][i];
 }
 
-/* Returns the table for a number of samples a pixel, that of the smallest number which is not below it or the last, and m. */
+/* Returns the table for spp samples per pixel: the one for the smallest number >= spp, or the last table. Sets *m
+   to the m of that table, or to log2 spp if spp > 16 is a power of two, at most 16. */
 KOKSMA_INLINE int koksma__keys_table(uint32_t spp, uint32_t *m)
 {
     const int table = spp <= 1 ? 0 : spp <= 4 ? 1 : 2;
@@ -117,7 +123,8 @@ KOKSMA_INLINE int koksma__keys_table(uint32_t spp, uint32_t *m)
 
 /* Returns the keys of pixel (x, y) of the image with this seed, for one pair of dimensions.
      pair  below KOKSMA_KEYS_PAIRS
-     spp   samples a pixel in the end; they may be drawn in parts, but all with the same spp. If it isn't known, say 16. */
+     spp   final number of samples per pixel; use the same spp if you draw them in several passes, and 16 if the
+           final number is unknown. */
 KOKSMA_INLINE koksma_keys koksma_keys_of(uint64_t seed, uint32_t x, uint32_t y, uint32_t pair, uint32_t spp)
 {
     uint32_t m;
@@ -142,7 +149,8 @@ KOKSMA_INLINE koksma_keys koksma_keys_of(uint64_t seed, uint32_t x, uint32_t y, 
     return keys;
 }
 
-/* Computes sample i of a pixel and pair, in [0,1)^2. The points are those of the pattern `ranking-keys`. */
+/* Computes sample i of a pixel and pair of dimensions, in [0,1)^2. The points equal those of the pattern
+   `ranking-keys`. */
 KOKSMA_INLINE void koksma_keys_2d(const koksma_keys *keys, uint32_t i, double xy[2])
 {
     const uint32_t place = keys->ordered ? koksma__shuffled_by_octaves(i, keys->order) : i;
@@ -152,7 +160,7 @@ KOKSMA_INLINE void koksma_keys_2d(const koksma_keys *keys, uint32_t i, double xy
     xy[1] = koksma_fraction(words[1]);
 }
 
-/* The same as floats: the doubles rounded down to multiples of 2^-24. */
+/* Computes sample i as floats: the doubles of koksma_keys_2d rounded down to multiples of 2^-24. */
 KOKSMA_INLINE void koksma_keys_2f(const koksma_keys *keys, uint32_t i, float xy[2])
 {
     double exact[2];

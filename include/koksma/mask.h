@@ -1,21 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Masks: tables that choose for each pixel its copy of a pattern such that the errors of neighbouring pixels differ
- * and average out for the eye. Part of libkoksma; koksma_mask_value and koksma_mask_2d are inline.
+ * Blue-noise masks: tables that select for each pixel a differently scrambled copy of a pattern, such that the
+ * errors of neighbouring pixels differ and average out for the eye. Part of libkoksma; koksma_mask_value and
+ * koksma_mask_2d are inline.
  *
- *     void-and-cluster masks   koksma_mask_2d gives each pixel its own scrambled (0,2)-sequence, which three masks
- *                              choose; one mask alone is a threshold image
- *     the same in space and time   koksma_mask_void_and_cluster_3d
- *     koksma_keys_2d           (koksma/keys.h) optimised for 1, 4 and 16 samples; with 1 sample, its points are a mask of
- *                              vectors of two components
+ *     koksma_mask_2d           gives each pixel a scrambled (0,2)-sequence that three void-and-cluster masks
+ *                              select; a single mask can serve as a threshold image
+ *     koksma_mask_void_and_cluster_3d   computes a void-and-cluster mask in space and time
+ *     koksma_keys_2d           (koksma/keys.h) tables optimised for 1, 4 and 16 samples per pixel; with 1 sample
+ *                              the points form a mask of two-component vectors
  *     koksma_z_rank            (koksma/sampler.h) gives pixel (x, y) the samples rank * spp .. rank * spp + spp - 1
  *                              of one sequence (Ahmed & Wonka 2020)
  *
- * Georgiev & Fajardo (2016) shift each pixel's copy on the torus. That breaks the nets at the seam: from 4 samples a
- * pixel on, the error in each pixel is up to several times that of independently scrambled pixels. koksma_mask_2d
- * keeps the nets. For any number of samples a pixel's points have the law of independently scrambled Sobol' points,
- * and so has its error; only the errors of neighbours are related. In one tile of 64 x 64 pixels, the share of the
- * error below a quarter of the highest frequency is, where white noise has 1:
+ * Georgiev & Fajardo (2016) shift each pixel's copy of the pattern on the torus. The shift breaks the net property:
+ * from 4 samples per pixel on, the error in each pixel is up to several times that of independently scrambled
+ * pixels. koksma_mask_2d keeps the nets. For any number of samples the points of a pixel have the distribution of
+ * independently scrambled Sobol' points, and so does the error of the pixel; only the errors of neighbouring pixels
+ * are dependent. The table has the error power below a quarter of the highest frequency in one tile of 64 x 64
+ * pixels, relative to white noise (1):
  *
  *     samples a pixel        1     4     16    64
  *     x                      .04   .04   .04   .04
@@ -23,8 +25,8 @@
  *     step in x              .09   .09   .20   .07
  *     quarter disk           .36   .34   .41   .43
  *
- * Numbers of samples that are powers of two gain most; with 3, 5, 6, 7 and 12 samples the shares are .05 to .9. With
- * 1 to 3 samples an integrand that oscillates more than once over the square gains little.
+ * Powers of two gain most; with 3, 5, 6, 7 and 12 samples per pixel the relative error power is .05 to .9. With 1
+ * to 3 samples per pixel an integrand that oscillates more than once over the square gains little.
  */
 #ifndef KOKSMA_MASK_H
 #define KOKSMA_MASK_H
@@ -46,11 +48,11 @@ enum { KOKSMA_MASK_MIN = 4, KOKSMA_MASK_MAX = 1024, KOKSMA_MASK_MAX_3D = 64 };
 KOKSMA_API koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, const koksma_run *run,
                                                       uint32_t *ranks);
 
-/* Computes a void-and-cluster mask in space and time: a permutation of 0 .. size^2 frames - 1 whose voxels below any rank
-   are spread evenly on the torus of three dimensions. Blue along time and space together; a single frame of it is less blue
-   than a mask of two dimensions. About 1.5 s for 32 x 32 x 16.
+/* Computes a void-and-cluster mask in space and time: a permutation of 0 .. size^2 frames - 1 whose voxels below
+   any rank are spread evenly on the three-dimensional torus. The mask is blue noise in space and time together; a
+   single frame is less blue than a two-dimensional mask. It takes about 1.5 s for 32 x 32 x 16 voxels.
      size    pixels a side, KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_3D
-     frames  the same range
+     frames  number of frames, KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_3D
      ranks   size * size * frames numbers; pixel (x, y) of frame f is ranks[(f * size + y) * size + x]
    Errors: ARGUMENT (size, frames), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_mask_void_and_cluster_3d(int size, int frames, uint64_t seed, const koksma_run *run,
@@ -61,25 +63,27 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster_3d(int size, int frames, u
 #endif
 
 /* Returns the value of one pixel of a mask as a 32-bit fraction: a random position in the stratum of its rank.
-     rank    below pixels, from koksma_mask_void_and_cluster
-     pixels  of the mask: size * size
-     random  a random word for this pixel and mask; koksma_words(key, KOKSMA_FOR_SHIFT, pixel, 1, w) gives four */
+     rank    rank of the pixel, from koksma_mask_void_and_cluster; less than `pixels`
+     pixels  number of pixels of the mask: size * size
+     random  a random word that differs for each pixel and mask; koksma_words(key, KOKSMA_FOR_SHIFT, pixel, 1, w)
+             gives four */
 KOKSMA_INLINE uint32_t koksma_mask_value(uint32_t rank, uint32_t pixels, uint32_t random)
 {
     KOKSMA_ASSERT(rank < pixels);
     return (uint32_t)(((uint64_t)rank << 32 | random) / pixels);
 }
 
-/* Computes sample s of a pixel. The points are those of the pattern `mask-offset`.
-     sequence  of the image, or of one purpose of its samples: koksma_sobol_of(domain)
-     values    koksma_mask_value of this pixel in three masks, made with three seeds
-     s, spp    sample s of 0 .. spp - 1
+/* Computes sample s of a pixel. The points equal those of the pattern `mask-offset`.
+     sequence  koksma_sobol_of(domain), with the domain of the image or of one pair of its sample dimensions
+     values    koksma_mask_value of this pixel in three masks with different seeds
+     s, spp    index of the sample, 0 .. spp - 1; number of samples per pixel
      xy        receives the point, in [0,1)^2
 
-   With 2^m the largest power of two that divides spp, each 2^m samples are a (0,m,2)-net in base 2. Two values
-   shift the digits after the first m (by XOR), which set the position of the samples within their strata. The third
-   one shifts the first m digits of y before they are scrambled, which pairs the strata in y with those in x. The
-   error thus depends on the masks alone, and each part of it that depends on one mask is as blue as that mask. */
+   If 2^m is the largest power of two that divides spp, each run of 2^m samples is a (0,m,2)-net in base 2.
+   values[0] and values[1] shift (by XOR) the digits of x and y after the first m, which set the position of the
+   samples within their strata. values[2] shifts the first m digits of y before they are scrambled, which pairs the
+   strata in y with those in x. The error of a pixel thus depends only on the masks, and each part of the error that
+   depends on one mask is as blue as that mask. */
 KOKSMA_INLINE void koksma_mask_2d(const koksma_sobol *sequence, const uint32_t values[3], uint32_t s, uint32_t spp,
                                   double xy[2])
 {

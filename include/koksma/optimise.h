@@ -9,8 +9,8 @@
  *     }
  *     koksma_optimum_fini(&best);
  *
- * Work proceeds in steps of a fixed amount: equal measure, n, dim, first, keep, seed and number of steps give equal
- * bits, for any number of threads.
+ * The search proceeds in steps of a fixed amount of work. Equal measure, n, dim, first set, keep, seed and number
+ * of steps give bit-identical results for any number of threads.
  */
 #ifndef KOKSMA_OPTIMISE_H
 #define KOKSMA_OPTIMISE_H
@@ -21,34 +21,37 @@
 extern "C" {
 #endif
 
-/* What the search must keep of the first set. */
+/* The property of the first set that the search must preserve. */
 typedef enum koksma_keep {
     KOKSMA_KEEP_NONE,
-    KOKSMA_KEEP_LATIN, /* along each axis the coordinates stay those of the first set, in another order */
-    KOKSMA_KEEP_NET,   /* each coordinate stays in its interval of length 1/n, with which a (t,m,s)-net of n = b^m
-                          points stays one */
-    KOKSMA_KEEP_SEQUENCE /* the points stay the first n = 2^m of a digital sequence in base 2. The value is the geometric
-                            mean of the measure over the first 2, 4, ..., n points in each of the projections */
+    KOKSMA_KEEP_LATIN,   /* on each axis the search only permutes the coordinates of the first set */
+    KOKSMA_KEEP_NET,     /* each coordinate stays in its interval of length 1/n, so that a (t,m,s)-net of n = b^m
+                            points remains a net */
+    KOKSMA_KEEP_SEQUENCE /* the points remain the first n = 2^m points of a digital sequence in base 2. The search
+                            minimises the geometric mean of the measure over the first 2, 4, ..., n points in each
+                            of the projections */
 } koksma_keep;
 
-/* The best set so far. */
+/* The best point set that a search has found so far. */
 typedef struct koksma_optimum {
     koksma_points points;
-    double value;       /* of the measure, by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE its mean */
-    double lower;       /* no n points of so many dimensions have a smaller value; NaN where none is known */
-    uint64_t steps;     /* done */
-    uint64_t last_gain; /* the step that found these points; 0: they are the first set */
-    const char *method; /* of the search, as `koksma list methods` names it */
+    double value;       /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE the geometric mean
+                           described there */
+    double lower;       /* lower bound of the measure over all sets of n points in this dimension, or NaN if no bound
+                           is known */
+    uint64_t steps;     /* number of steps done */
+    uint64_t last_gain; /* number of the step that found these points; 0: they are the first set */
+    const char *method; /* name of the search method, as in `koksma list methods` */
 } koksma_optimum;
 
-/* Several processes that share the work of one search: each calls koksma_optimise with equal arguments, and all get the
-   set that one alone gets. */
+/* Several processes that share the work of one search. Each process calls koksma_optimise with equal arguments, and
+   each gets the same set that a single process would find. */
 typedef struct koksma_processes {
-    int size, rank; /* processes; which one this is, from 0 */
-    /* Gives every process what each of them has: of `count` pieces of so many bytes, piece i is that of process
-       i % size. All call it at the same points of their work. */
+    int size, rank; /* number of processes; index of this process, from 0 */
+    /* An all-gather: process i % size provides piece i of `count` pieces of `bytes` bytes each, and afterwards
+       every process has all pieces. All processes call it at the same points of the search. */
     koksma_status (*exchange)(void *context, void *pieces, size_t count, size_t bytes);
-    /* Called after the last exchange of a search that ends without an error. May be NULL */
+    /* Called after the last exchange of a search that ends without an error; may be NULL. */
     void (*done)(void *context);
     void *context;
 } koksma_processes;
@@ -56,63 +59,70 @@ typedef struct koksma_processes {
 typedef struct koksma_optimise_options {
     size_t n; /* 1 or more */
     int dim;
-    const koksma_points *first; /* the first set, n points of dim; NULL: n Latin hypercube points, with
-                                  KOKSMA_KEEP_NET and KOKSMA_KEEP_SEQUENCE the first n of the Sobol' sequence */
+    const koksma_points *first; /* the first set, n points of dim coordinates. If it is NULL, the search starts from
+                                   n Latin hypercube points, or with KOKSMA_KEEP_NET and KOKSMA_KEEP_SEQUENCE from
+                                   the first n points of the Sobol' sequence */
     koksma_keep keep;
     uint64_t seed;
-    uint64_t steps; /* 0: until the time limit, or until progress returns false */
-    bool (*progress)(void *context, const koksma_optimum *best); /* called with the first set, and after each step, on
-                                                          the calling thread; returns false to stop. May be NULL */
+    uint64_t steps; /* number of steps; 0: search until the time limit passes or progress returns false */
+    bool (*progress)(void *context, const koksma_optimum *best); /* callback that is called with the first set and
+                                                                    after each step, on the calling thread; it
+                                                                    returns false to stop. May be NULL */
     void *context;                                               /* passed to progress */
-    /* Measure the points in projections, each on some of the first 64 coordinates: on k if bit k is set. The value is the root
-       of the weighted mean of the squares of the measure; with KOKSMA_KEEP_SEQUENCE the weighted geometric mean. NULL: in
-       all coordinates together */
+    /* Projections in which to measure the points, each a bit mask of the first 64 coordinates: it contains
+       coordinate k if bit k is set. The value is the root of the weighted mean of the squared measure over the
+       projections, or with KOKSMA_KEEP_SEQUENCE the weighted geometric mean. NULL: measure the points in all
+       coordinates */
     const uint64_t *projections;
-    const double *weights; /* of the projections, above 0; NULL: all 1 */
+    const double *weights; /* n_projections weights above 0 (NULL: all weights are 1) */
     size_t n_projections;
-    const koksma_processes *processes; /* NULL: this process does all of the work */
+    const koksma_processes *processes; /* processes that share the search; NULL: this process does all of the
+                                          work */
 } koksma_optimise_options;
 
 /* A method of search: one line of `koksma list methods`. */
 typedef struct koksma_method {
     const char *name, *title, *cite;
-    /* How well it serves such a search; 0: it cannot. Of all methods the one with the largest number does it. */
+    /* Returns how well the method suits this search; 0: not at all. koksma_optimise uses the method that returns
+       the largest number. */
     int (*serves)(const koksma_spec *measure, const koksma_optimise_options *options);
-    /* Replaces points, the best so far, whose value is given, by another candidate. A pure function of its arguments and
-       of n, dim, keep and the projections of the options; several threads call it at once. */
+    /* Replaces `points`, the best set so far with the given value, by another candidate. The result depends only on
+       the arguments (of the options: n, dim, keep and the projections); several threads call the function at
+       once. */
     koksma_status (*search)(const koksma_spec *measure, const koksma_optimise_options *options, uint64_t seed,
                             double value, koksma_points *points);
 } koksma_method;
 
-/* Returns method i of the table, or the method with this name; NULL if there is none. */
+/* Returns method i of the table, or the method with this name, or NULL if there is none. */
 KOKSMA_API const koksma_method *koksma_method_at(size_t i);
 KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 
-/* Searches for points with a small value of a measure (a large one of a distance). Allocates out.
-     measure  any measure that is exact
-     run      its time limit ends the search after the step in which it passes; at least one step is done
-   Errors: ARGUMENT (of options or the measure), N, DIM, MEMORY; INTERRUPTED by run->keep_going, after which out holds
-   the best set. */
+/* Searches for points with a small value of a measure (a large value if the measure is a distance). Allocates out.
+     measure  a measure whose answer is KOKSMA_ANSWER_EXACT
+     run      if the time limit passes during a step, the search ends after that step; at least one step is done
+   Errors: ARGUMENT (a bad option or measure), N, DIM, MEMORY, INTERRUPTED (run->keep_going returned false; out then
+   has the best set so far). */
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                                          const koksma_run *run, koksma_optimum *out);
 
-/* Writes the generator matrices of a digital sequence, whose first 2^m points are given, as the pattern net-file reads
-   them. Errors: N (not 2^m points), ARGUMENT (other points), IO.
+/* Computes the generator matrices of a digital sequence from its first 2^m points and writes them to a file for the
+   pattern net-file. Errors: N (the number of points is not a power of two), ARGUMENT (the points are not those of a
+   digital sequence), IO.
      path     "-" is standard output
-     comment  lines for the top of the file; NULL: none */
+     comment  comment lines for the top of the file; may be NULL */
 KOKSMA_API koksma_status koksma_net_write(const char *path, const koksma_points *points, const char *comment);
 
-/* A set of points that the pattern `record` has. */
+/* A point set of the pattern `record`, which stores the best sets known. */
 typedef struct koksma_record {
     const char *measure;
     size_t n;
     int dim;
-    double value;       /* of the set */
-    double published;   /* the best published value that was at hand, to the digits published; 0: none was */
-    const char *source; /* of it: a key of docs/references.bib, or "-" */
+    double value;       /* value of the measure for this set */
+    double published;   /* best published value that is known to us, with the digits published; 0: none is known */
+    const char *source; /* source of the published value: a key of docs/references.bib, or "-" */
 } koksma_record;
 
-/* Returns record i, in order of measure and n; NULL past the end. */
+/* Returns record i, sorted by measure and n, or NULL past the last record. */
 KOKSMA_API const koksma_record *koksma_record_at(size_t i);
 
 /* Frees the points and zeroes the struct. best may be NULL, or zeroed. */

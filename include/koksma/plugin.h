@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Koksma: a sampler of your own as a shared library, the pattern plugin:./LIBRARY.so[:NAME]. The library needs this
- * header, and nothing of Koksma's libraries. A whole one:
+ * Interface for samplers in shared libraries, which koksma runs as the pattern plugin:./LIBRARY.so[:NAME]. A plugin
+ * needs only this header and none of Koksma's libraries. A complete plugin:
  *
  *     #include <koksma/plugin.h>
  *
@@ -23,8 +23,9 @@
  *     cc -shared -fPIC -O2 -o diagonal.so diagonal.c
  *     koksma measure plugin:./diagonal.so@64 -m star --allow-exec
  *
- * The code runs in the process that uses it, with all that this process may do; a crash ends it, and no limit of time
- * applies. A sampler that needs these is a program, exec:PROGRAM.
+ * The plugin's code runs inside the calling process with all its permissions. A crash of the plugin ends the
+ * process, and no time limit applies. To isolate a sampler or limit its time, write it as a program for the pattern
+ * exec:PROGRAM.
  */
 #ifndef KOKSMA_PLUGIN_H
 #define KOKSMA_PLUGIN_H
@@ -38,24 +39,26 @@
 #define KOKSMA_PLUGIN_EXPORT __attribute__((visibility("default")))
 #endif
 
-/* The version of this interface; a library with another one is refused. */
+/* The version of this interface; koksma rejects a library with another version. */
 #define KOKSMA_PLUGIN_VERSION 1
 
-/* The bytes that there are at `reason`. */
+/* The size in bytes of the buffer `reason`. */
 #define KOKSMA_PLUGIN_REASON 256
 
 /* A sampler. The library exports
 
        const koksma_plugin *koksma_plugin_at(size_t i);
 
-   which returns sampler i = 0, 1, ..., NULL past the last. Samplers and names stay valid. */
+   koksma_plugin_at returns sampler i = 0, 1, ..., or NULL past the last one. Samplers and names must stay
+   valid while the library is loaded. */
 typedef struct koksma_plugin {
     int version; /* KOKSMA_PLUGIN_VERSION */
     const char *name;
-    int min_dim, max_dim; /* the dimensions that it serves, 1 to 4096 */
-    /* Writes n points of dim coordinates in [0,1): point i to xs[i * dim] .. xs[i * dim + dim - 1]. Returns 0, or not 0
-       where it has no such set; reason may then be given a text of one line. The points depend on nothing but the
-       arguments: every set is made twice and compared. Called from any thread, and from several at once. */
+    int min_dim, max_dim; /* smallest and largest dimension that the sampler accepts, within 1 to 4096 */
+    /* Writes n points of dim coordinates in [0,1): point i to xs[i * dim] .. xs[i * dim + dim - 1]. Returns 0, or
+       another number if the sampler has no such set; it may then write a one-line text to `reason`. The points must
+       depend only on the arguments: koksma generates every set twice and compares. Several threads may call the
+       function at once. */
     int (*generate)(uint64_t seed, size_t n, int dim, double *xs, char *reason);
 } koksma_plugin;
 

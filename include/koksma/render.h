@@ -11,11 +11,12 @@
  *         koksma_render(scene, &options, NULL, &image);
  *     }
  *
- * A sample has one or two dimensions for each purpose: the position in the pixel, and what the scene needs: the lens,
- * the time, a point on each light, the choice of a light, the direction of scattering, its kind (reflection or
- * transmission), and Russian roulette. Such a purpose, with its sample dimensions, is called a use; koksma_use_at
- * lists them. Each use has its own point set, which is new for every pixel unless `scope` or `pairing` say
- * otherwise; or several uses form a group and share the dimensions of one set.
+ * A sample has one or two dimensions for each purpose: the position in the pixel and, if the scene needs them, the
+ * position on the lens, the time, a point on each light, the choice of a light, the direction of scattering, its
+ * kind (reflection or transmission), and Russian roulette. Such a purpose, with its sample dimensions, is called a
+ * use; koksma_use_at lists the uses. By default each use has its own point set, which is generated anew for every
+ * pixel; the options `scope` and `pairing` change this. Several uses can form a group that shares the dimensions of
+ * one set.
  */
 #ifndef KOKSMA_RENDER_H
 #define KOKSMA_RENDER_H
@@ -29,12 +30,12 @@ extern "C" {
 
 typedef struct koksma_scene koksma_scene;
 
-/* Returns the name of scene i of those in the library; NULL past the end. */
+/* Returns the name of scene i of the library, or NULL past the last scene. */
 KOKSMA_API const char *koksma_scene_name_at(size_t i);
 
-/* One line of a table whose members have no functions of their own here.
-     cite    keys of docs/references.bib, or "-"; NULL: the table has none
-     fields  of a kind of a scene file: their names with blanks between; else "" */
+/* Name and description of an entry of a table, such as a kind of material or a pipeline.
+     cite    keys of docs/references.bib, or "-"; NULL: the table has no citations
+     fields  for a kind of object of a scene file: the names of its fields, separated by blanks; otherwise "" */
 typedef struct koksma_entry {
     const char *name, *title, *cite;
     char fields[256];
@@ -47,123 +48,131 @@ KOKSMA_API bool koksma_scene_kind_at(const char *member, size_t i, koksma_entry 
    can render a scene with its options. */
 KOKSMA_API bool koksma_pipeline_at(size_t i, koksma_entry *out);
 
-/* Opens a scene.
-     name_or_path  the name of a scene in the library; or a file: JSON if the text has a '/' or ends in ".json", a
-                   mesh if it ends in .obj, .ply, .off, .gltf or .glb; a scene of pbrt-v4 or Mitsuba 3 if it ends in
-                   .pbrt or .xml
-     out           the scene, to be closed by koksma_scene_close. It is read-only: threads may share it
+/* Opens a scene of the library or a scene file.
+     name_or_path  the name of a scene in the library, or a path: of a mesh if it ends in .obj, .ply, .off, .gltf or
+                   .glb, of a pbrt-v4 scene if it ends in .pbrt, of a Mitsuba 3 scene if it ends in .xml, of a JSON
+                   scene if it ends in .json or else contains a '/'
+     out           receives the scene, which koksma_scene_close frees. A scene is read-only: threads may share it
    Errors: UNKNOWN (no such name), MISSING, MALFORMED (the message names file, line, field and reason), MEMORY. */
 KOKSMA_API koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out);
 
 /* Frees a scene; it may be NULL. */
 KOKSMA_API void koksma_scene_close(koksma_scene *scene);
 
-/* Returns the library of this build that traces triangle meshes, such as "Embree 3.13.5"; NULL: there is none. */
+/* Returns the library with which this build traces triangle meshes, such as "Embree 3.13.5"; NULL: this build has
+   none. */
 KOKSMA_API const char *koksma_mesh_tracer(void);
 
-/* Returns the title in the scene file; may be empty. Valid until the scene is closed. */
+/* Returns the title in the scene file, which may be empty. The string is valid until the scene is closed. */
 KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
 
-/* Writes warning i about the scene, which can be rendered all the same, as one line. Returns false past the last one.
-     text  size characters, cut if too short */
+/* Writes warning i about a scene as one line; a scene with warnings can still be rendered. Returns false past the
+   last warning.
+     text  buffer of `size` characters, to which the warning is cut */
 KOKSMA_API bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size);
 
-/* Writes what a pbrt or Mitsuba scene has that is unknown here, and what was taken for it: line i, "FILE:LINE: ...".
-   Returns false past the last one. These lines are among the scene's warnings, too.
-     text  size characters, cut if too short */
+/* Writes line i, "FILE:LINE: ...", of the list of features of a pbrt or Mitsuba scene that this renderer does not
+   support, each with its replacement. Returns false past the last line. The scene's warnings include these lines.
+     text  buffer of `size` characters, to which the line is cut */
 KOKSMA_API bool koksma_scene_unknown(const koksma_scene *scene, size_t i, char *text, size_t size);
 
-/* Numbers of what a scene contains; a mesh may be placed several times. */
+/* Numbers of the objects that a scene contains. `placements` counts the copies of meshes: a mesh may be placed
+   several times. */
 typedef struct koksma_scene_counts {
     size_t shapes, meshes, placements, triangles, materials, lights;
 } koksma_scene_counts;
 
-/* Counts what a scene contains. */
+/* Counts the objects of a scene. */
 KOKSMA_API koksma_scene_counts koksma_scene_count(const koksma_scene *scene);
 
-/* Where a part of a scene is, and what of the picture it may cover. */
+/* The position of a shape or placed mesh in a scene and in the image. */
 typedef struct koksma_scene_part {
-    char name[80];          /* the kind of a shape; of a placed mesh "mesh" and its name */
-    double low[3], high[3]; /* a box around it at time 0; infinite for a plane */
-    bool in_frame;          /* false: the camera sees nothing of it but reflections and shadows */
-    double frame[4];        /* of the picture that the box covers at most: left, right, top, bottom, from 0 to 1 */
+    char name[80];          /* the kind of a shape, or "mesh" and the name of a placed mesh */
+    double low[3], high[3]; /* bounding box of the part at time 0; infinite for a plane */
+    bool in_frame;          /* false: the camera sees at most reflections and shadows of the part */
+    double frame[4];        /* rectangle of the image that the box covers at most: left, right, top, bottom, from 0
+                               to 1 */
 } koksma_scene_part;
 
-/* Finds part i of a scene: its shapes, then its placed meshes. Returns false past the last one. */
+/* Finds part i of a scene: first the shapes, then the placed meshes. Returns false past the last part. */
 KOKSMA_API bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma_scene_part *out);
 
-/* Sets the light that comes from far away, in place of the scene's environment, if it has one, and of the key light, the sky
-   and the ground that a bare mesh file gets. image: a file of latitude and longitude, times radiance; NULL: the same
-   radiance from everywhere, 0 to 1e6. The scene's hash changes. The scene must not have been rendered before. Errors:
-   ARGUMENT, MISSING, MALFORMED, UNSUPPORTED, MEMORY. */
+/* Sets the environment light of a scene that has not been rendered yet. It replaces the scene's environment and,
+   for a mesh file, the default key light, sky and ground. `image` is the path of an environment map in latitude and
+   longitude, which is multiplied by `radiance` (NULL: light with this radiance, 0 to 1e6, from all directions). The
+   scene's hash changes. Errors: ARGUMENT, MISSING, MALFORMED, UNSUPPORTED, MEMORY. */
 KOKSMA_API koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, double radiance);
 
 /* Returns a 64-bit hash of the scene's text, which changes when the file changes. */
 KOKSMA_API uint64_t koksma_scene_hash(const koksma_scene *scene);
 
-/* ---- How it is sampled ---------------------------------------------------------------------------------- */
+/* ---- Sampling options ---------------------------------------------------------------------------------- */
 
-/* How the point sets of a pixel's uses are combined, sample by sample. */
+/* How the point sets of the uses of a pixel are combined into samples. */
 typedef enum koksma_pairing {
-    KOKSMA_PAIRING_SHUFFLED, /* by independent random permutations: uncorrelated jitter (Cook 1986; Shirley 1991) */
-    KOKSMA_PAIRING_ALIGNED,  /* in the order of the pattern: sample i takes point i of every set */
+    KOKSMA_PAIRING_SHUFFLED, /* each set is shuffled by an independent random permutation: uncorrelated jitter (Cook
+                                1986; Shirley 1991) */
+    KOKSMA_PAIRING_ALIGNED,  /* sample i takes point i of every set, in the order of the pattern */
     KOKSMA_PAIRING_NATIVE    /* one set with the dimensions of all uses together */
 } koksma_pairing;
 
-/* What one point set covers. */
+/* Whether a point set covers a pixel or the image. */
 typedef enum koksma_scope {
     KOKSMA_SCOPE_PIXEL, /* a new set of spp points for each pixel */
-    KOKSMA_SCOPE_IMAGE  /* one set of spp * width * height points for the whole image, regardless of pixels */
+    KOKSMA_SCOPE_IMAGE  /* one set of spp * width * height points for the whole image; its points need not be spp in
+                           each pixel */
 } koksma_scope;
 
 /* Which lights get a shadow ray at a vertex. */
 typedef enum koksma_light_selection {
-    KOKSMA_LIGHTS_ALL,     /* all */
-    KOKSMA_LIGHTS_ONE,     /* one, chosen in proportion to its estimated contribution (Shirley 1991, section 5.4) */
-    KOKSMA_LIGHTS_POWER,   /* one, in proportion to its power */
-    KOKSMA_LIGHTS_UNIFORM, /* one, all with equal probability */
-    KOKSMA_LIGHTS_AUTO /* the default: ONE where the integrator follows paths between diffuse surfaces and the scene
-                              has more than 8 lights, else ALL */
+    KOKSMA_LIGHTS_ALL,     /* all lights */
+    KOKSMA_LIGHTS_ONE,     /* one light, with probability proportional to its estimated contribution (Shirley 1991,
+                              section 5.4) */
+    KOKSMA_LIGHTS_POWER,   /* one light, with probability proportional to its power */
+    KOKSMA_LIGHTS_UNIFORM, /* one light, all with equal probability */
+    KOKSMA_LIGHTS_AUTO     /* the default: ONE if the integrator follows paths between diffuse surfaces and the scene
+                              has more than 8 lights, otherwise ALL */
 } koksma_light_selection;
 
-/* Return the word of a scene file or option: "shuffled", "pixel", "all", ...; NULL for a value past the last. */
+/* Return the word for an enumeration value in scene files and options: "shuffled", "pixel", "all", ..., or NULL for an
+   unknown value. */
 KOKSMA_API const char *koksma_pairing_name(koksma_pairing pairing);
 KOKSMA_API const char *koksma_scope_name(koksma_scope scope);
 KOKSMA_API const char *koksma_light_selection_name(koksma_light_selection selection);
 
-/* The number of uses. In the order of koksma_use_at: pixel, lens, time, light-choice, lobe, lobe-choice, roulette,
+/* The number of uses. Their order in koksma_use_at is pixel, lens, time, light-choice, lobe, lobe-choice, roulette,
    light. */
 enum { KOKSMA_N_USES = 8 };
 
-/* A purpose on which a sample spends one or two dimensions. */
+/* A use: a purpose for which a sample needs one or two dimensions. */
 typedef struct koksma_use {
     const char *name, *help;
     int dim; /* 1 or 2 */
 } koksma_use;
 
-/* Returns use i; NULL past the end. */
+/* Returns use i, or NULL past the last use. */
 KOKSMA_API const koksma_use *koksma_use_at(size_t i);
 
-/* Uses that share the dimensions of one point set: sample i takes the coordinates of point i, in the order of `uses`.
-   One set covers what a sample needs once (pixel, lens, time), the first vertex of the path, and one light there.
-   Every further vertex and every further light takes another set of the same pattern, combined with the others by
-   `pairing`. */
+/* A group of uses that share the dimensions of one point set: sample i takes the coordinates of point i, in the
+   order of `uses`. One set covers the uses that occur once in a sample (pixel, lens, time), the first vertex of the
+   path, and one light at that vertex. Every further vertex and every further light takes another set of the same
+   pattern, combined with the others by `pairing`. */
 typedef struct koksma_use_group {
     koksma_spec pattern;
-    int n_uses;              /* 2 or more; 0: no group */
+    int n_uses;              /* number of uses in the group, 2 or more; 0: no group */
     int uses[KOKSMA_N_USES]; /* indices for koksma_use_at */
 } koksma_use_group;
 
 enum { KOKSMA_MAX_USE_GROUPS = KOKSMA_N_USES / 2, KOKSMA_MAX_PATTERNS_TEXT = KOKSMA_MAX_SPEC * (KOKSMA_N_USES + 1) };
 
-/* How light is followed through the scene. */
+/* An integrator: a method that computes the light along a camera ray. */
 typedef struct koksma_integrator {
     const char *name, *title, *cite;
-    int depth;         /* the most bounces, unless the options set another number */
-    const void *flags; /* for the renderer */
+    int depth;         /* default for the largest number of bounces */
+    const void *flags; /* used only inside the renderer */
 } koksma_integrator;
 
-/* Returns integrator i of the table, or the one with this name; NULL if there is none. */
+/* Returns integrator i of the table, or the integrator with this name, or NULL if there is none. */
 KOKSMA_API const koksma_integrator *koksma_integrator_at(size_t i);
 KOKSMA_API const koksma_integrator *koksma_integrator_find(const char *name);
 
@@ -175,54 +184,58 @@ typedef struct koksma_filter {
     double (*value)(double x);
 } koksma_filter;
 
-/* Returns filter i of the table, or the one with this name; NULL if there is none. */
+/* Returns filter i of the table, or the filter with this name, or NULL if there is none. */
 KOKSMA_API const koksma_filter *koksma_filter_at(size_t i);
 KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
 
-/* Returns the frequency response of a filter along one axis: the Fourier transform of f at this frequency, in cycles
-   a pixel, divided by that at 0. */
+/* Returns the frequency response of a filter along one axis: the Fourier transform of f at this frequency, in
+   cycles per pixel, divided by the transform at frequency 0. */
 KOKSMA_API double koksma_filter_response(const koksma_filter *filter, double frequency);
 
-/* Returns the fraction of the integral of the squared response that lies above half a cycle a pixel, where pixels
-   alias: 0 for the ideal filter. */
+/* Returns the fraction of the integral of the squared response of a filter above half a cycle per pixel, where
+   pixels alias; it is 0 for the ideal filter. */
 KOKSMA_API double koksma_filter_leakage(const koksma_filter *filter);
 
-/* How to render. koksma_render_options_init sets all members. */
+/* Options of the renderer. koksma_render_options_init sets all members to their defaults. */
 typedef struct koksma_render_options {
-    koksma_spec pattern;                 /* of every use that `patterns` and `groups` do not name */
-    koksma_spec patterns[KOKSMA_N_USES]; /* of use i; all zero: `pattern` */
-    koksma_use_group
-        groups[KOKSMA_MAX_USE_GROUPS]; /* a use may be in one group, unless it has an entry in `patterns` */
-    int spp;                           /* samples a pixel, which is the n of the pattern; 1 to KOKSMA_MAX_SPP */
-    int width, height;                 /* pixels, 1 to KOKSMA_MAX_IMAGE_SIDE */
+    koksma_spec pattern;                 /* pattern of every use that has no entry in `patterns` or `groups` */
+    koksma_spec patterns[KOKSMA_N_USES]; /* patterns[i] is for use i; all zero: the use takes `pattern` */
+    /* a use may be in at most one group, and only if it has no entry in `patterns` */
+    koksma_use_group groups[KOKSMA_MAX_USE_GROUPS];
+    int spp;           /* samples per pixel, which is the n of the pattern; 1 to KOKSMA_MAX_SPP */
+    int width, height; /* pixels, 1 to KOKSMA_MAX_IMAGE_SIDE */
     uint64_t seed;
     koksma_pairing pairing;
     koksma_scope scope;
     koksma_light_selection lights;
     const koksma_integrator *integrator;
-    int depth; /* the most bounces, 0 to KOKSMA_MAX_DEPTH; -1: the integrator's default */
+    int depth; /* largest number of bounces, 0 to KOKSMA_MAX_DEPTH; -1: the integrator's default */
     const koksma_filter *filter;
-    bool splat; /* true: add each sample to all pixels that the filter reaches and divide by the sum of weights;
-                   false: draw the position of each pixel's samples from the filter (Ernst, Stamminger & Greiner 2006), which
-                   has two to three times the error. Both keep a constant image constant, also with negative lobes.
-                   With one sample a pixel, drawing uses the positive part of the filter only. Splatting has no
-                   samples beyond the frame: at the borders the filter is cut off */
+    /* true (splatting): add each sample to all pixels that the filter reaches and divide by the sum of weights;
+       false (filter importance sampling): draw the position of each pixel's samples from the filter (Ernst,
+       Stamminger & Greiner 2006), which has two to three times the error. Both methods keep a constant image
+       constant, also if the filter has negative lobes. With one sample per pixel, importance sampling uses only the
+       positive part of the filter. Splatting has no samples outside the image: at its borders the filter is cut
+       off */
+    bool splat;
 } koksma_render_options;
 
 enum { KOKSMA_MAX_SPP = 1 << 20, KOKSMA_MAX_DEPTH = 64 };
 
-/* Sets the defaults: pattern n-rooks, 16 samples a pixel, the size in the scene file, seed 0, pairing shuffled, scope
-   pixel, lights auto, integrator distribution, filter box. */
+/* Sets the default options: pattern n-rooks, 16 samples per pixel, the image size in the scene file, seed 0,
+   pairing shuffled, scope pixel, lights auto, integrator distribution, filter box. */
 KOKSMA_API void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene);
 
-/* Sets patterns from a text: "PATTERN" for all uses without another one, "USE=PATTERN" for one use, "USE+USE=PATTERN"
-   for a group, or several of these separated by ';': "random;pixel+time=scan-time". Uses that the text does not name
-   keep their patterns.
-   Errors: UNKNOWN (a pattern or use), DIM (the pattern cannot have the dimensions of its group), ARGUMENT (a use that
-   has a pattern already, or a parameter of the pattern); options are then unchanged. */
+/* Sets patterns from a text: "PATTERN" for all uses without a pattern, "USE=PATTERN" for one use, "USE+USE=PATTERN"
+   for a group, or several of these separated by ';': "random;pixel+time=scan-time". Uses that the text does not
+   name keep their patterns.
+   Errors: UNKNOWN (no such pattern or use), DIM (the pattern does not accept the number of dimensions of its
+   group), ARGUMENT (a use that already has a pattern, or a bad parameter of the pattern). After an error options
+   are unchanged. */
 KOKSMA_API koksma_status koksma_render_patterns(const char *text, koksma_render_options *options);
 
-/* Writes the canonical text of all patterns: the common one, then uses and groups in the order of koksma_use_at.
+/* Writes the canonical text of all patterns: the common pattern, then those of uses and groups in the order of
+   koksma_use_at.
      text  KOKSMA_MAX_PATTERNS_TEXT characters */
 KOKSMA_API void koksma_render_patterns_text(const koksma_render_options *options, char *text);
 
@@ -232,55 +245,59 @@ KOKSMA_API void koksma_use_group_text(const koksma_use_group *group, char *text)
 
 /* ---- Rendering ------------------------------------------------------------------------------------------- */
 
-/* Returns the number of rays that one sample casts for its first hit: one from the camera and one to each light. */
+/* Returns the number of rays that one sample traces for its first hit: one from the camera and one to each
+   light. */
 KOKSMA_API int koksma_scene_rays_per_sample(const koksma_scene *scene);
 
 /* Returns whether rendering this scene with these options needs use i. A pattern for a use that is not needed, such
    as the lens of a pinhole camera, has no effect. */
 KOKSMA_API bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i);
 
-/* Writes warning i of the scene that matters with these options, as koksma_scene_warning does. */
+/* Writes warning i among the scene's warnings that apply to these options, as koksma_scene_warning does. */
 KOKSMA_API bool koksma_render_warning(const koksma_scene *scene, const koksma_render_options *options, size_t i,
                                       char *text, size_t size);
 
-/* An image and further values of its pixels. All have the same size; the image has 3 channels, or 1 for a scene
-   without colour. */
+/* A rendered image and further layers with values of its pixels. All layers have the same size; `image` has 3
+   channels, or 1 for a scene without colour. */
 typedef struct koksma_layers {
     koksma_image image;
-    koksma_image albedo;   /* of the first hit, mean over the samples; 3 channels */
-    koksma_image normal;   /* of the first hit, towards the camera, mean over the samples; 3 channels */
-    koksma_image depth;    /* distance of the first hit, mean over the samples that hit something; 0: none did */
+    koksma_image albedo;   /* albedo of the first hit, mean over the samples; 3 channels */
+    koksma_image normal;   /* normal of the first hit, turned towards the camera, mean over the samples; 3
+                              channels */
+    koksma_image depth;    /* distance of the first hit, mean over the samples that hit an object; 0 if no sample
+                              did */
     koksma_image samples;  /* number of samples of the pixel */
-    koksma_image variance; /* of the pixel's luminance, estimated from its samples (with splatting also those of
-                              pixels around) as if they were independent: too large for stratified patterns. 0 with
-                              fewer than two samples */
+    koksma_image variance; /* variance of the pixel's luminance, estimated from its samples (with splatting also
+                              from those of neighbouring pixels) as if they were independent, which is too large for
+                              stratified patterns. 0 with fewer than two samples */
     uint64_t rays;         /* number of rays cast */
 } koksma_layers;
 
 /* Frees all images and zeroes the struct. layers may be NULL, or zeroed. */
 KOKSMA_API void koksma_layers_fini(koksma_layers *layers);
 
-/* Bytes that rendering takes in addition to the scene and a few MiB for each thread (with splatting also a few rows
-   of pixels for each). */
+/* Bytes that rendering needs in addition to the scene and a few MiB per thread (with splatting also a few rows of
+   pixels per thread). */
 typedef struct koksma_render_size {
-    uint64_t film;    /* the image and its layers, and sums of splats */
-    uint64_t samples; /* the point set of scope image, at its peak */
-    uint64_t file;    /* the uncompressed file, which is made in memory at the end */
+    uint64_t film;    /* the image, its layers and the sums of splatted samples */
+    uint64_t samples; /* peak memory of the point set of scope image */
+    uint64_t file;    /* the uncompressed image file, which is built in memory at the end */
 } koksma_render_size;
 
 /* Estimates the memory for rendering a scene.
-     all_layers  true for koksma_render_layers and an EXR with all layers; false for the image only */
+     all_layers  true for koksma_render_layers and an EXR file with all layers; false for the image only */
 KOKSMA_API koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma_render_options *options,
                                                     bool all_layers);
 
-/* Renders an image; allocates out. Costs O(spp) for each pixel, and each sample a number of rays that depends on
-   scene and integrator. A time limit (koksma_run) has no effect; keep_going can cancel.
+/* Renders an image; allocates out. The cost is O(spp) per pixel; the number of rays per sample depends on scene and
+   integrator. The time limit in koksma_run has no effect; keep_going can cancel.
    Errors: ARGUMENT (an option out of range), those of koksma_generate for n = spp, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options,
                                        const koksma_run *run, koksma_image *out);
 
-/* Render the same image with all layers, or only with `samples` and `rays`, which is faster; allocate out.
-   After INTERRUPTED out has the pixels that are done (`samples` is 0 in the others), and the caller must free it.
+/* Render the image of koksma_render with all layers (koksma_render_layers) or only with `samples` and `rays`, which
+   is faster (koksma_render_only); allocate out. After INTERRUPTED out has the finished pixels (`samples` is 0 in
+   the others), and the caller must free it.
    Errors: those of koksma_render. */
 KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_render_options *options,
                                               const koksma_run *run, koksma_layers *out);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Sampling patterns for renderers, in one header: no library, no allocation, no set-up. C99, C11, C++98 and later,
- * CUDA. Long because a renderer takes this one file and nothing else.
+ * CUDA. The header is long because a renderer needs no other file.
  *
- * A sample is a pure function of a domain and an index: there is no cursor and no count of dimensions. A domain is a
- * 64-bit key. Make one for each pixel, derive one from it for each use of samples (lens, light, direction at bounce 3
- * ...), and ask for sample i of that domain. Draw from a domain with one function only.
+ * A sample depends only on a domain and an index; the sampler has no state and counts no dimensions. A domain is a
+ * 64-bit key. Make a domain for each pixel, derive from it a domain for each use of samples (lens, light, direction
+ * at bounce 3 ...), and compute sample i of the derived domain. Draw from each domain with only one of the
+ * functions.
  *
  *     const koksma_domain pixel = koksma_domain_of_pixel(seed, x, y);
  *     for (uint32_t i = 0; i < spp; i++) {
@@ -14,22 +15,24 @@
  *         koksma_sobol_2d(koksma_domain_of_use(pixel, LENS), i, lens);
  *         ...
  *
- * Inside a domain samples are evenly spread. An aligned block is the samples a 2^m .. (a + 1) 2^m - 1 for whole
- * numbers a and m, such as the first 2^m. Numbers of samples that are powers of two are the best for all functions
- * but cmj.
+ * Within a domain the samples are evenly distributed. An aligned block consists of samples a 2^m .. (a + 1) 2^m - 1
+ * for whole numbers a and m, such as the first 2^m samples. For all functions but koksma_cmj_2d numbers of samples
+ * that are powers of two work best.
  *
  *     koksma_sobol_2d    every aligned block is a (0,m,2)-net in base 2
- *     koksma_sobol_4d    the same in its first two dimensions, which are those of koksma_sobol_2d; _1d and _3d likewise
+ *     koksma_sobol_4d    its first two dimensions equal koksma_sobol_2d; koksma_sobol_1d and _3d are its first one
+ *                        and three dimensions
  *     koksma_pmj02_2d    every aligned block is a (0,m,2)-net in base 2
- *     koksma_cmj_2d      all columns * rows samples: one in each cell and in each stratum; no promise for fewer
+ *     koksma_cmj_2d      all columns * rows samples: one in each cell of the grid and in each stratum of each axis;
+ *                        fewer samples have no guarantee
  *     koksma_r_2d        every aligned block is 2^m consecutive points of the R-sequence, shifted on the torus
- *     koksma_white_4d    random numbers: no promise
+ *     koksma_white_4d    independent random numbers without stratification
  *
- * Between domains samples are independent: between two uses (nested ones too), pixels or seeds, and between two
- * functions. Sample i of one domain meets a random sample of the other, so that the mean over N samples of a function
- * of both converges as N^-1/2, as with random numbers. For u of one domain and v of the other, the RMS error of the
- * mean of (u - 1/2)(v - 1/2) is 1 / (12 sqrt(N)) if all are random. Here it is this many times as much, measured at
- * N = 16, 64 ... 4096:
+ * Samples of different domains are independent: between two uses (also nested uses), pixels or seeds, and between
+ * two functions. Sample i of one domain is paired with a random sample of the other domain, so the mean over N
+ * samples of a function of both converges as N^-1/2, as with random numbers. For u of one domain and v of another,
+ * the RMS error of the mean of (u - 1/2)(v - 1/2) is 1 / (12 sqrt(N)) with random numbers. The table has the RMS
+ * error of each function relative to that, measured at N = 16, 64 ... 4096:
  *
  *     koksma_sobol_2d    1.26; sqrt(49/31) = 1.257 by theory for padding by nested shuffles (Burley 2020)
  *     koksma_sobol_4d    1.26
@@ -39,9 +42,10 @@
  *     koksma_white_4d    1.00
  *
  * The order of a domain's samples depends on 32 random bits: with probability 2^-32 two domains have the same order
- * and are then dependent. koksma_sobol_2d and koksma_pmj02_2d have the same law, with different bits.
+ * and are then dependent. The points of koksma_sobol_2d and koksma_pmj02_2d have the same probability distribution
+ * but different values.
  *
- * The points equal those of libkoksma's patterns bit for bit; the seed is the key of the domain:
+ * The points equal those of the following patterns of libkoksma bit for bit, with the key of the domain as seed:
  *
  *     koksma_sobol_2d    sobol:scramble=hash-owen,shuffle=1
  *     koksma_sobol_4d    sobol:scramble=hash-owen,shuffle=1
@@ -50,15 +54,18 @@
  *     koksma_r_2d        r-sequence:shuffle=1,shift=1
  *     koksma_z_rank      z-sampler (the order of the pixels)
  *
- * These functions check nothing: pointers are not NULL, and what a comment says of an argument's range must hold. Define
- * KOKSMA_ASSERT(condition) as assert(condition) before the header to have the ranges checked.
+ * These functions do not check their arguments: pointers must not be NULL, and arguments must be in the ranges that
+ * the comments give. To check the ranges define KOKSMA_ASSERT(condition) as assert(condition) before you include
+ * the header.
  *
- * Coordinates are in [0,1). Draw floats with koksma_sobol_2f and its kin, or cast doubles with koksma_to_float:
- * (float)0.99999999 is 1. `docs/put-it-into-your-renderer.md` shows each function at work.
+ * Coordinates are in [0,1). Draw floats with koksma_sobol_2f and similar functions, or convert doubles with
+ * koksma_to_float, because (float)0.99999999 is 1. `docs/put-it-into-your-renderer.md` has an example of each
+ * function.
  *
- * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021. Seeds:
- * constants of Wellons 2018 and of Degski's hash. PMJ02 by matrices: Helmer, Christensen & Kensler 2021. Correlated multi-jitter: Kensler 2013.
- * R-sequence: Roberts 2018. Padding by shuffled copies: Burley 2020. Z-order: Ahmed & Wonka 2020.
+ * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021.
+ * Seeds: constants of Wellons 2018 and of Degski's hash. PMJ02 by matrices: Helmer, Christensen & Kensler 2021.
+ * Correlated multi-jitter: Kensler 2013. R-sequence: Roberts 2018. Padding by shuffled copies: Burley 2020.
+ * Z-order: Ahmed & Wonka 2020.
  */
 #ifndef KOKSMA_SAMPLER_H
 #define KOKSMA_SAMPLER_H
@@ -75,14 +82,14 @@
 #define KOKSMA_ASSERT(condition) ((void)0)
 #endif
 
-/* A stream of samples. Make one with the functions below; equal keys give equal samples. */
+/* A domain: a stream of samples. Make domains with the functions below; equal keys give equal samples. */
 typedef struct koksma_domain {
     uint64_t key;
 } koksma_domain;
 
 /* ---- Random words: Philox4x32-10 ----------------------------------------------------------------------- */
 
-/* The purpose of a random word: part of the key of its hash, with the same numbers as in libkoksma. */
+/* The purposes of random words, which enter their hash. libkoksma uses the same numbers. */
 enum {
     KOKSMA_FOR_DOMAIN = 1,
     KOKSMA_FOR_POINT = 2,
@@ -115,24 +122,24 @@ KOKSMA_INLINE void koksma_words(uint64_t key, uint32_t purpose, uint64_t index, 
 
 /* ---- Domains ------------------------------------------------------------------------------------------- */
 
-/* Returns a hash of a key: one round of multiplying and folding, a bijection. Keys that differ in few bits are far
-   apart after two rounds: one derives a domain, one more begins each draw. */
+/* Returns a hash of a key: one round of multiplying and folding, which is a bijection. Two rounds turn keys that
+   differ in few bits into unrelated keys: deriving a domain is one round, and each draw begins with another. */
 KOKSMA_INLINE uint64_t koksma_mix(uint64_t key)
 {
     key *= (uint64_t)0xd6e8feb8u << 32 | 0x6659fd93u;
     return key ^ key >> 32;
 }
 
-/* Returns the key of what a number makes of another key, for one purpose. The product keeps small numbers and small keys
-   apart: number 1 of key 2 is not number 2 of key 1. */
+/* Returns the key derived from another key by a purpose and a number. The number is multiplied by a constant so
+   that small numbers and keys do not collide: number 1 of key 2 differs from number 2 of key 1. */
 KOKSMA_INLINE uint64_t koksma__derived(uint64_t key, uint32_t purpose, uint32_t number)
 {
     return koksma_mix(key ^ ((uint64_t)purpose << 32 | 0x85a308d3u) ^
                       number * ((uint64_t)0x9e3779b9u << 32 | 0x7f4a7c15u));
 }
 
-/* Returns the domain for one purpose of another domain's samples, such as the lens. Purposes are numbers of your
-   choice; domains may be nested to any depth. Two purposes of one domain never have the same key. */
+/* Returns the domain for one use of the samples of another domain, such as the lens. Choose a number for each use;
+   domains may be nested to any depth. Two uses of one domain never have the same key. */
 KOKSMA_INLINE koksma_domain koksma_domain_of_use(koksma_domain domain, uint32_t use)
 {
     koksma_domain sub;
@@ -149,9 +156,10 @@ KOKSMA_INLINE koksma_domain koksma_domain_of_pixel(uint64_t seed, uint32_t x, ui
     return pixel;
 }
 
-/* Returns the domain for one sample of another domain: where sample i is split into as many as it takes, say a number of
-   shadow rays that depends on what it met. They are well spread among themselves, and independent of those of other
-   samples. Where each sample is split into `count` of them, koksma_part_of_sample spreads all together. */
+/* Returns the domain of sample i of another domain, for splitting the sample into a variable number of subsamples,
+   such as shadow rays. The subsamples of one sample are evenly distributed and independent of those of other
+   samples. If each sample has the same number of subsamples, use koksma_part_of_sample, which distributes all of
+   them evenly together. */
 KOKSMA_INLINE koksma_domain koksma_domain_of_sample(koksma_domain domain, uint32_t i)
 {
     koksma_domain sub;
@@ -159,16 +167,18 @@ KOKSMA_INLINE koksma_domain koksma_domain_of_sample(koksma_domain domain, uint32
     return sub;
 }
 
-/* Returns the index of part s of 0 .. count - 1 of sample i: the parts of one sample, and of aligned blocks of samples, are
-   aligned blocks if count is a power of two. (i + 1) * count is at most 2^32. */
+/* Returns the index of part s, 0 .. count - 1, of sample i if each sample is split into `count` parts. If count is
+   a power of two, the parts of one sample, and those of an aligned block of samples, are aligned blocks. The
+   product (i + 1) * count must be at most 2^32. */
 KOKSMA_INLINE uint32_t koksma_part_of_sample(uint32_t i, uint32_t count, uint32_t s)
 {
     KOKSMA_ASSERT(s < count && i <= 0xffffffffu / count && i * count <= 0xffffffffu - s);
     return i * count + s;
 }
 
-/* Returns the seed of one frame of an animation, for koksma_domain_of_pixel: frames are independent. To accumulate frames
-   into one picture keep the seed instead, and give frame f the samples f * spp .. f * spp + spp - 1. */
+/* Returns the seed of one frame of an animation, for koksma_domain_of_pixel; the samples of different frames are
+   independent. To accumulate frames into one image keep the seed instead, and give frame f the samples
+   f * spp .. f * spp + spp - 1. */
 KOKSMA_INLINE uint64_t koksma_seed_of_frame(uint64_t seed, uint32_t frame)
 {
     return koksma_mix(koksma__derived(seed, 0x082efa98u, frame));
@@ -176,7 +186,7 @@ KOKSMA_INLINE uint64_t koksma_seed_of_frame(uint64_t seed, uint32_t frame)
 
 /* ---- Numbers ------------------------------------------------------------------------------------------- */
 
-/* Rounds x in [0,1) down to a multiple of 2^-24, so that the float is never 1. */
+/* Converts x in [0,1) to a float rounded down to a multiple of 2^-24, so that the float is never 1. */
 KOKSMA_INLINE float koksma_to_float(double x)
 {
     KOKSMA_ASSERT(x >= 0 && x < 1);
@@ -189,7 +199,7 @@ KOKSMA_INLINE double koksma_to_unit(uint32_t high, uint32_t low)
     return (double)((uint64_t)high << 21 | low >> 11) * (1.0 / 9007199254740992.0);
 }
 
-/* Reverses the order of the bits. */
+/* Returns x with its 32 bits in reverse order. */
 KOKSMA_INLINE uint32_t koksma_mirror(uint32_t x)
 {
     x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
@@ -201,8 +211,9 @@ KOKSMA_INLINE uint32_t koksma_mirror(uint32_t x)
 
 /* ---- Four words at once -------------------------------------------------------------------------------- */
 
-/* Draws compute four coordinates side by side: in a vector register where gcc or clang compile for 64-bit x86 or ARM,
-   else one after the other, with the same bits. Define KOKSMA_PLAIN before the header to have the latter. */
+/* The sampling functions compute four coordinates at once: in a vector register if gcc or clang compile for 64-bit
+   x86 or ARM, otherwise one after the other with the same bits. Define KOKSMA_PLAIN before you include the header
+   to avoid vector registers. */
 #if !defined(KOKSMA_PLAIN) && !defined(__CUDACC__) &&                                                                \
     ((defined(__GNUC__) && __GNUC__ >= 9) || defined(__clang__)) &&                                                  \
     (defined(__x86_64__) || (defined(__aarch64__) && !defined(__AARCH64EB__)))
@@ -227,8 +238,8 @@ typedef struct koksma__four {
 } koksma__four;
 #endif
 
-/* Returns Owen's nested uniform scrambling of x, whose bits are reversed: a hash of the bits below decides whether
-   to flip each bit. */
+/* Returns Owen's nested uniform scrambling of x, whose bits are in reverse order: a hash of the lower bits decides
+   whether each bit is flipped. */
 KOKSMA_INLINE uint32_t koksma_owen_hash(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3d20adeau;
@@ -258,7 +269,7 @@ KOKSMA_INLINE uint32_t koksma_seed_of(uint64_t key, uint32_t dimension)
     return x ^ x >> 16;
 }
 
-/* Returns the seeds of dimensions 0 to 3. */
+/* Returns the seeds of dimensions 0 to 3 of a domain. */
 KOKSMA_INLINE koksma__four koksma__four_seeds(uint64_t key)
 {
 #if defined(KOKSMA_VECTOR)
@@ -282,7 +293,8 @@ KOKSMA_INLINE koksma__four koksma__four_seeds(uint64_t key)
 }
 
 #if defined(KOKSMA_VECTOR)
-/* Reverses the order of the bits in each word: by bytes and tables of half bytes, or by a product of matrices. */
+/* Reverses the order of the bits in each of four words: with a byte shuffle and either tables of half bytes (SSSE3)
+   or a matrix product (GFNI). */
 KOKSMA_INLINE koksma__four koksma__mirror_four(koksma__four x)
 {
 #if defined(__SSSE3__)
@@ -310,7 +322,7 @@ KOKSMA_INLINE koksma__four koksma__mirror_four(koksma__four x)
 }
 #endif
 
-/* Scrambles four coordinates with bits reversed, each by its seed, and reverses their bits. */
+/* Owen-scrambles four coordinates whose bits are in reverse order, each by its seed, and reverses their bits. */
 KOKSMA_INLINE koksma__four koksma__scramble_four(koksma__four x, koksma__four seeds)
 {
 #if defined(KOKSMA_VECTOR)
@@ -329,13 +341,13 @@ KOKSMA_INLINE koksma__four koksma__scramble_four(koksma__four x, koksma__four se
 #endif
 }
 
-/* Returns x 2^-32, exact. It goes through a signed number because compilers vectorise that conversion. */
+/* Returns x 2^-32 exactly. The conversion goes through a signed number because compilers vectorise it. */
 KOKSMA_INLINE double koksma_fraction(uint32_t x)
 {
     return ((double)(int32_t)(x ^ 0x80000000u) + 2147483648.0) * (1.0 / 4294967296.0);
 }
 
-/* Copies four words from memory, and to memory. */
+/* Copies four words from memory to a koksma__four; koksma__four_to_words copies them back. */
 KOKSMA_INLINE koksma__four koksma__four_of_words(const uint32_t words[4])
 {
     koksma__four x;
@@ -403,15 +415,16 @@ KOKSMA_INLINE uint32_t koksma_order(uint64_t key, uint32_t part)
     return w[0];
 }
 
-/* Returns the index at position i of the order that a random word chooses: the nested uniform shuffle of all 32-bit
-   indices by Owen hashing. Aligned blocks of 2^m indices become aligned blocks of 2^m indices. */
+/* Returns the index at position i of the order that the random word `order` chooses: the nested uniform shuffle of
+   all 32-bit indices by Owen hashing. Aligned blocks of 2^m positions become aligned blocks of 2^m indices. */
 KOKSMA_INLINE uint32_t koksma_shuffled(uint32_t i, uint32_t order)
 {
     return koksma_mirror(koksma_owen_hash(koksma_mirror(i), order));
 }
 
-/* Returns the row of a table of digital sequences that half byte n of the index j chooses, n = 0 for the uppermost. The
-   bits of j are reversed. Rows have `width` (2 or 4) words. */
+/* Returns the row of a table of a digital sequence that half byte n of the index selects; n = 0 is the lowest half
+   byte of the index, the uppermost of j, which has the bits of the index in reverse order. Rows have `width` (2 or
+   4) words. */
 KOKSMA_INLINE koksma__four koksma__row(const uint32_t *table, uint32_t width, uint32_t n, uint32_t j)
 {
     const uint32_t fourfold = n < 7 ? j >> (26 - 4 * n) : j << 2;
@@ -447,10 +460,11 @@ KOKSMA_INLINE koksma__four koksma__xor(koksma__four a, koksma__four b)
 #endif
 }
 
-/* Returns the point of a digital sequence, with bits reversed, at position i of a shuffled order: the sum modulo 2 of one
-   row of the table for each half byte of the index. Aligned blocks of 2^m positions are aligned blocks of 2^m indices, in
-   the order of koksma_shuffled but for an XOR of the upper 16 bits, after which indices below 2^16 stay below 2^16, and
-   four rows do. In an Owen-scrambled digital sequence the XOR changes no probability: it is a digital shift. */
+/* Returns the point of a digital sequence, with bits in reverse order, at position i of a shuffled order: the sum
+   modulo 2 of one table row for each half byte of the index. Aligned blocks of 2^m positions are aligned blocks of
+   2^m indices. The order is that of koksma_shuffled except for an XOR of the upper 16 bits of the index, which
+   keeps positions below 2^16 at indices below 2^16, for which four rows suffice. In an Owen-scrambled digital
+   sequence this XOR is a digital shift and changes no probability. */
 KOKSMA_INLINE koksma__four koksma__digital(const uint32_t *table, uint32_t width, uint32_t i, uint32_t order)
 {
     uint32_t j = koksma_owen_hash(koksma_mirror(i), order);
@@ -472,7 +486,8 @@ KOKSMA_INLINE koksma__four koksma__digital(const uint32_t *table, uint32_t width
 
 /* ---- Sobol', Owen-scrambled by hashing, in shuffled order ---------------------------------------------- */
 
-/* Multiplies i by the upper triangular Pascal matrix modulo 2: dimension 2 of Sobol' with bits reversed. */
+/* Multiplies i by the upper triangular Pascal matrix modulo 2, which gives the second coordinate of the Sobol'
+   sequence with bits in reverse order. */
 KOKSMA_INLINE uint32_t koksma_pascal(uint32_t i)
 {
     i ^= (i & 0xaaaaaaaau) >> 1;
@@ -482,7 +497,8 @@ KOKSMA_INLINE uint32_t koksma_pascal(uint32_t i)
     return i ^ (i & 0xffff0000u) >> 16;
 }
 
-/* Returns sample i of four dimensions of Sobol' (Joe & Kuo 2008) as 32-bit fractions, scrambled. */
+/* Returns sample i of the first four dimensions of the Sobol' sequence (Joe & Kuo 2008), shuffled and
+   Owen-scrambled, as 32-bit fractions. */
 KOKSMA_INLINE koksma__four koksma__sobol_four(uint32_t i, uint32_t order, koksma__four seeds)
 {
     static KOKSMA_ALIGNED const uint32_t table[512] = {
@@ -553,12 +569,12 @@ KOKSMA_INLINE koksma__four koksma__sobol_four(uint32_t i, uint32_t order, koksma
     return koksma__scramble_four(koksma__digital(table, 4, i, order), seeds);
 }
 
-/* The seeds of a domain's Sobol' sequence: compute them once for a loop over many samples of one domain. */
+/* The seeds of the Sobol' sequence of a domain. Compute them once for a loop over many samples of the domain. */
 typedef struct koksma_sobol {
     uint32_t seeds[4], order;
 } koksma_sobol;
 
-/* Computes the seeds of a domain. */
+/* Computes the seeds of the Sobol' sequence of a domain. */
 KOKSMA_INLINE koksma_sobol koksma_sobol_of(koksma_domain domain)
 {
     koksma_sobol sequence;
@@ -567,15 +583,16 @@ KOKSMA_INLINE koksma_sobol koksma_sobol_of(koksma_domain domain)
     return sequence;
 }
 
-/* Returns sample i of a domain as four 32-bit fractions. */
+/* Returns Sobol' sample i of a domain as four 32-bit fractions. */
 KOKSMA_INLINE koksma__four koksma__sobol_words(koksma_domain domain, uint32_t i)
 {
     return koksma__sobol_four(i, koksma_seed_of_order(domain.key), koksma__four_seeds(domain.key));
 }
 
-/* Computes sample i of a domain in one to four dimensions, as doubles, or as floats: the doubles rounded down. Fewer
-   dimensions are the first of the four. Every aligned block of 2^m samples has one in each 2^m-th of each axis, and its
-   first two dimensions are a (0,m,2)-net in base 2. */
+/* Computes Sobol' sample i of a domain in one to four dimensions, as doubles or as floats, which are the doubles
+   rounded down. A sample of fewer dimensions has the first coordinates of the four-dimensional sample. Every
+   aligned block of 2^m samples has one sample in each of 2^m equal intervals of each axis, and its first two
+   dimensions are a (0,m,2)-net in base 2. */
 KOKSMA_INLINE double koksma_sobol_1d(koksma_domain domain, uint32_t i)
 {
     double x;
@@ -620,7 +637,7 @@ KOKSMA_INLINE void koksma_sobol_4f(koksma_domain domain, uint32_t i, float xs[4]
     koksma__to_floats(koksma__sobol_words(domain, i), 4, xs);
 }
 
-/* Computes the same from seeds that are kept. */
+/* Computes sample i of the Sobol' sequence whose seeds koksma_sobol_of returned. */
 KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, double xy[2])
 {
     koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 2, xy);
@@ -631,7 +648,8 @@ KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, 
     koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 4, xs);
 }
 
-/* Computes samples first .. first + count - 1 of a domain: xs[dim * k ...] receives those of sample first + k, dim 1 to 4. */
+/* Computes Sobol' samples first .. first + count - 1 of a domain in dim = 1 to 4 dimensions: xs[dim * k ...]
+   receives sample first + k. */
 KOKSMA_INLINE void koksma_sobol_range(koksma_domain domain, uint32_t first, uint32_t count, int dim, double *xs)
 {
     const uint32_t order = koksma_seed_of_order(domain.key);
@@ -654,7 +672,8 @@ KOKSMA_INLINE void koksma_sobol_range_float(koksma_domain domain, uint32_t first
     }
 }
 
-/* Computes sample indices[k] of domains[k] for each lane k < count of a wavefront, into xs[dim * k ...], dim 1 to 4. */
+/* Computes Sobol' sample indices[k] of domains[k] for each lane k < count of a wavefront, in dim = 1 to 4
+   dimensions; xs[dim * k ...] receives it. */
 KOKSMA_INLINE void koksma_sobol_lanes(uint32_t count, const koksma_domain *domains, const uint32_t *indices, int dim,
                                       double *xs)
 {
@@ -677,14 +696,14 @@ KOKSMA_INLINE void koksma_sobol_lanes_float(uint32_t count, const koksma_domain 
 
 /* ---- White noise --------------------------------------------------------------------------------------- */
 
-/* Returns four random words: those of sample i of a domain, independent of all others. */
+/* Returns the four random words of sample i of a domain, which are independent of those of all other samples. */
 KOKSMA_INLINE koksma__four koksma__white_words(koksma_domain domain, uint32_t i)
 {
     return koksma__four_seeds(koksma__derived(domain.key, 0x452821e6u, i));
 }
 
-/* Computes independent random numbers, of 32 bits each or as floats of 24: for choices that need no stratification, such as
-   Russian roulette, and as the baseline of comparisons. */
+/* Computes independent random numbers, doubles with 32 random bits or floats with 24. Use them for choices that
+   need no stratification, such as Russian roulette, and as the baseline of comparisons. */
 KOKSMA_INLINE double koksma_white_1d(koksma_domain domain, uint32_t i)
 {
     double x;
@@ -711,8 +730,9 @@ KOKSMA_INLINE void koksma_white_4f(koksma_domain domain, uint32_t i, float xs[4]
 
 /* ---- Progressive multi-jittered (0,2) ------------------------------------------------------------------ */
 
-/* Computes sample i of the digital sequence of PMJ02 (Helmer, Christensen & Kensler 2021: the matrices of the Stirling
-   numbers modulo 2), scrambled and shuffled as koksma_sobol_2d. Every aligned block of 2^m samples is a (0,m,2)-net. */
+/* Computes sample i of the PMJ02 sequence as a digital sequence (Helmer, Christensen & Kensler 2021: the matrices
+   are Stirling numbers modulo 2), scrambled and shuffled like koksma_sobol_2d. Every aligned block of 2^m samples
+   is a (0,m,2)-net. */
 KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[2])
 {
     static KOKSMA_ALIGNED const uint32_t table[256] = {
@@ -754,10 +774,11 @@ KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[2
 
 /* ---- Correlated multi-jitter --------------------------------------------------------------------------- */
 
-/* Returns element i of a random permutation of 0 .. n-1 that the key chooses; i < n < 2^31. A bijection of the next
-   power of two, walked until it falls below n. Over keys it is not quite uniform up to n = 8: for n = 3 .. 8
-   positions of two elements are 0.6, 1.6, 1.3, 1.0, 0.4, 0.5 % off (root mean square over the pairs; 7 % at most),
-   those of one element 0.4 % with 3, 0.1 % with 5 to 7. From n = 9 on, tests with 4 million keys find no deviation. */
+/* Returns element i of a random permutation of 0 .. n-1 that the key chooses; i < n < 2^31. The function applies a
+   bijection of 0 .. 2^k - 1, 2^k >= n, repeatedly until the result is below n (cycle walking). Up to n = 8 the
+   permutation is not quite uniform over the keys: for n = 3 .. 8 the probabilities of the positions of two elements
+   deviate by 0.6, 1.6, 1.3, 1.0, 0.4, 0.5 % (root mean square over the pairs; at most 7 %), those of one element by
+   0.4 % for n = 3 and 0.1 % for n = 5 to 7. From n = 9 on, tests with 4 million keys find no deviation. */
 KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
 {
     const uint32_t a = (uint32_t)key, b = (uint32_t)(key >> 32);
@@ -788,16 +809,16 @@ KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
     return i;
 }
 
-/* Returns the position u in [0,1) of cell number `cell` of at most 2^29 `cells`, as a coordinate in [0,1) that
-   rounding never moves out of the cell. u / 2^24 is exact, so that compilers that fuse products and sums give the
-   same bits. */
+/* Returns the coordinate in [0,1) of the relative position u in [0,1) within cell number `cell` of `cells` <= 2^29
+   equal cells; rounding never moves the coordinate out of its cell. u / 2^24 is exact, so compilers that fuse
+   products and sums give the same bits. */
 KOKSMA_INLINE double koksma_place(double cell, double u, double cells)
 {
     return (cell + (u - u * (1.0 / 16777216.0))) / cells;
 }
 
-/* Computes sample i of columns * rows: one in each cell of the grid, and one in each of the columns * rows strata of
-   either axis. i is below columns * rows <= 2^29. */
+/* Computes sample i of a correlated multi-jittered set of columns * rows samples: one in each cell of the grid, and
+   one in each of the columns * rows strata of each axis. i must be less than columns * rows <= 2^29. */
 KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t columns, uint32_t rows, double xy[2])
 {
     uint32_t keys[4], more[4], w[4], s, c, r;
@@ -817,14 +838,15 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
 
 /* ---- R-sequence ---------------------------------------------------------------------------------------- */
 
-/* Computes sample i of the additive recurrence of the plastic number, shifted on the torus by the domain's random
-   vector, in an order that the domain chooses. Every aligned block of 2^m samples, m <= 32, is a run of 2^m
-   consecutive points. The order is different in each 2^32 samples; i / 2^32 is not shuffled.
+/* Computes sample i of the R-sequence, the additive recurrence of the plastic number, shifted on the torus by the
+   domain's random vector, in an order that the domain chooses. Every aligned block of 2^m samples, m <= 32, is a
+   run of 2^m consecutive points. Each block of 2^32 samples has a different order; the blocks themselves are not
+   shuffled.
 
-   The shuffle costs evenness where N is no power of two: N samples are then several runs, one for each one bit of N,
-   with gaps between them. Their RMS L2 star discrepancy is 1.19 times that of one run in the mean over N = 1 to 1024,
-   at most 1.64 times (N = 98). Without the shuffle the same coordinate of two domains would differ by a constant,
-   whatever N is. */
+   The shuffle makes samples less even if N is not a power of two: N samples are then several runs of points, one
+   for each one bit of N, with gaps between the runs. Their RMS L2 star discrepancy is 1.19 times that of one run in
+   the mean over N = 1 to 1024, and at most 1.64 times (N = 98). Without the shuffle the same coordinate of two
+   domains would differ by a constant, whatever N is. */
 KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 {
     const uint64_t alpha[2] = {(uint64_t)0xC13FA9A9u << 32 | 0x02A6328Fu, (uint64_t)0x91E10DA5u << 32 | 0xC79E7B1Du};
@@ -857,11 +879,11 @@ KOKSMA_INLINE uint32_t koksma_permute4(uint32_t j, uint32_t word)
 }
 
 /* Returns the rank of pixel (x, y) of a square image of 2^levels pixels a side, levels <= 16, along a Z-curve whose
-   quadrants are in an order that is random at each node. Give pixel p the samples rank * spp .. rank * spp + spp - 1
-   of one sequence over the whole image, as in koksma_sobol_2d with the image's domain: neighbours share well-spread
-   samples. The orders of two domains are alike, because both follow a Z-curve: the pixels of a quadrant have
-   consecutive ranks in both. The two ranks of one pixel are independent of each other, and so are the samples that
-   they index. */
+   quadrants are in random order at each node. Give a pixel the samples rank * spp .. rank * spp + spp - 1 of one
+   sequence for the whole image, such as koksma_sobol_2d with the image's domain: the samples of neighbouring pixels
+   are then evenly distributed together. The orders of two domains are similar, because both follow a Z-curve: the
+   pixels of a quadrant have consecutive ranks in both. The two ranks of one pixel are independent of each other,
+   and so are the samples that they index. */
 KOKSMA_INLINE uint32_t koksma_z_rank(koksma_domain domain, uint32_t x, uint32_t y, int levels)
 {
     uint32_t rank = 0, path = 1;

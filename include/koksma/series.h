@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A measure as a function of the number of points: statistics over sets, values of the prefixes of a sequence, the
- * slope on logarithmic axes, and the exponents that are proven. Part of libkoksma.
+ * A measure as a function of the number of points: statistics over sets, values for the prefixes of a sequence, the
+ * slope on logarithmic axes, and proven rates of decay. Part of libkoksma.
  *
  *     size_t sizes[] = {64, 256, 1024};
  *     koksma_value values[3];
@@ -18,28 +18,28 @@
 extern "C" {
 #endif
 
-/* Running mean and variance of values (Welford 1962). All zero is the start: no values. */
+/* Running mean and variance of values (Welford 1962). A struct of zeros has no values yet. */
 typedef struct koksma_tally {
     double count, mean;
-    double spread; /* sum of squared deviations from the mean */
+    double spread; /* sum of squared deviations of the values from the mean */
     double min, max;
 } koksma_tally;
 
-/* Adds a value. O(1). */
+/* Adds a value in O(1). */
 KOKSMA_API void koksma_tally_add(koksma_tally *tally, double value);
 
 /* Return the standard deviation of the values, the standard error of their mean, and half the length of the mean's
-   95 % confidence interval (Student's t). NaN with fewer than two values. */
+   95 % confidence interval (Student's t). All three are NaN with fewer than two values. */
 KOKSMA_API double koksma_tally_sd(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_error(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_interval(const koksma_tally *tally);
 
-/* Returns the 97.5 % quantile of Student's t distribution; NaN for 0 degrees of freedom. */
+/* Returns the 97.5 % quantile of Student's t distribution, or NaN for 0 degrees of freedom. */
 KOKSMA_API double koksma_student_975(size_t degrees);
 
 /* The line log y = slope log x + intercept by least squares; slope_error is the standard error from the residuals. */
 typedef struct koksma_line {
-    size_t count; /* pairs used: those with x and y positive and finite */
+    size_t count; /* number of pairs used: those with x and y positive and finite */
     double slope, slope_error, intercept;
 } koksma_line;
 
@@ -48,22 +48,23 @@ KOKSMA_API bool koksma_log_line(size_t n, const double *xs, const double *ys, ko
 
 enum { KOKSMA_MAX_SIZES = 64 };
 
-/* A measure at several sizes over trials, and how the values of a trial vary together. All zero is the start. */
+/* Means and covariances over trials of a measure at several sizes. A struct of zeros has no trials yet. */
 typedef struct koksma_joint {
     double count, means[KOKSMA_MAX_SIZES];
     double spread[KOKSMA_MAX_SIZES][KOKSMA_MAX_SIZES]; /* sums of products of the deviations from the means */
 } koksma_joint;
 
-/* Adds a trial: values[i] at size i, n of them, the same n each time, at most KOKSMA_MAX_SIZES: with
-   more it does nothing. O(n^2). */
+/* Adds a trial in O(n^2): values[i] is the value at size i < n. All trials need the same n, at most
+   KOKSMA_MAX_SIZES; with a larger n the function does nothing. */
 KOKSMA_API void koksma_joint_add(koksma_joint *joint, size_t n, const double *values);
 
-/* Fits koksma_log_line to n means. After two trials or more slope_error is that of the trials' spread (infinitesimal
-   jackknife, Efron 1982), after one that of the residuals. Returns false as koksma_log_line does. */
+/* Fits koksma_log_line to n means. With two or more trials slope_error comes from the spread of the trials
+   (infinitesimal jackknife, Efron 1982), with one trial from the residuals. Returns false in the same cases as
+   koksma_log_line. */
 KOKSMA_API bool koksma_joint_line(const koksma_joint *joint, size_t n, const double *sizes, const double *means,
                                   koksma_line *line);
 
-/* Evaluates a measure of several prefixes of a point set: values[i] is of the first sizes[i] points.
+/* Evaluates a measure of several prefixes of a point set: values[i] is the measure of the first sizes[i] points.
      sizes   n_sizes numbers, 1 to points->n, in any order
      values  receives n_sizes values
    Errors: those of koksma_evaluate; N (a size out of range). */
@@ -71,11 +72,12 @@ KOKSMA_API koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, co
                                                   const size_t *sizes, size_t n_sizes, const koksma_run *run,
                                                   koksma_value *values);
 
-/* Returns the exponent a of the proven decay n^-a (up to powers of log n) of a measure for points of a pattern with
-   its parameters in dim dimensions. NaN where no theorem covers the pattern's claims. */
+/* Returns the exponent a of the proven decay n^-a (up to powers of log n) of a measure, for the points of a pattern
+   with its parameters in dim dimensions, or NaN if no theorem covers the claims of the pattern. */
 KOKSMA_API double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, int dim);
 
-/* Returns the largest exponent a that any points can reach (up to powers of log n); NaN where it is not known. */
+/* Returns the largest exponent a of a decay n^-a (up to powers of log n) of a measure that any point sets can
+   reach, or NaN if it is not known. */
 KOKSMA_API double koksma_best_rate(const koksma_measure *measure, int dim);
 
 #ifdef __cplusplus

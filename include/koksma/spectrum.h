@@ -19,26 +19,27 @@
 extern "C" {
 #endif
 
-/* EXACT sums over all points at each frequency: O(n half^2), error of the amplitudes 1e-13 n. FAST is a non-uniform
-   fast Fourier transform: O(n + half^2 log half), error at most 1e-9 n for any points. */
+/* EXACT sums over all points at each frequency in O(n half^2); the error of the amplitudes is 1e-13 n. FAST is a
+   non-uniform fast Fourier transform in O(n + half^2 log half); its error is at most 1e-9 n for any points. */
 typedef enum koksma_spectrum_method { KOKSMA_SPECTRUM_EXACT, KOKSMA_SPECTRUM_FAST } koksma_spectrum_method;
 
 /* Power at the frequencies k = (kx, ky), |kx|, |ky| <= half, averaged over the sets:
 
-       P(k) = (1/n) |sum_j exp(-2 pi i k.x_j)|^2,
+       P(k) = (1/n) |sum_j exp(-2 pi i k.x_j)|^2.
 
-   which is 1 on average for random points. P(-k) = P(k), so that only ky >= 0 is stored. */
+   The mean of P is 1 for random points. P(-k) = P(k), so that only ky >= 0 is stored. */
 typedef struct koksma_spectrum {
     int half;
-    size_t sets;         /* added so far */
+    size_t sets;         /* number of sets added so far */
     double points;       /* mean number of points of a set */
     double *power;       /* P(k) at [ky * (2 half + 1) + half + kx] */
-    koksma_tally *rings; /* [frequency]: statistics over the sets of the mean power of a ring */
+    koksma_tally *rings; /* [frequency]: statistics over the sets of the mean power of the ring at this frequency */
 } koksma_spectrum;
 
 enum { KOKSMA_SPECTRUM_MAX_HALF = 4096 };
 
-/* Allocates a spectrum without sets. Memory grows with half^2: with FAST 1 GB for half = 2047, 4 GB for 4096.
+/* Allocates a spectrum without sets. Memory grows with half^2: adding a set with FAST takes 1 GB for half = 2047
+   and 4 GB for half = 4096.
      half  the largest frequency, 1 to KOKSMA_SPECTRUM_MAX_HALF
    Errors: ARGUMENT, MEMORY. */
 KOKSMA_API koksma_status koksma_spectrum_init(koksma_spectrum *spectrum, int half);
@@ -51,21 +52,22 @@ KOKSMA_API void koksma_spectrum_fini(koksma_spectrum *spectrum);
 KOKSMA_API koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
                                              koksma_spectrum_method method, const koksma_run *run);
 
-/* Returns the mean power at frequency (kx, ky); NaN where |kx| or |ky| is above half. */
+/* Returns the mean power at frequency (kx, ky), or NaN if |kx| or |ky| is above half. */
 KOKSMA_API double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky);
 
-/* Writes the power to a file in the formats of koksma_points_write: one row for each ky = -half .. half, in each the
+/* Writes the power to a file in the formats of koksma_points_write: one row for each ky = -half .. half, with
    columns kx = -half .. half. Errors: ARGUMENT (a spectrum without init), MEMORY, IO. */
 KOKSMA_API koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spectrum);
 
 /* The ring of all k with frequency - 1/2 <= |k| < frequency + 1/2. */
 typedef struct koksma_ring {
     double frequency;
-    double power, standard_error; /* mean over the ring and the sets; the error is NaN with one set */
-    /* Ulichney's (1987): 10 log10(s^2 / power^2), with P(k) the mean over the sets, s^2 the sum over the ring's
-       frequencies, one of k and -k, of (P(k) - power)^2 divided by their number less 1, and power the ring's mean.
-       FAST leaves up to 1e-18 n of power where there is none, and a relative 2e-9 sqrt(n/power) of spread. With
-       either method it is NaN for a ring of no more power than that, and -infinity for no more spread. */
+    double power, standard_error; /* mean of P over the ring and the sets, and its standard error, which is NaN with
+                                     one set */
+    /* Anisotropy in decibels (Ulichney 1987): 10 log10(s^2 / power^2), where s^2 is the sample variance of P(k),
+       averaged over the sets, over the frequencies of the ring, with one of k and -k. FAST has rounding errors of
+       up to 1e-18 n in power and a relative 2e-9 sqrt(n/power) in spread. With either method the anisotropy is NaN
+       for a ring whose power is not above this rounding error, and -infinity for a ring whose spread is not. */
     double anisotropy_db;
 } koksma_ring;
 
@@ -74,17 +76,20 @@ typedef struct koksma_ring {
    Errors: MEMORY. */
 KOKSMA_API koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings);
 
-/* Two numbers for the quality of blue noise (Heck, Schlömer & Deussen 2013), from the radial mean p(f) of n
+/* Numbers for the quality of blue noise (Heck, Schlömer & Deussen 2013), from the radial mean p(f) of n
    points. */
 typedef struct koksma_spectrum_quality_values {
-    /* Half of the largest f at which the mean of p over the disk of frequencies up to f is at most 1/10, looking only
-       below the first f >= sqrt(n)/2 where that mean exceeds 1/2: signals up to that frequency alias little. */
+    /* Effective Nyquist frequency: signals up to it alias little. It is half of the largest f at which the mean of
+       p over the disk of frequencies up to f is at most 1/10; the search for f ends at the first f >= sqrt(n)/2
+       where this mean exceeds 1/2. */
     double effective_nyquist;
-    /* effective_nyquist divided by sqrt(n)/2, its limit for square lattices. As f is a whole number, this is a
-       multiple of 1/sqrt(n): 3/4 for the square lattice of 16 points, 31/32 for that of 1,024. */
+    /* effective_nyquist divided by sqrt(n)/2, the limit for square lattices. As f is a whole number,
+       relative_nyquist is a multiple of 1/sqrt(n): 3/4 for the square lattice of 16 points, 31/32 for the square
+       lattice of 1,024 points. */
     double relative_nyquist;
-    /* 10 times the root of the mean by area of (p - 1)^2, from the first f with p(f) >= 0.98 to 5 sqrt(n) beyond. NaN
-       if the spectrum ends before; half >= 6.5 sqrt(n) is enough for blue noise. */
+    /* 10 times the root of the area-weighted mean of (p - 1)^2 over the frequencies from the first f with p(f) >=
+       0.98 to f + 5 sqrt(n). It is NaN if the spectrum ends below that; half >= 6.5 sqrt(n) is enough for blue
+       noise. */
     double oscillation;
 } koksma_spectrum_quality_values;
 
@@ -92,7 +97,7 @@ typedef struct koksma_spectrum_quality_values {
 KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_spectrum_quality_values *out);
 
 /* Computes the pair correlation of 2D points on the unit torus: values[b] is the density of pairs at distances from
-   b r_max / bins to (b + 1) r_max / bins, divided by that of random points; NaN with n = 1.
+   b r_max / bins to (b + 1) r_max / bins, divided by that of random points, or NaN with n = 1.
      r_max   above 0, at most 1/2
      values  receives bins numbers
    O(n (1 + n r_max^2)) for evenly spread points, O(n^2) if many lie close together.

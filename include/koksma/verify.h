@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which properties do these points really have? Findings about a set, whoever made it: nets, strata, distances,
- * repeated points, a lost origin, coordinates that a float rounds to 1, and whether the order is progressive.
+ * Test which properties a given point set has: nets, strata, distances, repeated points, a missing origin,
+ * coordinates that rounding to float makes 1, and whether the order is progressive. Part of libkoksma.
  */
 #ifndef KOKSMA_VERIFY_H
 #define KOKSMA_VERIFY_H
@@ -12,15 +12,16 @@
 extern "C" {
 #endif
 
-/* A property that koksma_verify looks for; each is desirable. */
+/* A desirable property that koksma_verify tests. */
 typedef struct koksma_property {
     const char *name;    /* "net-base-2" */
-    const char *meaning; /* what holds, and what a finding's value counts */
-    int coordinates;     /* only the first so many coordinates are looked at; 0: all */
+    const char *meaning; /* the condition that is tested, and the meaning of koksma_finding.value */
+    int coordinates;     /* number of leading coordinates that are tested; 0: all */
 } koksma_property;
 
-/* What was found: whether the points have a property, and a number that the property's meaning explains. subject: the
-   coordinates ("0,1" or "all") or the cells ("4 x 8") in question, or "-"; detail: what the value is made of. */
+/* One result of koksma_verify: whether the points have a property, and a number that the property's meaning
+   explains. `subject` names the coordinates ("0,1" or "all") or the cells ("4 x 8") that were tested, or is "-";
+   `detail` says how the value came about. */
 typedef struct koksma_finding {
     const char *property;
     char subject[48];
@@ -34,13 +35,13 @@ typedef struct koksma_findings {
     koksma_finding *items;
 } koksma_findings;
 
-enum { KOKSMA_VERIFY_NET_DIM = 32 }; /* nets are of pairs of the first so many coordinates */
+enum { KOKSMA_VERIFY_NET_DIM = 32 }; /* nets are tested for pairs of the first KOKSMA_VERIFY_NET_DIM coordinates */
 
-/* Property i, NULL past the end. */
+/* Returns property i of the table, or NULL past the last one. */
 KOKSMA_API const koksma_property *koksma_property_at(size_t i);
 
-/* Looks for all properties in a point set; allocates findings. Properties that would take too long for so many
-   points or dimensions are left out. Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, MEMORY,
+/* Tests a point set for all properties; allocates findings. The function skips tests that would take too long for
+   the number of points or dimensions. Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, MEMORY,
    INTERRUPTED. */
 KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings);
 
@@ -48,7 +49,7 @@ KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma
 KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 
 /* Computes the smallest distance of two points.
-     torus  true: distances on the unit torus; false: in the cube
+     torus  true: distances on the unit torus; false: distances in the cube
    O(n log n) for few dimensions. Errors: ARGUMENT (no points, a coordinate outside
    [0,1]), N (one point, which has no distance), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
