@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma datasheet`: everything about one sampler beside others as a page, or as the JSON that the page shows. */
+/* `koksma datasheet`: compares one sampler with others in all respects, and writes an HTML page, or the JSON that the
+   page shows. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,14 +10,14 @@
 
 #include "cli.h"
 
-/* A list of an option: names, and where they begin. "none" is an empty one. */
+/* The items of an option's list: copies in texts, and pointers to these in at. The list "none" has no items. */
 typedef struct list {
     char texts[KOKSMA_MAX_SHEET_SCENES][KOKSMA_MAX_SPEC];
     const char *at[KOKSMA_MAX_SHEET_SCENES];
     size_t n;
 } list;
 
-/* False after an error. */
+/* Reads the list of an option, with at most `most` items. Returns false after an error. */
 static bool read_list(const cli_arguments *arguments, const char *option, size_t most, list *out)
 {
     const char *text = cli_text(arguments, option, NULL);
@@ -40,7 +41,7 @@ static bool ends_with(const char *text, const char *end)
     return length > n && !strcmp(text + length - n, end);
 }
 
-/* Writes the page, or the JSON. */
+/* Writes the datasheet as an HTML page or as JSON. */
 static koksma_status write_sheet(const char *output, bool is_page, const char *json)
 {
     char *page = NULL;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma generate`: makes one point set of a pattern, or a range of one, maps it by --warp, and writes it to a file or to
- * standard output; without --warp in pieces, where the pattern has ranges. The comment in the file has the pattern, the seed and the warp, and of sets whose neighbours are far
- * apart the smallest distance.
+ * `koksma generate`: generates one point set of a pattern, or a range of its points, maps it by --warp, and writes it
+ * to a file or to standard output. Patterns that can generate ranges are written piece by piece, unless --warp is
+ * given. The comment in the file has the pattern, the seed and the warp, and for blue-noise patterns the smallest
+ * distance of two points.
  */
 #include <koksma/verify.h>
 
@@ -11,7 +12,7 @@
 #include "source.h"
 #include "warps.h"
 
-/* With -n n points in a set of that size; without, all that the pattern has. */
+/* Generates all points in memory and writes them. If points->n is 0, the pattern decides how many points it has. */
 static int generate(const cli_arguments *arguments, const koksma_spec *spec, const koksma_warp *warp, uint64_t seed,
                     const koksma_run *run, koksma_points *points)
 {
@@ -38,7 +39,7 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, con
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
-/* Without the points in memory. */
+/* Generates and writes the points piece by piece, without the whole set in memory. */
 static int stream(const cli_arguments *arguments, const cli_source *source, uint64_t first, uint64_t seed,
                   const koksma_run *run)
 {

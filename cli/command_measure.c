@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma measure`: values of measures for files and patterns. One set of each source gives rows with exact values,
- * bounds or witnesses, whichever the measure has; --trials, --prefixes, --sizes and --paired go to measuring.c,
- * which collects means, standard errors and slopes. A search that --time-limit cuts short gives bounds, with a
- * warning.
+ * `koksma measure`: evaluates measures of points from files and patterns. With one set per source, a row has the
+ * exact value or bounds, and the witness if the measure finds one. --trials, --prefixes, --sizes and --paired are
+ * handled in measuring.c, which computes means, standard errors and slopes. A search that --time-limit cuts short
+ * gives bounds, with a warning.
  */
 #include <math.h>
 #include <stdio.h>
@@ -116,7 +116,7 @@ koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_poin
     return status;
 }
 
-/* A line for each measure that was cut short. */
+/* Prints a line on stderr for each measure that was cut short. */
 static void tell_cuts(const measuring *j)
 {
     for (size_t m = 0; j->n_cut && m < j->n_measures; m++) {
@@ -126,7 +126,7 @@ static void tell_cuts(const measuring *j)
     }
 }
 
-/* The columns that all rows of a table have. */
+/* Chooses the optional columns, which all rows of a table have in common. */
 static void choose_columns(measuring *j)
 {
     j->bounds = j->time_limit_s > 0;
@@ -136,7 +136,8 @@ static void choose_columns(measuring *j)
     }
 }
 
-/* -m all leaves out what can't serve a set. */
+/* Returns `status`; but with -m all it returns KOKSMA_OK for a measure that does not accept a set, so that the
+   measure is left out. */
 koksma_status measuring_forgive(const measuring *j, koksma_status status)
 {
     return j->all && (status == KOKSMA_DIM || status == KOKSMA_N || status == KOKSMA_UNSUPPORTED) ? KOKSMA_OK
@@ -168,7 +169,8 @@ static int measure_source(measuring *j, const char *source)
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
-/* --prefixes powers, or a list of numbers; --sizes and such a list. */
+/* Reads --prefixes, which is "powers" or a list of numbers, or --sizes, a list of numbers. Returns false after an
+   error. */
 static bool parse_prefixes(measuring *j)
 {
     const char *sizes = cli_text(j->arguments, "sizes", NULL), *prefixes = cli_text(j->arguments, "prefixes", NULL),
@@ -199,7 +201,7 @@ static bool parse_prefixes(measuring *j)
     return true;
 }
 
-/* --warp W,W.. */
+/* Reads --warp W,W.. and checks that all warps have the same domain. Returns false after an error. */
 static bool parse_warps(measuring *j)
 {
     const char *list = cli_text(j->arguments, "warp", NULL);
@@ -222,7 +224,7 @@ static bool parse_warps(measuring *j)
     return true;
 }
 
-/* Lists that are too long are refused, not cut. */
+/* Returns false, after an error, if the list of an option has more than `most` items. */
 static bool check_list(const measuring *j, const char *option, size_t most)
 {
     const char *list = cli_text(j->arguments, option, NULL);
@@ -255,7 +257,7 @@ static bool parse_options(measuring *j)
     return true;
 }
 
-/* What is measured without -m: after a warp, what makes sense on its domain. */
+/* The measures that are evaluated without -m. With --warp these are the measures that apply to its domain. */
 static const char *default_measures(const measuring *j)
 {
     static const char *const of_domains[] = {
@@ -276,7 +278,7 @@ static koksma_status choose_measures(measuring *j, const char *list)
             koksma_measure_spec(koksma_measure_at(j->n_measures)->name, &j->measures[j->n_measures]);
             j->n_measures++;
         }
-        if (j->warp && j->n_measures < MAX_MEASURES) { /* what hemispheres take */
+        if (j->warp && j->n_measures < MAX_MEASURES) { /* this variant of l2-disk accepts points on a hemisphere */
             koksma_measure_spec("l2-disk:law=area", &j->measures[j->n_measures++]);
         }
         return KOKSMA_OK;

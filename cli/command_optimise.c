@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma optimise`: the best point set that a search finds, on disk after each gain. Ranks of mpirun share the search;
-   rank 0 writes and prints. */
+/* `koksma optimise`: searches for a point set with a small value of a measure, and writes the best set to a file
+   after each improvement. Under mpirun the ranks share the search; rank 0 writes the file and prints. */
 #include <koksma/study.h>
 
 #include <stdio.h>
@@ -17,17 +17,18 @@ typedef struct job {
     const koksma_spec *measure;
     cli_work work;
     koksma_optimise_options options;
-    koksma_status written; /* of the last write */
+    koksma_status written; /* the result of the last write */
     uint64_t last_gain;
     double gained_s;
     uint64_t projections[MOST_PROJECTIONS];
     double weights[MOST_PROJECTIONS];
     koksma_processes ranks;
-    double first; /* the value of the first set */
+    double first; /* the value of the initial set */
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
 
-/* Writes the best set whole or not at all: who ends the program at any moment finds the last one. */
+/* Writes the best set. A file is replaced as a whole, so that there is a complete set even if the program is killed
+   while it writes. */
 static koksma_status write_best(const job *j, const koksma_optimum *best)
 {
     char comment[KOKSMA_MAX_SPEC + 256];
@@ -78,7 +79,8 @@ static int report(job *j, const koksma_optimum *best)
     return cli_rows_close(rows);
 }
 
-/* --from: a file, or a pattern, whose number of points may be given by @N. */
+/* Reads --from: a file, or a pattern, which may give the number of points as @N. counted: whether -n gives
+   that number. Returns the exit code. */
 static int first_set(job *j, bool counted, koksma_points *from)
 {
     const char *text = cli_text(j->arguments, "from", NULL);
@@ -112,7 +114,7 @@ static int first_set(job *j, bool counted, koksma_points *from)
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
-/* --weights W,..: one of each projection. */
+/* Reads --weights W,..: one weight for each projection. Returns false after an error. */
 static bool parse_weights(job *j)
 {
     const char *text = cli_text(j->arguments, "weights", NULL);
@@ -135,7 +137,8 @@ static bool parse_weights(job *j)
     return true;
 }
 
-/* --projections 0+1,2: bits of coordinates. */
+/* Reads --projections, such as 0+1,2, as sets of coordinates; bit k of a set is coordinate k. Returns false after an
+   error. */
 static bool parse_projections(job *j)
 {
     const char *text = cli_text(j->arguments, "projections", NULL), *at = text;

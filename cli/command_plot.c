@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma plot`: draws a curve of curves.def, or the points, of each source into one picture. */
+/* `koksma plot`: draws the points of each source, or another curve of the table curves.def, in one picture. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +7,8 @@
 #include "source.h"
 #include "warps.h"
 
-/* Trials that every source must have a set for. */
+/* Returns the number of sets that every source must have. It is 1 for curves that show a file, which is one set,
+   beside means over the sets of a pattern. */
 static uint64_t trials_of_all(const cli_curves *c)
 {
     const cli_arguments *arguments = c->arguments;
@@ -18,7 +19,7 @@ static uint64_t trials_of_all(const cli_curves *c)
     return has_pattern && c->curve->plot.mixes_files ? 1 : c->trials;
 }
 
-/* --size W[xH] and --theme. */
+/* Reads --size W[xH] and --theme. Returns false after an error. */
 static bool choose_looks(const cli_arguments *arguments, cli_curves *c)
 {
     const char *size = cli_text(arguments, "size", NULL), *theme = cli_text(arguments, "theme", "light");

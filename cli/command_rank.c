@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma rank`: ranks patterns by the error that they leave in a scene, once for each number of samples. The work
- * is koksma_rank_patterns's; here are the lists of patterns, the share of the time limit that each ranking gets,
- * the rows, and the exit code (1: the best pattern is undecided). The advice is rank_advice.c.
+ * `koksma rank`: ranks patterns by the error that they leave in a scene, separately for each number of samples.
+ * koksma_rank_patterns computes a ranking. This file has the lists of patterns, divides the time limit among the
+ * rankings, prints the rows, and returns the exit code (1: the best pattern is undecided). rank_advice.c prints the
+ * advice.
  */
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@
 
 enum { MAX_PATTERNS = 64 };
 
-/* The seven of Shirley's thesis, and more that came later. */
+/* The list "thesis" has the seven patterns of Shirley's thesis, "later" has five of these and twelve newer ones. */
 static const char thesis[] = "n-rooks,jittered,half-jittered,poisson-disk:d=0.2,poisson-disk:d=0.1,regular,random";
 static const char later[] =
     "n-rooks,jittered,half-jittered,regular,random,multi-jittered,correlated-multi-jittered,"
@@ -33,7 +34,7 @@ typedef struct patterns {
     size_t n;
 } patterns;
 
-/* *spp: of SPEC@N. */
+/* Reads --patterns. *spp: the number of samples N if a pattern is given as SPEC@N. Returns the exit code. */
 static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t *spp)
 {
     const char *list = cli_text(arguments, "patterns", "thesis");
@@ -47,11 +48,12 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
             return CLI_USAGE;
         }
         static char text[KOKSMA_MAX_PATTERNS_TEXT];
-        koksma_render_options options = {0}; /* for its patterns only */
+        koksma_render_options options = {0}; /* only its patterns are used */
         if (p->n == MAX_PATTERNS) {
             return cli_usage_error(arguments, "--patterns: more than %d", MAX_PATTERNS);
         }
-        koksma_status status = koksma_pattern_spec("n-rooks", &options.pattern); /* unless the text names another */
+        /* the default, for a text that sets patterns of single uses only */
+        koksma_status status = koksma_pattern_spec("n-rooks", &options.pattern);
         if (cli_text(arguments, "with", NULL)) {
             memcpy(text, item, sizeof item);
         } else if (status || (status = koksma_render_patterns(item, &options))) {
@@ -72,7 +74,7 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
             return cli_usage_error(arguments, "--patterns: '%s' stands twice", p->texts[i]);
         }
         p->at[p->n] = p->texts[p->n];
-        p->n += i == p->n; /* all: some have two names */
+        p->n += i == p->n; /* "all" lists some patterns under two names; they are added once */
     }
     return CLI_YES;
 }
@@ -81,7 +83,8 @@ static const char *const decisions[] = {"undecided", "best", "equal", "worse"};
 static const char *const states[] = {"ranked", "too-slow", "refused"};
 static const char *const check_sizes[KOKSMA_RANK_CHECKS][2] = {{"half_width", "half_height"},
                                                                {"twice_width", "twice_height"}};
-/* State, better pattern, coherence. */
+/* Keys of the columns for a check at another size: its result, the better pattern, and whether that pattern's error is
+   coherent. */
 static const char *const advice_names[KOKSMA_RANK_CHECKS][3] = {
     {"half_size", "half_size_best", "half_size_coherent"}, {"twice_size", "twice_size_best", "twice_size_coherent"}};
 static const char *const first_names[KOKSMA_RANK_CHECKS][3] = {
@@ -101,7 +104,8 @@ static void put_check(cli_rows *rows, const koksma_rank_options *options, const 
     }
 }
 
-/* advised: a pattern, where there is one. */
+/* Adds the values of a whole ranking to a JSON row. advised: the index of the advised pattern, which has no effect if
+   none is advised. */
 static void put_ranking(cli_rows *rows, const koksma_rank_options *options, const koksma_ranking *ranking,
                         size_t advised)
 {
@@ -129,7 +133,8 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     }
 }
 
-/* What holds for all rows of a ranking is for machines: a reader has it in the advice. */
+/* Prints row i of a ranking. Only JSON rows repeat the values of the whole ranking; the advice on stderr has them for
+   readers. */
 static void put_row(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_row *table, size_t i,
                     const koksma_ranking *ranking, bool json)
 {
@@ -173,7 +178,8 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_end(rows);
 }
 
-/* *settled: whether the best pattern is known. */
+/* Ranks the patterns for one number of samples, and prints the rows and the advice. *settled: whether the best
+   pattern is decided. */
 static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_options *options, cli_work *work,
                              cli_rows *rows, bool *settled)
 {
@@ -191,7 +197,8 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
         cli_rank_advise(options, table, &ranking);
     }
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
-        if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) { /* else the time is too short for all */
+        /* if no pattern was ranked in time, the advice says so */
+        if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) {
             cli_say("rank", "%s is not ranked: %s", options->patterns[table[i].pattern], table[i].reason);
         }
     }
@@ -199,7 +206,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     return KOKSMA_OK;
 }
 
-/* Sample count i of "4,16,64"; 0 past the end, -1 when it is none. */
+/* Returns sample count i (0..) of a list such as "4,16,64"; 0 past the end, -1 if the item is not a valid number. */
 static long spp_at(const char *list, size_t i)
 {
     for (; i > 0; i--) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * pairs: the pair correlation on the torus, the density of points at a distance from a point over the mean density,
- * in `bins` rings of distances up to r_max. 1 for random points.
+ * pairs: the pair correlation on the torus, which is the density of points at a distance from a point divided by the
+ * mean density. It is computed in `bins` rings of distances up to r_max. For random points it is 1.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * quality: two numbers of a blue-noise spectrum (Heck, Schlomer & Deussen 2013): the effective Nyquist frequency, up
- * to which the spectrum holds less than a tenth of random points' energy, and the oscillation beyond it, which needs
- * frequencies up to about 6.5 sqrt(n).
+ * quality: two numbers that describe a blue-noise spectrum (Heck, Schlomer & Deussen 2013). Up to the effective
+ * Nyquist frequency the spectrum holds less than a tenth of the energy of random points. The oscillation describes
+ * the spectrum beyond that frequency, and needs frequencies up to about 6.5 sqrt(n).
  */
 #include <math.h>
 #include <stdio.h>
