@@ -33,8 +33,8 @@ int cli_chart_open(cli_curves *c, const cli_curve *curve, cli_chart_store *s, ko
 /* Draws the rows of all operands in one chart, with the axes of the curve c->curve. Returns the exit code. */
 int cli_draw_chart(cli_curves *c);
 
-/* These functions write a picture to the file --output, headed by --title or else by `title`, which may be NULL. They
-   return the exit code. */
+/* The three functions below write a picture to the file --output, headed by --title or else by `title`, which may be
+   NULL, and return the exit code. */
 int cli_write_figure(const cli_curves *c, const char *title, const koksma_cell *cells, size_t n);
 int cli_write_chart(const cli_curves *c, const char *title, const koksma_chart *chart);
 int cli_draw_panels(const cli_curves *c, const char *title, const koksma_panel *panels, size_t n);

@@ -48,15 +48,15 @@ struct cli_arguments {
 #include "commands.def"
 #undef COMMAND
 
-/* Returns command i in the order of the help; NULL past the end. */
+/* Returns command i in the order of the help, or NULL past the end. */
 const cli_command *cli_command_at(size_t i);
 
-/* Finds a command by its name. Returns NULL when there is none. */
+/* Finds a command by its name. Returns NULL when there is no such command. */
 const cli_command *cli_command_find(const char *name);
 
 /* Options that most commands have, for the end of an option table. */
 #define CLI_ROW_OPTIONS                                                                                              \
-    {0, "json", NULL, "one JSON object a line instead of aligned text"},                                             \
+    {0, "json", NULL, "print rows as JSON, one object per line, instead of aligned text"},                           \
         {0, "long", NULL, "all columns, also those that do not fit the terminal"},                                   \
     {                                                                                                                \
         0, "digits", "N", "significant digits of numbers as text, 1 to 17 (default: 5; JSON has all)"                \
@@ -65,7 +65,7 @@ const cli_command *cli_command_find(const char *name);
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
         {0, "progress", "auto|always|never", "show progress (default: auto, when stderr is a terminal)"},            \
         {0, "allow-exec", NULL, "run the programs and libraries that exec:PROGRAM and plugin:LIBRARY name"},         \
-        {0, "exec-seconds", "S", "with --allow-exec: the longest time of a program for a set (default: 60)"},        \
+        {0, "exec-seconds", "S", "with --allow-exec: seconds a program may take for one set (default: 60)"},         \
     {                                                                                                                \
         'q', "quiet", NULL, "print only errors to stderr"                                                            \
     }
@@ -91,8 +91,8 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
    or "" if no name is close. */
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96]);
 
-/* These functions return the name of command, integrator or filter i, or NULL past the end, for cli_meant(); `table`
-   is not used. */
+/* The three functions below return the name of command, integrator or filter i, or NULL past the end, for
+   cli_meant(); `table` is not used. */
 const char *cli_command_name(const void *table, size_t i);
 const char *cli_integrator_name(const void *table, size_t i);
 const char *cli_filter_name(const void *table, size_t i);

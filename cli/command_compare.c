@@ -17,7 +17,7 @@ typedef struct comparison {
     koksma_image_error error;                    /* sums over the images */
     cli_metrics metrics;                         /* rmse, and the metrics of --metric */
     koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images; top is that of the last image */
-    /* the path of the image that is being compared; NULL while none is */
+    /* the path of the image that is being compared, or NULL */
     const char *compared;
 } comparison;
 

@@ -109,7 +109,7 @@ static void add_answer(answer *a, const char *call, const char *text)
 
 /* ---- Operands: the lines of a synopsis, "VERB FILE" or "FILE" ----------------------------------------- */
 
-/* Returns line i (0..) of a command's synopsis, which begins after "koksma NAME "; NULL past the end. */
+/* Returns line i (0..) of a command's synopsis, which begins after "koksma NAME ", or NULL past the end. */
 static const char *usage_at(const cli_command *command, size_t i)
 {
     const char *line = command->synopsis;
@@ -365,8 +365,8 @@ static void put_fish(void)
     }
 }
 
-/* Returns the parameters of the pattern, measure, integrand or adaptive method `name`; NULL if there is none of that
-   name. */
+/* Returns the parameters of the pattern, measure, integrand or adaptive method `name`, or NULL if there is none of
+   that name. */
 static const koksma_param *params_of(const char *name)
 {
     const koksma_pattern *pattern = koksma_pattern_find(name);

@@ -106,7 +106,7 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out for file:PATH and poisson-disk-maximal:d=D)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {'p', "patterns", "PATTERN", "the pattern, instead of the operand"},
-    {0, "first", "I", "number of the first point, of a sequence with ranges (default: 0)"},
+    {0, "first", "I", "index of the first point, for patterns that have ranges (default: 0)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
     {'o', "output", "FILE.txt|.csv|.npy", "the file (default: text on stdout)"},
@@ -127,7 +127,7 @@ const cli_command cli_command_generate = {
         "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N; all others "
         "are\n"
         "made whole in memory, where at most 2^28 coordinates fit.\n"
-        "Equal arguments give equal bits, on any number of threads. These patterns use one thread, because each\n"
+        "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
         "uniform-jittered and most of orthogonal-array.\n",
     .examples = "koksma generate sobol:scramble=owen -n 64 --seed 1 -o points.csv\n"

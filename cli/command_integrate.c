@@ -47,7 +47,7 @@ typedef struct job {
     size_t n_slopes;
     /* the number of patterns that have only one set, so that there are no trials */
     size_t n_deterministic;
-    char deterministic[KOKSMA_MAX_SPEC]; /* the first of these patterns */
+    char deterministic[KOKSMA_MAX_SPEC]; /* the first pattern that has only one set */
     void *libraries[16];
     size_t n_libraries;
 } job;

@@ -113,8 +113,8 @@ static const char *reads(const koksma_pattern *p)
     return !p->takes_path ? "-" : p->whole ? "points" : "parameters";
 }
 
-/* Defines the function list_TABLE. It prints a row for each x that the expression `next` finds as item i: its name,
-   its meaning, and `columns`. */
+/* Defines the function list_TABLE. The function prints a row for each x that the expression `next` finds as item i:
+   its name, its meaning, and `columns`. */
 #define LIST(table, noun, type, next, name, meaning, columns)                                                        \
     static void list_##table(cli_rows *rows)                                                                         \
     {                                                                                                                \
@@ -171,7 +171,7 @@ LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, x.t
 LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, x.title, (void)x)
 LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, x.title, (void)x)
 
-/* The next tables have names without descriptions. */
+/* The tables below do not fit LIST; plans, for example, have no descriptions. */
 static void list_plans(cli_rows *rows)
 {
     for (size_t i = 0; koksma_plan_name_at(i); i++) {
@@ -334,8 +334,9 @@ const cli_command cli_command_list = {
     .summary = "list the members of a table",
     .synopsis = "[{lists}] [--json]",
     .details =
-        "uses are what a sample is spent on, with their dimensions: 'koksma render -p USE=PATTERN' samples one by a\n"
-        "pattern of its own, '-p USE+USE=PATTERN' several by one pattern of their dimensions together.",
+        "uses: a use is a purpose of sample dimensions, such as the position on the lens. 'koksma render -p\n"
+        "USE=PATTERN' samples one use by its own pattern, '-p USE+USE=PATTERN' several uses by one pattern with\n"
+        "all their dimensions.",
     .examples = "koksma list patterns\n"
                 "koksma list scenes --json\n",
     .options = options,

@@ -43,7 +43,7 @@ static void put_options(const cli_command *command)
         put(o->help);
         printf("\n");
     }
-    printf(".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nthe same as this page\n");
+    printf(".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nprint the text of this page\n");
 }
 
 static void put_synopsis(const char *name, const char *synopsis)

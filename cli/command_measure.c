@@ -191,7 +191,7 @@ static bool parse_prefixes(measuring *j)
         }
         for (size_t i = 0; i < j->n_prefixes; i++) {
             if (j->prefixes[i] == k) {
-                cli_usage_error(j->arguments, "--%s: %llu stands twice", option, k);
+                cli_usage_error(j->arguments, "--%s: %llu is given twice", option, k);
                 return false;
             }
         }
@@ -330,15 +330,15 @@ static const cli_option options[] = {
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {'t', "trials", "T", "T sets of each pattern, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "K,..|powers",
-     "the first K points for each K (as in 16,64,256), or powers; and the log-log slope beside theory's"},
+     "measure the first K points for each K, as in 16,64,256, and the log-log slope; powers: all powers of two"},
     {0, "at", "X,Y..",
-     "only the local discrepancy at this corner: the share of the points in [0, x) less its volume"},
+     "only the local discrepancy at this corner x: the share of the points in [0, x) less its volume"},
     {0, "sizes", "N,..",
-     "a set of each N (as in 16,64,256), for any pattern, and the slope; of a file its first N points"},
+     "measure a set of each N, as in 16,64,256, and the log-log slope; a file gives its first N points"},
     {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
     {0, "paired", NULL,
      "with --trials: every further source or warp minus the first, set by set, with 95 % interval"},
-    {0, "time-limit", "SECONDS", "for each value: a measure that is cut short gives bounds"},
+    {0, "time-limit", "SECONDS", "time for each value; a measure that is cut short gives bounds"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -355,7 +355,8 @@ const cli_command cli_command_measure = {
         "--prefixes needs a sequence: the first points of other patterns, such as n-rooks, are a strip of the set.\n"
         "--sizes measures a new set for each N instead, whatever N the source has. 'powers' leaves out sizes that\n"
         "a measure does not accept, such as one point for min-distance.\n"
-        "Both print the fitted slope beside the proven exponent for the pattern and the best possible one (up to\n"
+        "--prefixes and --sizes print the fitted slope beside the proven exponent for the pattern and the best "
+        "possible one (up to\n"
         "powers of logarithms). The standard error of a slope comes from the trials; with one set there is none,\n"
         "and residual_error is the scatter of the values about the line.\n"
         "\n"

@@ -83,8 +83,8 @@ static const char *const decisions[] = {"undecided", "best", "equal", "worse"};
 static const char *const states[] = {"ranked", "too-slow", "refused"};
 static const char *const check_sizes[KOKSMA_RANK_CHECKS][2] = {{"half_width", "half_height"},
                                                                {"twice_width", "twice_height"}};
-/* Keys of the columns for a check at another size: its result, the better pattern, and whether that pattern's error is
-   coherent. */
+/* Keys of the columns for a check at another size: its result, the better pattern, and whether that pattern's error
+   is coherent. */
 static const char *const advice_names[KOKSMA_RANK_CHECKS][3] = {
     {"half_size", "half_size_best", "half_size_coherent"}, {"twice_size", "twice_size_best", "twice_size_coherent"}};
 static const char *const first_names[KOKSMA_RANK_CHECKS][3] = {
@@ -307,7 +307,8 @@ static const cli_option options[] = {
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
-    {'m', "metric", "METRIC", "what ranks: mae (default), rmse, relmse, smape, ldr-flip, hdr-flip with parameters"},
+    {'m', "metric", "METRIC",
+     "the error that ranks: mae (default), rmse, relmse, smape, ldr-flip or hdr-flip, with parameters"},
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
     {0, "max-trials", "N", "images of each pattern at each size, 8 to 65536 (default: 4096)"},
     CLI_ROW_OPTIONS,
@@ -323,46 +324,49 @@ const cli_command cli_command_rank = {
                 "[--with COMMAND "
                 "[--reference PATTERN]] [--json]",
     .details =
-        "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the mean\n"
-        "over the images of --metric, by default the mean absolute error in luminance. Patterns are compared as they "
-        "are used, including random shifts.\n"
+        "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
+        "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared\n"
+        "as they are used, including random shifts.\n"
         "\n"
         "The sequence of work depends on the command line, not on the machine: rounds of 8, 16, 32, ... trials\n"
-        "until the best pattern is decided, and the best of those without bands; then the same for the first three\n"
-        "of these and the first three of all at half and twice the size, with a remark where another one is the\n"
-        "best there; then rounds until every pair is decided. A pair is decided if the\n"
-        "confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 % of 1 (equal). A\n"
-        "time limit ends the sequence early: a longer limit never names another best pattern. With too little time\n"
-        "the answer is 'undecided', with an estimate of the time needed.\n"
+        "until the best pattern is decided, and also the best pattern without bands; then such rounds at half and\n"
+        "at twice the size for the first three patterns without bands and the first three of all, with a remark\n"
+        "if another pattern is the best at that size; then rounds until every pair is decided. A pair is decided\n"
+        "if the confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 % of 1\n"
+        "(equal). A time limit ends the sequence early; a longer limit never names another best pattern. With too\n"
+        "little time the answer is 'undecided', with an estimate of the time needed.\n"
         "\n"
         "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the\n"
         "first row. All intervals and decisions of a ranking hold together with 95 % probability, and include the\n"
         "error of the reference image. A pattern whose first 8 trials exceed its part of the time limit is put\n"
         "off until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
         "\n"
-        "coherence: the peak of the error's power spectrum divided by its mean, over the first 8 trials. 'coherent'\n"
-        "means that fewer than 0.5 % of noise reaches the value (koksma compare --help). Such an error has bands or\n"
-        "another pattern, which eyes notice more than noise of the same size. The advice is therefore the best\n"
-        "pattern whose error is not coherent, with what a coherent one would save.\n"
+        "coherence: the peak of the error's power spectrum divided by its mean, over the first 8 trials.\n"
+        "'coherent' means that fewer than 0.5 % of noise reaches the value (koksma compare --help). A coherent "
+        "error\n"
+        "has bands or another pattern, which eyes notice more than noise of the same size. The advice is\n"
+        "therefore the best pattern whose error is not coherent, and says how much error a coherent one would\n"
+        "save.\n"
         "\n"
-        "Where the 0.1 % of the pixels with the largest error carry half of it or more (top_share in --json), a "
-        "warning\n"
-        "says so: the order is that of few pixels. 'robust' is the error without them. FLIP takes 17 comparisons an\n"
-        "image, one for each part of the reference: for hdr-flip 0.7 s at 160 x 120 pixels, for mae a millisecond.\n"
+        "Where the 0.1 % of the pixels with the largest error carry half of it or more (top_share in --json), a\n"
+        "warning says that few pixels decide the order. 'robust' is the error without them. FLIP takes 17\n"
+        "comparisons an image, one for each part of the reference: for hdr-flip 0.7 s at 160 x 120 pixels, for\n"
+        "mae a millisecond.\n"
         "\n"
         "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other.\n"
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
-        "thesis: the seven patterns of Shirley 1991. later: these and ten newer ones.\n"
+        "thesis: the seven patterns of Shirley 1991. later: five of these and twelve newer ones.\n"
         "\n"
-        "--with ranks the samplers of another renderer: COMMAND is run by the shell for every image, with texts in\n"
-        "place of {scene}, {pattern}, {spp}, {seed} (0 to 2^31 - 1), {width}, {height} and {out}, the EXR file to\n"
-        "write; {out.pfm} and {out.png} ask for other formats. SCENE and PATTERN are then any texts. Without --size\n"
-        "images have the renderer's own size, and other sizes are not checked. The reference is the mean of 16\n"
-        "images of 16 times as many samples by the sampler --reference, which must be unbiased and follow the seed.\n"
-        "Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of Koksma in a\n"
-        "scene of Mitsuba, by the Python package; koksma.mitsuba.rank in Python starts Mitsuba once and is faster.\n"
+        "--with ranks the samplers of another renderer: COMMAND is run by the shell for every image, with texts\n"
+        "in place of {scene}, {pattern}, {spp}, {seed} (0 to 2^31 - 1), {width}, {height} and {out}, the EXR file\n"
+        "to write; {out.pfm} and {out.png} ask for other formats. SCENE and PATTERN are then any texts. Without\n"
+        "--size images have the renderer's own size, and other sizes are not checked. The reference is the mean\n"
+        "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and follow\n"
+        "the seed. Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
+        "Koksma in a scene of Mitsuba, by the Python package; koksma.mitsuba.rank in Python starts Mitsuba once\n"
+        "and is faster.\n"
         "\n"
-        "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least "
+        "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least\n"
         "one.\n",
     .examples = "koksma rank ball --spp 16\n"
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"

@@ -111,8 +111,8 @@ static bool announce_size(const cli_arguments *arguments, const koksma_scene *sc
     const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : UINT64_MAX;
     if (first > machine) {
         cli_say("render",
-                "%d x %d pixels take %.1f GiB of memory, and this machine has %.1f; a smaller --size "
-                "would do%s%s",
+                "%d x %d pixels take %.1f GiB of memory, and this machine has %.1f; take a smaller "
+                "--size%s%s",
                 options->width, options->height, in_gib(first), in_gib(machine),
                 layers && !adaptive->method ? ", or .pfm, which has no layers" : "",
                 options->splat ? ", or no --splat" : "");
@@ -216,8 +216,8 @@ static const cli_option options[] = {
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "sky", "L", "light of this radiance from all around, in place of the scene's sky or a bare model's studio"},
-    {0, "environment", "FILE", "the same of an image of latitude and longitude, times --sky"},
-    {'o', "output", "FILE", "{image-formats} by its ending; an .exr has all layers"},
+    {0, "environment", "FILE", "light from an image in latitude and longitude, times --sky"},
+    {'o', "output", "FILE", "the image, {image-formats}; an .exr has all layers"},
     CLI_UNKNOWN_OPTION,
     CLI_SAMPLING_OPTIONS,
     CLI_ADAPTIVE_OPTIONS,

@@ -142,7 +142,7 @@ static const cli_option option_table[] = {
      "folder for results.sqlite, report.html and report.json; an interrupted run continues there"},
     {0, "trials", "T", "trials of every cell instead of the plan's own number"},
     {0, "quick", NULL, "every block's 'quick' number of trials, where it has one"},
-    {0, "papers-only", NULL, "without the plan open-questions, which both papers together bring"},
+    {0, "papers-only", NULL, "leave out the plan open-questions, which both papers together add"},
     {0, "table", "ID|all|none",
      "table to print at the end (default: the first); the first plan's where several have one ID"},
     CLI_ROW_OPTIONS,

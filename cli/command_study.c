@@ -496,7 +496,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'p', "patterns", "LIST", "quick: the patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
     {'m', "measures", "LIST", "quick: the measures (default: star,l2-star)"},
-    {0, "integrands", "INTEGRAND,..", "quick: errors of integration beside the measures"},
+    {0, "integrands", "INTEGRAND,..", "quick: integrands, whose errors are measured, too (default: none)"},
     {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
     {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
     {0, "spp", "LIST", "quick: samples a pixel in the scenes (default: 4,16,64)"},
@@ -506,10 +506,10 @@ static const cli_option options[] = {
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
-    {'s', "seed", "SEED", "audit: of the draw (default: 1)"},
+    {'s', "seed", "SEED", "audit: seed of the random draw (default: 1)"},
     {0, "reference", "FILE", "images: the reference image"},
-    {0, "metric", "METRIC", "images: of the error: mae (default), relmse, hdr-flip, ..."},
-    {0, "format", "csv|json|npy|sha256", "export (default: by the file's ending, else csv)"},
+    {0, "metric", "METRIC", "images: metric of the error: mae (default), relmse, hdr-flip, ..."},
+    {0, "format", "csv|json|npy|sha256", "export: the format (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -542,9 +542,8 @@ const cli_command cli_command_study = {
         "report: writes DIR/report.html.\n"
         "audit: makes rows of DIR again, and all reference images, and compares them bit for bit; prints what\n"
         "differs, and below which part of all rows is wrong with 95 % confidence. The exit code is 1 if anything\n"
-        "differs. Rows that another revision of a pattern, measure or the renderer made are counted apart. It "
-        "changes\n"
-        "nothing, and works under mpirun, too.\n"
+        "differs. Rows that another revision of a pattern, measure or the renderer made are counted apart. The verb\n"
+        "changes nothing, and works under mpirun, too.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
         "braces, which make groups. 'behind' is how much larger a group's error is than that of the first of its "
         "spp,\n"

@@ -49,7 +49,7 @@ static const char *all_properties(char *text, size_t size)
     return text;
 }
 
-/* Returns the first name of the list that is no property; NULL if all are properties. */
+/* Returns the first name of the list that is no property, or NULL if all are properties. */
 static const char *misspelt(const char *list, char *name, size_t size)
 {
     for (size_t i = 0; cli_list_item(list, i, name, size); i++) {

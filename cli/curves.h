@@ -24,11 +24,11 @@ typedef struct cli_curves {
     double r_max;
     koksma_spectrum_method method;
     cli_work work;
-    const char *output;   /* the file of --output; NULL: none */
+    const char *output;   /* the file of --output, or NULL */
     double width, height; /* of the picture; 0: the default size */
     bool dark;
-    const char *witness;     /* plot --witness: the measure; NULL: none */
-    const koksma_warp *warp; /* plot --warp; NULL: none */
+    const char *witness;     /* plot --witness: the measure, or NULL */
+    const koksma_warp *warp; /* plot --warp, or NULL */
     koksma_plot_format format;
 } cli_curves;
 
@@ -42,18 +42,18 @@ struct cli_curve {
     const char *name;
     const char *meaning; /* a description for --help */
     const char *cite;    /* the source in the literature: keys of docs/references.bib, or "-" */
-    /* Passes the rows of a source to the sink. Returns the exit code. After an interruption the rows show the sets that
-       were complete. */
+    /* Passes the rows of a source to the sink. Returns the exit code. After an interruption the rows show the sets
+       that were complete. */
     int (*compute)(cli_curves *c, const char *source, cli_sink *sink);
     const char *columns[CLI_CURVE_COLUMNS + 1]; /* keys of the numbers in a row, ended by NULL */
     struct {
-        /* options of `koksma curve` that have an effect, with blanks between; NULL: it can't print this curve */
+        /* options of `koksma curve` that have an effect, with blanks between, or NULL if it can't be printed */
         const char *options;
-        /* writes the file of --output; NULL: the curve has no such file */
+        /* writes the file of --output, or NULL if the curve has no such file */
         koksma_status (*write)(cli_curves *c, const koksma_spectrum *spectrum);
     } print;
     struct {
-        /* options of `koksma plot` that have an effect, with blanks between; NULL: it can't draw this curve */
+        /* options of `koksma plot` that have an effect, with blanks between, or NULL if the command can't draw it */
         const char *options;
         int (*draw)(cli_curves *c);
         const char *title;             /* heading of a chart, unless --title gives another */
@@ -104,9 +104,9 @@ enum { CLI_DEFAULT_HALF = KOKSMA_SPECTRUM_MAX_HALF / 2 - 1 }; /* the largest def
 bool cli_curves_begin(const cli_arguments *arguments, const cli_curve *curve, cli_curve_list list, const char *before,
                       cli_curves *c);
 
-/* Computes the mean spectrum over the trials. It has frequencies up to --half; without this option up to
-   per_root sqrt(n), and at most CLI_DEFAULT_HALF. Returns the exit code. After a failure *out has the mean over the complete
-   sets. The caller frees *out with koksma_spectrum_fini. */
+/* Computes the mean spectrum over the trials. The spectrum has frequencies up to --half; without this option up to
+   per_root sqrt(n), and at most CLI_DEFAULT_HALF. Returns the exit code. After a failure *out has the mean over the
+   complete sets. The caller frees *out with koksma_spectrum_fini. */
 int cli_curves_spectrum(cli_curves *c, const char *source, double per_root, koksma_spectrum *out);
 
 /* Calls `add` for the points of each trial until it fails, as it does for points that are not 2-dimensional. Returns

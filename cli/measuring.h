@@ -33,8 +33,8 @@ typedef struct measuring {
     size_t *n_whole;      /* number of trials whose values are exact at all prefixes, [measure] */
     koksma_joint *joints; /* values for the fitted slopes, [measure] */
     bool bounds, sampled; /* whether rows have the columns of bounds, and of standard errors */
-    /* --paired: the first source's values, [trial][prefix][measure], and statistics of how much the values of the other
-       sources exceed them */
+    /* --paired: the first source's values, [trial][prefix][measure], and statistics of how much the values of the
+       other sources exceed them */
     bool paired;
     double *firsts;
     bool *first_is_exact;

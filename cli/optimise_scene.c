@@ -543,7 +543,7 @@ int cli_optimise_scene(const cli_arguments *arguments)
     koksma_status status = koksma_scene_open(j->scene, &j->open);
     status = status ? status : find_shares(j);
     status = status ? status : make_candidates(j);
-    /* the first candidate, in case of an interruption before one is chosen */
+    /* writes the first candidate, in case of an interruption before one is chosen */
     status = status ? status : write_set(j);
     status = status ? status : choose(j);
     status = status ? status : write_set(j);

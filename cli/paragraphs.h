@@ -20,8 +20,8 @@ void cli_fill_use(const char *use, size_t column, size_t indent);
 bool cli_is_heading(const char *line);
 
 /* Copies the next paragraph of a text, as one line. A paragraph ends at an empty line, or before a line whose first
-   word is a heading, "word:". *apart: whether an empty line precedes the paragraph. Returns the text that follows;
-   NULL past the end. */
+   word is a heading, "word:". *apart: whether an empty line precedes the paragraph. Returns the text that follows,
+   or NULL past the end. */
 const char *cli_next_paragraph(const char *text, char paragraph[CLI_PARAGRAPH], bool *apart);
 
 #endif

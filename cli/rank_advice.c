@@ -239,11 +239,12 @@ static void advise_first(const koksma_rank_options *options, const koksma_rank_r
         break;
     case KOKSMA_RANK_UNSETTLED:
         if (check->advice.state != KOKSMA_RANK_UNSETTLED) {
-            fprintf(stderr, "; undecided after %lld trials which of all leaves the least error", check->trials);
+            fprintf(stderr, "; after %lld trials it is undecided which of all patterns leaves the least error",
+                    check->trials);
         }
         break;
     case KOKSMA_RANK_UNCHECKED:
-        fprintf(stderr, "; the time was up before it was decided which of all leaves the least error");
+        fprintf(stderr, "; the time was up before it was decided which of all patterns leaves the least error");
         break;
     default:;
     }
@@ -288,11 +289,10 @@ static void warn_of_few_pixels(const koksma_rank_options *options, const koksma_
         most = rows[i].top_share > rows[most].top_share ? i : most;
     }
     if (count) {
-        fprintf(
-            stderr,
-            "  warning: 0.1 %% of the pixels carry most of the error of %zu of %zu patterns (%s: %.0f %%), and this "
-            "order is theirs; a metric that weighs them less, such as smape, may have another\n",
-            count, n, name_of(options, rows[most].pattern), 100 * rows[most].top_share);
+        fprintf(stderr,
+                "  warning: 0.1 %% of the pixels carry most of the error of %zu of %zu patterns (%s: %.0f %%), and "
+                "decide this order; a metric that weighs them less, such as smape, may give another order\n",
+                count, n, name_of(options, rows[most].pattern), 100 * rows[most].top_share);
     }
 }
 

@@ -184,7 +184,7 @@ size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, cons
         }
     }
     if (n > most) {
-        cli_say(arguments->command->name, "%s: %zu more warnings; 'koksma scene check' tells all", name, n - most);
+        cli_say(arguments->command->name, "%s: %zu more warnings; 'koksma scene check' prints all", name, n - most);
     }
     return n;
 }

@@ -47,7 +47,7 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
 #define CLI_UNKNOWN_OPTION                                                                                           \
     {                                                                                                                \
         0, "unknown", "approximate|refuse",                                                                          \
-            "what of a pbrt or Mitsuba scene is unknown: a warning, or an error (default: approximate)"              \
+            "unknown parts of a pbrt or Mitsuba scene give a warning, or an error (default: approximate)"            \
     }
 
 /* Opens a scene and applies the option --unknown. Returns 0, or the exit code after an error. */

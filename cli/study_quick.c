@@ -2,8 +2,8 @@
 /*
  * Writes the plan of `koksma study quick` to DIR/plan.json, which `koksma study run` accepts, too. The patterns,
  * measures, integrands and numbers of points of the command line become one block of points, the scenes one block of
- * images. Both blocks have `skip`, which leaves out sizes that a pattern does not have. Relative paths become
- * absolute, because a plan's paths are relative to the plan's folder.
+ * images. Both blocks of the plan have `skip`, which leaves out sizes that a pattern does not have. Relative paths
+ * become absolute, because a plan's paths are relative to the plan's folder.
  */
 #include "study_quick.h"
 

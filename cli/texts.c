@@ -11,8 +11,8 @@
  *     {image-formats}, {images}            .exr, .png, .pfm or .jpg; .exr|.png|.pfm|.jpg
  *     {lists}                              patterns|measures|...: what `list` lists
  *
- * Other braces are not replaced. The texts are kept until the program ends, in one block of fixed size. The program
- * aborts if a text does not fit, which is a bug.
+ * Braces with any other text are kept. The texts are kept until the program ends, in one block of fixed size. The
+ * program aborts if a text does not fit, which is a bug.
  */
 #include "texts.h"
 

@@ -61,7 +61,7 @@ const char *cli_duration(double seconds, char text[CLI_NUMBER])
 
 static bool shown; /* a progress line is shown */
 
-/* Prints the progress line. It is cut to the terminal's width, because a line that wraps could not be cleared. */
+/* Prints the progress line. The line is cut to the terminal's width, because a wrapped line could not be cleared. */
 static void show(cli_work *work, double fraction)
 {
     const double now = cli_seconds(), elapsed = now - work->started_s;

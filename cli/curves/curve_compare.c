@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * compare: the usual figure of papers on sampling. It shows the points of each source, below them their mean power
- * spectra, and below these two charts with all sources: the radial means of the spectra, and the convergence of a
- * measure.
+ * compare: the usual figure of papers on sampling. The figure shows the points of each source, below them their mean
+ * power spectra, and below these two charts with all sources: the radial means of the spectra, and the convergence of
+ * a measure.
  */
 #include <string.h>
 
@@ -71,7 +71,7 @@ const cli_curve cli_curve_compare = {
     .name = "compare",
     .meaning =
         "points, power spectra, their radial means and the convergence of a measure, of several sources beside "
-        "each other; means of 10 sets unless --trials says",
+        "each other; means of 10 sets unless --trials is given",
     .cite = "-",
     .plot = {.options = "half exact measure sizes trials", .draw = draw, .mixes_files = true},
 };

@@ -222,8 +222,8 @@ const cli_curve cli_curve_convergence = {
     .name = "convergence",
     .meaning =
         "the mean of a measure over trials against n on logarithmic axes, with the fitted slope and its standard "
-        "error, and dashed the slopes that theory gives for the pattern, or else the best that any points can have; "
-        "a file's sizes are its prefixes",
+        "error; a dashed line has the slope that theory gives for the pattern, or else the best possible slope; "
+        "a file is measured by its first n points",
     .cite = "-",
     .plot = {.options = "measure sizes trials", .draw = draw, .mixes_files = true},
 };

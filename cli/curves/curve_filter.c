@@ -92,7 +92,8 @@ const cli_curve cli_curve_filter = {
 
 const cli_curve cli_curve_filter_response = {
     .name = "filter-response",
-    .meaning = "their frequency responses; leakage is the part of the squared response beyond half a cycle a pixel",
+    .meaning = "frequency responses of pixel filters; leakage is the part of the squared response beyond half a "
+               "cycle a pixel",
     .cite = "-",
     .plot = {.options = "", .draw = draw, .of_filters = true},
 };
