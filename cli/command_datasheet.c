@@ -113,7 +113,8 @@ const cli_command cli_command_datasheet = {
                 "METRIC] [--quick] "
                 "[--json]",
     .details =
-        "A page with the verdict (at what the sampler is best, where it is beaten, how sure that is), its points, "
+        "Writes a page with the verdict (at what the sampler is best, where it is beaten, how sure that is), its "
+        "points, "
         "errors\n"
         "and coherence in scenes, all measures against n with slopes, errors of integration, spectra, pair "
         "correlation, verified "
@@ -127,7 +128,8 @@ const cli_command cli_command_datasheet = {
         "are numbers of samples, such as 16, are rendered, each pixel and use with one of the files. --beside takes\n"
         "such names, too. FILE is one set of points, measured as it is.\n"
         "\n"
-        "Everything has a fixed count, so that equal sets give equal numbers: 16 sets of 16 to 4,096 points and up\n"
+        "The numbers of sets and images are fixed, so that equal sets give equal results: 16 sets of 16 to 4,096 "
+        "points and up\n"
         "to 64 images of each sampler in each scene; with --quick 8 sets of up to 256 points and 8 images.\n",
     .examples = "koksma datasheet sobol:scramble=owen -o sheet.html --quick\n"
                 "koksma datasheet jittered -b random,pmj02 --scenes ball -o s.html --quick\n",

@@ -362,7 +362,7 @@ const cli_command cli_command_measure = {
         "\n"
         "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row that ran\n"
         "out of time has proven bounds: lower and upper. Rows of trials, differences and slopes count how many of\n"
-        "their values are exact. Other measures, and extreme:grid, take the time they need.\n"
+        "their values are exact. --time-limit has no effect on other measures and on extreme:grid.\n"
         "disk also stops after 2^28 point tests (lattices of hundreds of points, other sets of thousands); it then\n"
         "reports bounds and warns.\n",
     .examples = "koksma measure points.txt -m star,l2-star,extreme\n"

@@ -547,7 +547,8 @@ const cli_command cli_command_study = {
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
         "braces, which make groups. 'behind' is how much larger a group's error is than that of the first of its "
         "spp,\n"
-        "with an interval of the differences of images with equal {trial}, where both groups have the same. 'koksma "
+        "with an interval from the differences of images with equal {trial}, if both groups have the same trials. "
+        "'koksma "
         "compare --help' explains coherence. With -o DIR it writes DIR/report.html, a page with these numbers, "
         "charts "
         "and pictures, and DIR/report.json.\n",

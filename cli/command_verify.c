@@ -203,7 +203,7 @@ const cli_command cli_command_verify = {
     .summary = "check which properties points have",
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--record] [--json]",
     .details =
-        "Each property is one to wish for; 'yes' means that the points have it, and the detail explains the value.\n"
+        "Each property is desirable; 'yes' means that the points have it, and the detail explains the value.\n"
         "{property-meanings}"
         "\n"
         "Exit codes: 0 whatever the findings, without --expect; 1 when a property of --expect fails or was not "

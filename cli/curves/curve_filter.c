@@ -85,7 +85,7 @@ static int draw(cli_curves *c)
 
 const cli_curve cli_curve_filter = {
     .name = "filter",
-    .meaning = "pixel filters, whose names are the sources",
+    .meaning = "pixel filters; the operands are names of filters",
     .cite = "-",
     .plot = {.options = "", .draw = draw, .of_filters = true},
 };

@@ -32,7 +32,8 @@ const cli_curve cli_curve_quality = {
     .meaning =
         "the effective Nyquist frequency, also over sqrt(n)/2 in steps of 1/sqrt(n), so that a square lattice of "
         "16 points has 3/4; and oscillation (Heck, Schlomer, Deussen 2013), which takes frequencies up to about "
-        "6.5 sqrt(n): from 85,000 points on --half must say so, up to 4096. Memory grows as its square: 1 GB at "
+        "6.5 sqrt(n): from 85,000 points on --half must ask for them, up to 4096. Memory grows as the square of H: 1 "
+        "GB at "
         "2047, 4 GB at 4096",
     .cite = "heck2013",
     .compute = compute,
