@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Options of adaptive sampling for `koksma render` (adaptive_options.h): reads them, and refuses those that the
- * method has no use for; prints the method's numbers in the row of results; writes --counts, an image of the
- * samples of each pixel (divided by the largest for PNG, where 1 is white), and --strata, a drawing of one pixel's
- * strata.
+ * Reads the options of adaptive sampling for `koksma render` (adaptive_options.h) and refuses options that have no
+ * effect with the chosen method. Adds the method's numbers to the row of results. Writes --counts, an image of the
+ * number of samples of each pixel (in a PNG file divided by the largest number, so that 1 is white), and --strata, a
+ * drawing of one pixel's strata.
  */
 #include "adaptive_options.h"
 
@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Options that an adaptive method with samples of its own has no use for. */
+/* Returns false, after a usage error, if an option is given that has no effect because the method draws its own
+   samples. */
 static bool check_idle(const cli_arguments *arguments, const koksma_adaptive *method)
 {
     static const char *const idle[] = {"pattern", "pairing"};
@@ -24,7 +25,7 @@ static bool check_idle(const cli_arguments *arguments, const koksma_adaptive *me
     return true;
 }
 
-/* "X,Y:FILE" */
+/* Reads --strata X,Y:FILE. Returns false after a usage error. */
 static bool parse_strata(const cli_arguments *arguments, cli_adaptive *adaptive)
 {
     const char *text = cli_text(arguments, "strata", NULL);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Aligned text of rows. Rows with the same keys in a run are a block, with a header and columns of its own. A block that
- * is wider than the terminal is made to fit, in this order: a single row is printed as a line for each key; columns
- * that are equal in all rows go into a line above; columns are taken from the left as long as they fit, text with at
- * least LEAST columns, in several lines where it is longer; and what is left out is named below.
+ * Prints rows as aligned text. Consecutive rows with the same keys form a block, which has its own header and column
+ * widths. A block that is wider than the terminal is made to fit in these steps. A block of one row is printed as one
+ * line per key. In other blocks columns with the same text in all rows go into a line above the table. Of the
+ * remaining columns, those that fit are kept from left to right; a column of text needs at least LEAST characters and
+ * continues longer texts on further lines. A line below the table names the columns that are left out.
  */
 #include "aligned.h"
 
@@ -42,7 +43,7 @@ static const cli_cell *cell_at(const block *b, size_t row, size_t column)
     return &b->cells[row * (b->columns + 1) + column];
 }
 
-/* Columns of a terminal: bytes of UTF-8 that begin a character. */
+/* The width of UTF-8 text in terminal columns: the number of bytes that begin a character. */
 static int width_of(const char *text, size_t length)
 {
     int width = 0;
@@ -52,7 +53,8 @@ static int width_of(const char *text, size_t length)
     return width;
 }
 
-/* The bytes of text that go on a line: all, or up to the last blank, comma or @ that fits, or what fits. */
+/* Returns how many bytes of text go on a line of `width` columns: all of them, or those up to the last blank, comma
+   or @ that fits, or as many characters as fit. */
 static size_t line_of(const char *text, int width)
 {
     size_t end = 0, good = 0;
@@ -67,14 +69,15 @@ static size_t line_of(const char *text, int width)
     return end;
 }
 
-/* A cell of a line: what is left of its text, and how it is set. */
+/* One cell of an output line: the text that remains to be printed, the column's width, and whether the text is
+   right-aligned. */
 typedef struct piece {
     const char *text;
     int width;
     bool right;
 } piece;
 
-/* One row, in as many lines as its longest text takes. No line ends in blanks. */
+/* Prints one row on as many lines as its longest text needs, without trailing blanks. */
 static void print_row(piece *pieces, size_t n)
 {
     for (bool more = true; more;) {
@@ -96,7 +99,8 @@ static void print_row(piece *pieces, size_t n)
     }
 }
 
-/* "a x, b y" of the columns of a state, with the texts of the first row or without. */
+/* Prints the columns in state `which` as a list "key text, key text" (COMMON, with the texts of the first row) or
+   "key, key" (LEFT_OUT, after `begin`). */
 static void print_list(const block *b, const char *begin, state which, int width)
 {
     int column = 0;
@@ -124,7 +128,7 @@ static void print_list(const block *b, const char *begin, state which, int width
     printf(column > 0 ? "\n" : "");
 }
 
-/* A row as a line for each key. */
+/* Prints a row as one line per key. */
 static void print_record(const block *b, int width)
 {
     int keys = 0;
@@ -137,7 +141,7 @@ static void print_record(const block *b, int width)
     }
 }
 
-/* The columns that are as wide as their widest text; what they take together. */
+/* Makes each column as wide as its widest text. Returns the total width of the columns. */
 static int measure_columns(block *b)
 {
     int total = -GAP;
@@ -163,7 +167,7 @@ static bool is_common(const block *b, size_t column)
     return true;
 }
 
-/* Chooses columns, and shares the width among those of text. */
+/* Chooses the columns that fit the width, and divides the width that remains among the columns of text. */
 static void fit(block *b, int width)
 {
     int least[MOST], room = width + GAP;
@@ -180,7 +184,7 @@ static void fit(block *b, int width)
     }
 }
 
-/* Row SIZE_MAX: the header. */
+/* Prints the shown columns of a row; row SIZE_MAX is the header. */
 static void print_columns(const block *b, size_t row)
 {
     piece pieces[MOST];
@@ -219,12 +223,12 @@ static size_t columns_of(const cli_cell *row, size_t n)
         columns++;
     }
     if (columns > MOST) {
-        abort(); /* a mistake in the program */
+        abort(); /* a command made a row of too many columns, which is a bug */
     }
     return columns;
 }
 
-/* Whether the cells are a row with the keys of another one. */
+/* Whether the cells begin with a row that has the same keys as the row `other`. */
 static bool same_keys(const cli_cell *row, size_t n, const cli_cell *other, size_t columns)
 {
     for (size_t i = 0; i < columns; i++) {

@@ -11,10 +11,12 @@ typedef struct cli_cell {
     bool is_number;
 } cli_cell;
 
-/* The columns of a stream's terminal, or those of COLUMNS there; 0: it is no terminal. */
+/* Returns the width of the terminal that the file descriptor `stream` is connected to, in columns (the environment
+   variable COLUMNS overrides it), or 0 if the descriptor is no terminal. */
 int cli_terminal_width(int stream);
 
-/* A row ends at a cell with a NULL key. width: 0 for as wide as it is. */
+/* Prints n cells as rows; a cell with a NULL key ends a row. width: the number of columns that rows may take, 0 for
+   no limit. */
 void cli_table_print(const cli_cell *cells, size_t n, int width);
 
 #endif

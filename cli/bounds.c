@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reports values that are bounds because a search was cut short. */
+/* Reports values that are only bounds because the search for the exact value was cut short. */
 #include "bounds.h"
 
 #include <stdio.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Charts and panels of `koksma plot`: rows of a curve are stored as lists of numbers, which koksma/plot.h draws. */
+/* Charts and panels of `koksma plot`: stores the rows of a curve as arrays of numbers, which the functions of
+   koksma/plot.h draw. */
 #include "charts.h"
 
 #include "source.h"
@@ -19,7 +20,7 @@ const char *cli_title(const char *source, char text[CLI_CHART_LABEL])
     const char *label = cli_label(source), *n = NULL, *dim = NULL;
     size_t length = strlen(label);
     for (const char *at = cli_source_is_pattern(source) ? strrchr(label, '@') : NULL;
-         at && !dim;) { /* one number, or two */
+         at && !dim;) { /* finds @N, or @N and @DIM, at the end */
         dim = n;
         n = at;
         length = (size_t)(at - label);
@@ -110,7 +111,7 @@ void cli_push_curve(cli_chart_store *s, size_t n, size_t colour, const char *lab
                                        .colour = colour};
 }
 
-/* Rows become numbers of the next curve. */
+/* A sink that appends each row to the arrays of the next curve in a chart store. */
 typedef struct chart_sink {
     cli_sink sink;
     const cli_curve *curve;

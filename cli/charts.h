@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pictures of curves: charts of rows, panels, and the file that they become. */
+/* Draws the curves of `koksma plot`: charts of rows, panels of points or spectra, and the picture file that holds
+   them. */
 #ifndef KOKSMA_CLI_CHARTS_H
 #define KOKSMA_CLI_CHARTS_H
 
@@ -7,7 +8,7 @@
 
 enum { CLI_CHART_LABEL = 160 };
 
-/* Room for a chart's curves: for each three lists of `per` numbers (xs, ys, errors) and a label. */
+/* Memory for the curves of a chart: for each curve three arrays of `per` numbers (xs, ys, errors) and a label. */
 typedef struct cli_chart_store {
     koksma_curve *curves;
     double *numbers;
@@ -15,34 +16,36 @@ typedef struct cli_chart_store {
     size_t n, per;
 } cli_chart_store;
 
-/* False when memory runs out. */
+/* Allocates a store for n curves. Returns false when memory runs out. */
 bool cli_open_store(cli_chart_store *s, size_t n, size_t per);
 void cli_close_store(cli_chart_store *s);
 
-/* The next curve's xs; its ys begin at [per], its errors at [2 per]. */
+/* Returns the arrays of the next curve: xs begin at [0], ys at [per], errors at [2 per]. */
 double *cli_next_numbers(const cli_chart_store *s);
 
-/* The next curve has n of them. */
+/* Adds the next curve to the store: the first n numbers of each of its arrays. */
 void cli_push_curve(cli_chart_store *s, size_t n, size_t colour, const char *label);
 
-/* The rows of all operands as a chart by a curve's axes; the store is to be closed, also on failure. The exit code. */
+/* Computes the rows of all operands and makes a chart of them, with the axes of `curve`. The caller closes the store,
+   also after a failure. Returns the exit code. */
 int cli_chart_open(cli_curves *c, const cli_curve *curve, cli_chart_store *s, koksma_chart *chart);
 
-/* Draws the rows of all operands in one chart, by the curve's axes; the exit code. */
+/* Draws the rows of all operands in one chart, with the axes of the curve c->curve. Returns the exit code. */
 int cli_draw_chart(cli_curves *c);
 
-/* Write a picture into --output, below --title or else this one, which may be NULL; the exit code. */
+/* The three functions below write a picture to the file --output, headed by --title or else by `title`, which may be
+   NULL, and return the exit code. */
 int cli_write_figure(const cli_curves *c, const char *title, const koksma_cell *cells, size_t n);
 int cli_write_chart(const cli_curves *c, const char *title, const koksma_chart *chart);
 int cli_draw_panels(const cli_curves *c, const char *title, const koksma_panel *panels, size_t n);
 
-/* A source without "pattern:", its n and its dimension. */
+/* Returns a source's text without "pattern:" at its beginning. */
 const char *cli_label(const char *source);
 
-/* "SPEC, n = N", and of more dimensions than 2 ", d = DIM"; of a file its path. Returns text. */
+/* Returns `text`: "SPEC, n = N" for a pattern, followed by ", d = DIM" above 2 dimensions; the path for a file. */
 const char *cli_title(const char *source, char text[CLI_CHART_LABEL]);
 
-/* The colours of all operands, from the first on. */
+/* Chooses the colours of all operands: numbers[i] is the colour of operand i. */
 void cli_colours(const cli_curves *c, size_t numbers[CLI_MAX_PANELS]);
 
 #endif

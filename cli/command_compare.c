@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Compares images with a reference: the size of the error, as means over the images, and its coherence over all. */
+/* `koksma compare`: compares images with a reference. Prints the size of the error, as means over the images, and the
+   coherence of the errors of all images. */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,18 +9,20 @@
 #include "cli.h"
 #include "metric_option.h"
 
-/* What is known of the images so far. */
+/* Sums over the images that have been compared so far. */
 typedef struct comparison {
     koksma_image reference;
     koksma_coherence coherence;
     size_t images;
     koksma_image_error error;                    /* sums over the images */
-    cli_metrics metrics;                         /* rmse, and those asked for */
-    koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images; top: of one */
-    const char *compared;                        /* the image that is being compared, NULL while none is */
+    cli_metrics metrics;                         /* rmse, and the metrics of --metric */
+    koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images; top is that of the last image */
+    /* the path of the image that is being compared, or NULL */
+    const char *compared;
 } comparison;
 
-/* The first metric has its own column. Beside values machines have what they rest on. */
+/* Adds the columns of the metrics. The first metric is rmse, which put_row prints already. JSON rows also have the
+   value without the 0.1 % of the pixels with the largest error, and the share of these pixels in the error. */
 static void put_metrics(cli_rows *rows, const comparison *c, bool json)
 {
     for (size_t i = 0; i < c->metrics.n; i++) {
@@ -92,7 +95,7 @@ static koksma_status write_difference(const char *path, const koksma_image *imag
     return status;
 }
 
-/* Of two files neither is the wrong one. */
+/* Prints an error. If two images could not be compared it names both, because either may be the wrong one. */
 static int fail(const cli_arguments *arguments, const comparison *c, const char *reference, koksma_status status)
 {
     if (!c->compared) {
@@ -118,7 +121,7 @@ static koksma_status add_metrics(comparison *c, const koksma_image *image)
     return status;
 }
 
-/* Adds the image of a file; difference: NULL, or where its errors are written. */
+/* Adds the errors of the image in the file `path`. difference: the file for an image of the errors, or NULL. */
 static koksma_status add_image(comparison *c, const char *path, const char *difference)
 {
     koksma_image image = {0};

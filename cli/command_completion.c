@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Completion scripts for bash, zsh and fish, from the tables that parse the command line. The table's word for an
-   argument says what to offer: alternatives with | between, or a noun of `nouns` below; other nouns are numbers, for
-   which nothing is offered. The scripts ask the program for names of patterns, measures and scenes while the user
-   types. */
+/* `koksma completion`: prints completion scripts for bash, zsh and fish, from the option tables that parse the
+   command line. The text of an option's argument tells what to offer: alternatives with | between them, or a noun of
+   the table `nouns` below. All other nouns are numbers, for which nothing is offered. The scripts ask the program for
+   the names of patterns, measures and scenes while the user types. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,10 +16,10 @@
 
 enum { ANSWER_SIZE = 2048 };
 
-/* What a shell offers for an argument. */
+/* What a shell offers as completions of an argument. */
 typedef struct answer {
-    char words[ANSWER_SIZE]; /* names, and calls of the script's function that prints a table's */
-    bool list, files;        /* several with commas between; files, when no word fits */
+    char words[ANSWER_SIZE]; /* names, and calls of the script's function that prints the names of a table */
+    bool list, files;        /* list: the argument is a list with commas; files: file names, if no word fits */
 } answer;
 
 static const char *command_name_at(size_t i)
@@ -35,7 +35,7 @@ static const char *property_name_at(size_t i)
 }
 
 static const struct {
-    const char *noun, *table; /* a table of `koksma list` */
+    const char *noun, *table; /* the table of `koksma list` that has the names */
     const char *(*name_at)(size_t i);
     bool files;
 } nouns[] = {
@@ -87,8 +87,8 @@ static void add_noun(answer *a, const char *call, const char *text, size_t lengt
 
 static const char lower[] = "abcdefghijklmnopqrstuvwxyz0123456789-", upper[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/* Adds what a shell may offer for the first word of text: alternatives with | between, each a word itself or a noun.
-   call: how the script calls its function that prints the names of a table. */
+/* Adds what a shell may offer for the first word of `text`: alternatives with | between them, each a literal word or
+   a noun. call: how the script calls its function that prints the names of a table. */
 static void add_answer(answer *a, const char *call, const char *text)
 {
     const char *end = text + strcspn(text, " \n");
@@ -109,7 +109,7 @@ static void add_answer(answer *a, const char *call, const char *text)
 
 /* ---- Operands: the lines of a synopsis, "VERB FILE" or "FILE" ----------------------------------------- */
 
-/* Usage i (0..) of a command, after "koksma NAME "; NULL past the end. */
+/* Returns line i (0..) of a command's synopsis, which begins after "koksma NAME ", or NULL past the end. */
 static const char *usage_at(const cli_command *command, size_t i)
 {
     const char *line = command->synopsis;
@@ -120,7 +120,8 @@ static const char *usage_at(const cli_command *command, size_t i)
     return line;
 }
 
-/* Whether a usage begins with words to choose from, after which other operands come; these. */
+/* Whether a usage begins with literal words to choose from, such as "run", that are followed by other operands.
+   *verbs: these words. */
 static bool has_verbs(const char *usage, answer *verbs)
 {
     *verbs = (answer){.list = false};
@@ -128,7 +129,7 @@ static bool has_verbs(const char *usage, answer *verbs)
     return islower((unsigned char)usage[strspn(usage, "[")]) && *verbs->words;
 }
 
-/* What comes after its verbs: the next operand, "" for none. */
+/* Returns the operand that follows the verbs of a usage, or "" if none follows. */
 static const char *after_verbs(const char *usage)
 {
     const char *next = usage + strcspn(usage, " \n");
@@ -136,7 +137,7 @@ static const char *after_verbs(const char *usage)
     return !strncmp(next, "[-", 2) ? "" : next + strspn(next, "'");
 }
 
-/* The operands of a command before any verb. */
+/* Returns what may be the first operand of a command. */
 static answer first_operands(const cli_command *command, const char *call)
 {
     answer all = {.list = false};
@@ -149,7 +150,7 @@ static answer first_operands(const cli_command *command, const char *call)
 
 /* ---- The scripts --------------------------------------------------------------------------------------- */
 
-/* For a shell's single quotes. */
+/* Prints a text for use between a shell's single quotes. */
 static void put_quoted(const char *text)
 {
     for (; *text; text++) {
@@ -168,7 +169,7 @@ static void put_options(const cli_command *command)
     fputs("-h --help", stdout);
 }
 
-/* Assignments of both bash and zsh. */
+/* Prints assignments in the common syntax of bash and zsh, which set list, files and words. */
 static void put_answer(const answer *a)
 {
     printf("%s%swords=\"%s\";;\n", a->list ? "list=yes; " : "", a->files ? "files=yes; " : "", a->words);
@@ -200,7 +201,8 @@ static void put_operand_cases(const cli_command *command, const char *call)
     printf("      esac;;\n    esac;;\n");
 }
 
-/* A `case` of both bash and zsh: sets words, list and files by the option before the cursor, else by the operands. */
+/* Prints a `case` statement in the common syntax of bash and zsh. The statement sets words, list and files by the
+   option before the cursor, or else by the operands. */
 static void put_cases(void)
 {
     static const char call[] = "$(_koksma_names";
@@ -232,8 +234,9 @@ static void put_commands(void)
 
 static const char names_function[] = "_koksma_names() { koksma list \"$1\" 2>/dev/null | sed 1d | cut -d' ' -f1; }\n";
 
-/* Behind a colon, with `koksma completion spec`. Bash breaks words at colons and equals signs and takes what comes after
-   the last one. */
+/* Bash code that completes a word with a colon by means of `koksma completion spec`. Bash splits words at colons and
+   equals signs and replaces only the part after the last of these, so the code removes the part before from the
+   completions. */
 static const char bash_specs[] =
     "  local word=${COMP_LINE:0:COMP_POINT}; word=${word##* }\n"
     "  if [[ $word = *:* ]]; then\n"
@@ -252,7 +255,7 @@ static void put_bash(void)
            "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W '",
            names_function);
     put_commands();
-    /* bash splits words at an equals sign, too. */
+    /* bash makes an equals sign a word, so the option may be two words before the cursor */
     printf("' -- \"$current\"))\n    return\n  fi\n%s"
            "  if [ \"$current\" = = ]; then current=''; "
            "elif [ \"$before\" = = ]; then before=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
@@ -289,7 +292,7 @@ static void put_zsh(void)
            "  if [[ -n $files ]]; then _files; fi\n}\n");
 }
 
-/* The rest of a `complete` line: what is offered, and whether files are. */
+/* Prints the rest of a fish `complete` line: the words to offer, and whether to offer files. */
 static void put_fish_answer(const answer *a)
 {
     printf("%s", a->files ? "" : " -f");
@@ -362,7 +365,8 @@ static void put_fish(void)
     }
 }
 
-/* The parameters of a pattern, measure, integrand or adaptive method; NULL: there is none of that name. */
+/* Returns the parameters of the pattern, measure, integrand or adaptive method `name`, or NULL if there is none of
+   that name. */
 static const koksma_param *params_of(const char *name)
 {
     const koksma_pattern *pattern = koksma_pattern_find(name);
@@ -376,8 +380,9 @@ static const koksma_param *params_of(const char *name)
                        : NULL;
 }
 
-/* Words that go on with one that ends in a spec, "-p a,sobol:scr": "NAME=" of a parameter, or its choices; the names of
-   patterns behind "pattern:". */
+/* Prints the completions of a word that ends in an unfinished spec, such as "-p a,sobol:scr": "NAME=" for each
+   parameter, or the choices of the parameter whose "NAME=" is there. After "pattern:" it prints the names of
+   patterns. */
 static int put_specs(const char *word)
 {
     const char *colon = strrchr(word, ':'), *begin = colon, *last;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma curve`: prints the rows of a curve of curves.def for each source. */
+/* `koksma curve`: prints the rows of a curve of the table curves.def, for each source. */
 #include "curves.h"
 #include "source.h"
 
-/* Rows are printed as they come. */
+/* A sink that prints the rows of a curve. */
 typedef struct row_sink {
     cli_sink sink;
     cli_rows *rows;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma datasheet`: everything about one sampler beside others as a page, or as the JSON that the page shows. */
+/* `koksma datasheet`: compares one sampler with others in all respects, and writes an HTML page, or the JSON that the
+   page shows. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,14 +10,14 @@
 
 #include "cli.h"
 
-/* A list of an option: names, and where they begin. "none" is an empty one. */
+/* The items of an option's list: copies in texts, and pointers to these in at. The list "none" has no items. */
 typedef struct list {
     char texts[KOKSMA_MAX_SHEET_SCENES][KOKSMA_MAX_SPEC];
     const char *at[KOKSMA_MAX_SHEET_SCENES];
     size_t n;
 } list;
 
-/* False after an error. */
+/* Reads the list of an option, with at most `most` items. Returns false after an error. */
 static bool read_list(const cli_arguments *arguments, const char *option, size_t most, list *out)
 {
     const char *text = cli_text(arguments, option, NULL);
@@ -40,7 +41,7 @@ static bool ends_with(const char *text, const char *end)
     return length > n && !strcmp(text + length - n, end);
 }
 
-/* Writes the page, or the JSON. */
+/* Writes the datasheet as an HTML page or as JSON. */
 static koksma_status write_sheet(const char *output, bool is_page, const char *json)
 {
     char *page = NULL;
@@ -98,7 +99,7 @@ static const cli_option options[] = {
     {'b', "beside", "PATTERN,..|none",
      "samplers to compare with, up to 7 (default: random,jittered,sobol:scramble=owen)"},
     {0, "scenes", "SCENE,..|none", "scenes to render (default: ball,checker,cornell)"},
-    {'m', "metric", "METRIC", "of the errors in scenes: mae (default), relmse, ldr-flip, ..."},
+    {'m', "metric", "METRIC", "metric of the errors in scenes: mae (default), relmse, ldr-flip, ..."},
     {0, "quick", NULL, "fewer sets, sizes and images: under a minute"},
     {0, "json", NULL, "the data on stdout, instead of a page"},
     CLI_RUN_OPTIONS,
@@ -112,7 +113,8 @@ const cli_command cli_command_datasheet = {
                 "METRIC] [--quick] "
                 "[--json]",
     .details =
-        "A page with the verdict (at what the sampler is best, where it is beaten, how sure that is), its points, "
+        "Writes a page with the verdict (at what the sampler is best, where it is beaten, how sure that is), its "
+        "points, "
         "errors\n"
         "and coherence in scenes, all measures against n with slopes, errors of integration, spectra, pair "
         "correlation, verified "
@@ -126,7 +128,8 @@ const cli_command cli_command_datasheet = {
         "are numbers of samples, such as 16, are rendered, each pixel and use with one of the files. --beside takes\n"
         "such names, too. FILE is one set of points, measured as it is.\n"
         "\n"
-        "Everything has a fixed count, so that equal sets give equal numbers: 16 sets of 16 to 4,096 points and up\n"
+        "The numbers of sets and images are fixed, so that equal sets give equal results: 16 sets of 16 to 4,096 "
+        "points and up\n"
         "to 64 images of each sampler in each scene; with --quick 8 sets of up to 256 points and 8 images.\n",
     .examples = "koksma datasheet sobol:scramble=owen -o sheet.html --quick\n"
                 "koksma datasheet jittered -b random,pmj02 --scenes ball -o s.html --quick\n",

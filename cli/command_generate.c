@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma generate`: makes one point set of a pattern, or a range of one, maps it by --warp, and writes it to a file or to
- * standard output; without --warp in pieces, where the pattern has ranges. The comment in the file has the pattern, the seed and the warp, and of sets whose neighbours are far
- * apart the smallest distance.
+ * `koksma generate`: generates one point set of a pattern, or a range of its points, maps it by --warp, and writes it
+ * to a file or to standard output. Patterns that can generate ranges are written piece by piece, unless --warp is
+ * given. The comment in the file has the pattern, the seed and the warp, and for blue-noise patterns the smallest
+ * distance of two points.
  */
 #include <koksma/verify.h>
 
@@ -11,7 +12,7 @@
 #include "source.h"
 #include "warps.h"
 
-/* With -n n points in a set of that size; without, all that the pattern has. */
+/* Generates all points in memory and writes them. If points->n is 0, the pattern decides how many points it has. */
 static int generate(const cli_arguments *arguments, const koksma_spec *spec, const koksma_warp *warp, uint64_t seed,
                     const koksma_run *run, koksma_points *points)
 {
@@ -38,7 +39,7 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, con
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
-/* Without the points in memory. */
+/* Generates and writes the points piece by piece, without the whole set in memory. */
 static int stream(const cli_arguments *arguments, const cli_source *source, uint64_t first, uint64_t seed,
                   const koksma_run *run)
 {
@@ -105,7 +106,7 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out for file:PATH and poisson-disk-maximal:d=D)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {'p', "patterns", "PATTERN", "the pattern, instead of the operand"},
-    {0, "first", "I", "number of the first point, of a sequence with ranges (default: 0)"},
+    {0, "first", "I", "index of the first point, for patterns that have ranges (default: 0)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
     {'o', "output", "FILE.txt|.csv|.npy", "the file (default: text on stdout)"},
@@ -126,7 +127,7 @@ const cli_command cli_command_generate = {
         "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N; all others "
         "are\n"
         "made whole in memory, where at most 2^28 coordinates fit.\n"
-        "Equal arguments give equal bits, on any number of threads. These patterns use one thread, because each\n"
+        "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
         "uniform-jittered and most of orthogonal-array.\n",
     .examples = "koksma generate sobol:scramble=owen -n 64 --seed 1 -o points.csv\n"

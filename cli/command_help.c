@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma help`, and the overview that `koksma --help` prints. */
+/* `koksma help`, and the overview of all commands that `koksma --help` prints. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma integrate`: the error of the mean of functions over patterns and files, against n, and the analysis of
- * variance of the functions. Operands are integrands, then sources as `measure` takes them; sources of one pattern that
- * differ in their size become one series with a slope. Rows are printed in three tables: errors, slopes, variance.
- * A function may come from a shared library that an operand names; nothing but the command line can name one.
+ * `koksma integrate`: estimates integrals of functions by means over point sets and prints the errors against n, and
+ * the analysis of variance of the functions. Operands are integrands, then sources of points as `koksma measure`
+ * takes them; sources of one pattern that differ in their size become one series with a slope. Rows are printed in
+ * three tables: errors, slopes, variance. An operand may name a shared library that defines functions; a plan of a
+ * study can't name one.
  */
 #include <dlfcn.h>
 #include <math.h>
@@ -21,13 +22,13 @@ enum { MOST_TRIALS = 1000000, MOST_PAIRED_AXES = 16 };
 typedef struct series {
     const char *operand;
     cli_source source;
-    char text[KOKSMA_MAX_SPEC]; /* of a pattern, without its size; of a file its name */
+    char text[KOKSMA_MAX_SPEC]; /* the spec of a pattern without its size, or the name of a file */
     koksma_integration_options options;
-    koksma_points points; /* of a file */
+    koksma_points points; /* only of a file */
     int dim;
 } series;
 
-/* What is printed after all errors. */
+/* A fitted slope; slopes are printed after all errors. */
 typedef struct slope {
     char integrand[KOKSMA_MAX_SPEC], source[KOKSMA_MAX_SPEC];
     int dim;
@@ -44,15 +45,16 @@ typedef struct job {
     size_t n_series;
     slope *slopes;
     size_t n_slopes;
-    size_t n_deterministic;              /* patterns of one set instead of trials */
-    char deterministic[KOKSMA_MAX_SPEC]; /* the first of them */
+    /* the number of patterns that have only one set, so that there are no trials */
+    size_t n_deterministic;
+    char deterministic[KOKSMA_MAX_SPEC]; /* the first pattern that has only one set */
     void *libraries[16];
     size_t n_libraries;
 } job;
 
 /* ---- Integrands --------------------------------------------------------------------------------------------- */
 
-/* Function NAME, or the first, of "PATH.so[:NAME]". The exit code. */
+/* Opens the function NAME, or the first function, of the library "PATH.so[:NAME]". Returns the exit code. */
 static int open_library(job *j, const char *text, int dim, koksma_integral **out)
 {
     char path[KOKSMA_MAX_SPEC];
@@ -73,7 +75,7 @@ static int open_library(job *j, const char *text, int dim, koksma_integral **out
     j->libraries[j->n_libraries++] = library;
     const koksma_function *(*at)(size_t) = NULL;
     void *symbol = dlsym(library, "koksma_function_at");
-    memcpy(&at, &symbol, sizeof at); /* ISO C has no cast from an object to a function */
+    memcpy(&at, &symbol, sizeof at); /* ISO C has no cast from a pointer to an object to a pointer to a function */
     const koksma_function *function = NULL;
     for (size_t i = 0; at && (function = at(i)) && name && strcmp(name, function->name) != 0; i++) {
     }
@@ -88,8 +90,8 @@ static int open_library(job *j, const char *text, int dim, koksma_integral **out
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
-/* Integrand i of the first operand, "all" or a list; *out is NULL past the end, and for those of "all" that have no such
-   dimension. The exit code. */
+/* Opens integrand i of the first operand, which is "all" or a list. *end: whether i is past the end. *out is NULL
+   past the end, and for an integrand of "all" that does not exist in this dimension. Returns the exit code. */
 static int open_integrand(job *j, size_t i, int dim, bool *end, koksma_integral **out)
 {
     const char *list = j->arguments->operands[0];
@@ -110,7 +112,7 @@ static int open_integrand(job *j, size_t i, int dim, bool *end, koksma_integral 
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-/* A coordinate or a pair of them. */
+/* Adds a column with one coordinate or a pair of coordinates. */
 static void put_axes(job *j, const int *axes, size_t n_axes)
 {
     char text[32], json[40];
@@ -119,7 +121,8 @@ static void put_axes(job *j, const int *axes, size_t n_axes)
     cli_row_json(j->rows, "axes", json, text);
 }
 
-/* The columns that errors of integrands (dim 0: of components) begin with, behind what they are of. */
+/* Adds the first columns of a row of errors, after the name of the integrand or component. dim: 0 for a component,
+   whose rows have no column `dim`. */
 static void put_rmse(job *j, const series *s, int dim, const koksma_integration_row *row)
 {
     cli_row_text(j->rows, "source", s->text);
@@ -228,8 +231,9 @@ static int put_share(job *j, const koksma_integral *integral, const char *name, 
     return CLI_YES;
 }
 
-/* The error of integrating the component of these coordinates over the largest sets of a series, and its part of the mean
-   squared error. The components of others than products are not known: nothing. */
+/* Prints the error of integrating the component of these coordinates over the largest sets of a series, and the
+   component's part of `square`, the mean squared error. Components are known for products of functions of one
+   coordinate; for other integrands nothing is printed. Returns the exit code. */
 static int put_component(job *j, const koksma_integral *integral, const char *name, series *s, double square,
                          const int *axes, size_t n_axes)
 {
@@ -253,7 +257,7 @@ static int put_component(job *j, const koksma_integral *integral, const char *na
     return CLI_YES;
 }
 
-/* Those of all coordinates and pairs. */
+/* Prints the errors of the components of all coordinates and of all pairs of coordinates. */
 static int put_components(job *j, const koksma_integral *integral, const series *all)
 {
     series *s = malloc(sizeof *s);
@@ -302,7 +306,8 @@ static int put_variance(job *j, const koksma_integral *integral, uint64_t sample
 
 /* ---- The command --------------------------------------------------------------------------------------------- */
 
-/* The sizes of one pattern go together. */
+/* Opens the source `operand`. A pattern that differs from the previous source only in its size is added to that
+   series. */
 static int open_series(job *j, const char *operand)
 {
     series *s = &j->series[j->n_series], *before = j->n_series ? s - 1 : NULL;
@@ -334,7 +339,7 @@ static int open_series(job *j, const char *operand)
     return code;
 }
 
-/* Calls f for every integrand in so many dimensions. */
+/* Calls f for every integrand of the first operand, in dim dimensions. */
 static int run_each(job *j, int dim, int (*f)(job *j, const koksma_integral *integral, void *context), void *context)
 {
     int code = CLI_YES;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma list`: the members of the library's tables, one function a table. */
+/* `koksma list`: prints the members of the library's tables; each table has one function here. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -69,7 +69,8 @@ static void put_claims(cli_rows *rows, unsigned of)
     cli_row_text(rows, "claims", *text ? text : "-");
 }
 
-/* Whether it has ranges, and the choices of its parameters with which it has none. */
+/* Adds the column `ranges`: whether the pattern can generate a range of its points, and the choices of its parameters
+   with which it can't. */
 static void put_ranges(cli_rows *rows, const koksma_pattern *p)
 {
     char text[256] = "-";
@@ -94,7 +95,8 @@ static void put_ranges(cli_rows *rows, const koksma_pattern *p)
     cli_row_text(rows, "ranges", text);
 }
 
-/* Or the error, about files of a package that is not installed. Kept until the next call. */
+/* Returns the title of a scene, or the error if the scene needs files of a package that is not installed. The text is
+   valid until the next call. */
 static const char *scene_title(const char *name)
 {
     static char title[512];
@@ -105,7 +107,7 @@ static const char *scene_title(const char *name)
     return title;
 }
 
-/* What the text after the colon of its spec gives, itself or as the path of a file. */
+/* Returns what the text after the colon of a pattern's spec gives, itself or as the path of a file. */
 static const char *reads(const koksma_pattern *p)
 {
     return !p->operand                  ? "-"
@@ -115,7 +117,8 @@ static const char *reads(const koksma_pattern *p)
                                         : "parameters";
 }
 
-/* list_TABLE: a row for each x that `next` finds as item i: its name, what it is, and `columns`. */
+/* Defines the function list_TABLE. The function prints a row for each x that the expression `next` finds as item i:
+   its name, its meaning, and `columns`. */
 #define LIST(table, noun, type, next, name, meaning, columns)                                                        \
     static void list_##table(cli_rows *rows)                                                                         \
     {                                                                                                                \
@@ -172,7 +175,7 @@ LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, x.t
 LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, x.title, (void)x)
 LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, x.title, (void)x)
 
-/* Tables of names that nobody has described. */
+/* The tables below do not fit LIST; plans, for example, have no descriptions. */
 static void list_plans(cli_rows *rows)
 {
     for (size_t i = 0; koksma_plan_name_at(i); i++) {
@@ -237,7 +240,7 @@ static void list_parameters_of(cli_rows *rows, const char *member, const koksma_
     }
 }
 
-/* Those of all members that this function finds. */
+/* Lists the parameters of all members that the function `at` returns. */
 #define PARAMETERS_OF(at)                                                                                            \
     for (size_t i = 0; at(i); i++) {                                                                                 \
         list_parameters_of(rows, at(i)->name, at(i)->params);                                                        \
@@ -338,8 +341,9 @@ const cli_command cli_command_list = {
     .summary = "list the members of a table",
     .synopsis = "[{lists}] [--json]",
     .details =
-        "uses are what a sample is spent on, with their dimensions: 'koksma render -p USE=PATTERN' samples one by a\n"
-        "pattern of its own, '-p USE+USE=PATTERN' several by one pattern of their dimensions together.",
+        "uses: a use is a purpose of sample dimensions, such as the position on the lens. 'koksma render -p\n"
+        "USE=PATTERN' samples one use by its own pattern, '-p USE+USE=PATTERN' several uses by one pattern with\n"
+        "all their dimensions.",
     .examples = "koksma list patterns\n"
                 "koksma list scenes --json\n",
     .options = options,

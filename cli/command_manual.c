@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Manual pages, from the tables that parse the command line and print --help. */
+/* `koksma manual`: prints manual pages, from the tables that parse the command line and print --help. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "cli.h"
 #include "paragraphs.h"
 
-/* Text for roff: backslashes, hyphens of options, and lines that begin with a dot or quote stay what they are; a line
-   may break between alternatives. */
+/* Prints a text for roff: escapes backslashes, hyphens, and a dot or quote at the beginning of a line. A line may
+   break between alternatives. */
 static void put(const char *text)
 {
     for (bool at_start = true; *text; text++) {
@@ -43,7 +43,7 @@ static void put_options(const cli_command *command)
         put(o->help);
         printf("\n");
     }
-    printf(".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nthe same as this page\n");
+    printf(".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nprint the text of this page\n");
 }
 
 static void put_synopsis(const char *name, const char *synopsis)
@@ -77,7 +77,7 @@ static void put_exit_status(void)
         "missing or\nmalformed; 4 the system failed; 130 interrupted, finished results are kept.\n");
 }
 
-/* The name of a page, in capitals, as sections of a manual have it. */
+/* Prints the title line of a page, whose name is in capitals as in other manuals. */
 static void put_title(const char *command)
 {
     printf(".TH KOKSMA");

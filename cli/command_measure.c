@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma measure`: values of measures for files and patterns. One set of each source gives rows with exact values,
- * bounds or witnesses, whichever the measure has; --trials, --prefixes, --sizes and --paired go to measuring.c,
- * which collects means, standard errors and slopes. A search that --time-limit cuts short gives bounds, with a
- * warning.
+ * `koksma measure`: evaluates measures of points from files and patterns. With one set per source, a row has the
+ * exact value or bounds, and the witness if the measure finds one. --trials, --prefixes, --sizes and --paired are
+ * handled in measuring.c, which computes means, standard errors and slopes. A search that --time-limit cuts short
+ * gives bounds, with a warning.
  */
 #include <math.h>
 #include <stdio.h>
@@ -116,7 +116,7 @@ koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_poin
     return status;
 }
 
-/* A line for each measure that was cut short. */
+/* Prints a line on stderr for each measure that was cut short. */
 static void tell_cuts(const measuring *j)
 {
     for (size_t m = 0; j->n_cut && m < j->n_measures; m++) {
@@ -126,7 +126,7 @@ static void tell_cuts(const measuring *j)
     }
 }
 
-/* The columns that all rows of a table have. */
+/* Chooses the optional columns, which all rows of a table have in common. */
 static void choose_columns(measuring *j)
 {
     j->bounds = j->time_limit_s > 0;
@@ -136,7 +136,8 @@ static void choose_columns(measuring *j)
     }
 }
 
-/* -m all leaves out what can't serve a set. */
+/* Returns `status`; but with -m all it returns KOKSMA_OK for a measure that does not accept a set, so that the
+   measure is left out. */
 koksma_status measuring_forgive(const measuring *j, koksma_status status)
 {
     return j->all && (status == KOKSMA_DIM || status == KOKSMA_N || status == KOKSMA_UNSUPPORTED) ? KOKSMA_OK
@@ -168,7 +169,8 @@ static int measure_source(measuring *j, const char *source)
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
-/* --prefixes powers, or a list of numbers; --sizes and such a list. */
+/* Reads --prefixes, which is "powers" or a list of numbers, or --sizes, a list of numbers. Returns false after an
+   error. */
 static bool parse_prefixes(measuring *j)
 {
     const char *sizes = cli_text(j->arguments, "sizes", NULL), *prefixes = cli_text(j->arguments, "prefixes", NULL),
@@ -189,7 +191,7 @@ static bool parse_prefixes(measuring *j)
         }
         for (size_t i = 0; i < j->n_prefixes; i++) {
             if (j->prefixes[i] == k) {
-                cli_usage_error(j->arguments, "--%s: %llu stands twice", option, k);
+                cli_usage_error(j->arguments, "--%s: %llu is given twice", option, k);
                 return false;
             }
         }
@@ -199,7 +201,7 @@ static bool parse_prefixes(measuring *j)
     return true;
 }
 
-/* --warp W,W.. */
+/* Reads --warp W,W.. and checks that all warps have the same domain. Returns false after an error. */
 static bool parse_warps(measuring *j)
 {
     const char *list = cli_text(j->arguments, "warp", NULL);
@@ -222,7 +224,7 @@ static bool parse_warps(measuring *j)
     return true;
 }
 
-/* Lists that are too long are refused, not cut. */
+/* Returns false, after an error, if the list of an option has more than `most` items. */
 static bool check_list(const measuring *j, const char *option, size_t most)
 {
     const char *list = cli_text(j->arguments, option, NULL);
@@ -255,7 +257,7 @@ static bool parse_options(measuring *j)
     return true;
 }
 
-/* What is measured without -m: after a warp, what makes sense on its domain. */
+/* The measures that are evaluated without -m. With --warp these are the measures that apply to its domain. */
 static const char *default_measures(const measuring *j)
 {
     static const char *const of_domains[] = {
@@ -276,7 +278,7 @@ static koksma_status choose_measures(measuring *j, const char *list)
             koksma_measure_spec(koksma_measure_at(j->n_measures)->name, &j->measures[j->n_measures]);
             j->n_measures++;
         }
-        if (j->warp && j->n_measures < MAX_MEASURES) { /* what hemispheres take */
+        if (j->warp && j->n_measures < MAX_MEASURES) { /* this variant of l2-disk accepts points on a hemisphere */
             koksma_measure_spec("l2-disk:law=area", &j->measures[j->n_measures++]);
         }
         return KOKSMA_OK;
@@ -328,15 +330,15 @@ static const cli_option options[] = {
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {'t', "trials", "T", "T sets of each pattern, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "K,..|powers",
-     "the first K points for each K (as in 16,64,256), or powers; and the log-log slope beside theory's"},
+     "measure the first K points for each K, as in 16,64,256, and the log-log slope; powers: all powers of two"},
     {0, "at", "X,Y..",
-     "only the local discrepancy at this corner: the share of the points in [0, x) less its volume"},
+     "only the local discrepancy at this corner x: the share of the points in [0, x) less its volume"},
     {0, "sizes", "N,..",
-     "a set of each N (as in 16,64,256), for any pattern, and the slope; of a file its first N points"},
+     "measure a set of each N, as in 16,64,256, and the log-log slope; a file gives its first N points"},
     {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
     {0, "paired", NULL,
      "with --trials: every further source or warp minus the first, set by set, with 95 % interval"},
-    {0, "time-limit", "SECONDS", "for each value: a measure that is cut short gives bounds"},
+    {0, "time-limit", "SECONDS", "time for each value; a measure that is cut short gives bounds"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -353,13 +355,14 @@ const cli_command cli_command_measure = {
         "--prefixes needs a sequence: the first points of other patterns, such as n-rooks, are a strip of the set.\n"
         "--sizes measures a new set for each N instead, whatever N the source has. 'powers' leaves out sizes that\n"
         "a measure does not accept, such as one point for min-distance.\n"
-        "Both print the fitted slope beside the proven exponent for the pattern and the best possible one (up to\n"
+        "--prefixes and --sizes print the fitted slope beside the proven exponent for the pattern and the best "
+        "possible one (up to\n"
         "powers of logarithms). The standard error of a slope comes from the trials; with one set there is none,\n"
         "and residual_error is the scatter of the values about the line.\n"
         "\n"
         "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row that ran\n"
         "out of time has proven bounds: lower and upper. Rows of trials, differences and slopes count how many of\n"
-        "their values are exact. Other measures, and extreme:grid, take the time they need.\n"
+        "their values are exact. --time-limit has no effect on other measures and on extreme:grid.\n"
         "disk also stops after 2^28 point tests (lattices of hundreds of points, other sets of thousands); it then\n"
         "reports bounds and warns.\n",
     .examples = "koksma measure points.txt -m star,l2-star,extreme\n"

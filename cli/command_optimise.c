@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma optimise`: the best point set that a search finds, on disk after each gain. Ranks of mpirun share the search;
-   rank 0 writes and prints. */
+/* `koksma optimise`: searches for a point set with a small value of a measure, and writes the best set to a file
+   after each improvement. Under mpirun the ranks share the search; rank 0 writes the file and prints. */
 #include <koksma/study.h>
 
 #include <stdio.h>
@@ -17,17 +17,18 @@ typedef struct job {
     const koksma_spec *measure;
     cli_work work;
     koksma_optimise_options options;
-    koksma_status written; /* of the last write */
+    koksma_status written; /* the result of the last write */
     uint64_t last_gain;
     double gained_s;
     uint64_t projections[MOST_PROJECTIONS];
     double weights[MOST_PROJECTIONS];
     koksma_processes ranks;
-    double first; /* the value of the first set */
+    double first; /* the value of the initial set */
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
 
-/* Writes the best set whole or not at all: who ends the program at any moment finds the last one. */
+/* Writes the best set. A file is replaced as a whole, so that there is a complete set even if the program is killed
+   while it writes. */
 static koksma_status write_best(const job *j, const koksma_optimum *best)
 {
     char comment[KOKSMA_MAX_SPEC + 256];
@@ -78,7 +79,8 @@ static int report(job *j, const koksma_optimum *best)
     return cli_rows_close(rows);
 }
 
-/* --from: a file, or a pattern, whose number of points may be given by @N. */
+/* Reads --from: a file, or a pattern, which may give the number of points as @N. counted: whether -n gives
+   that number. Returns the exit code. */
 static int first_set(job *j, bool counted, koksma_points *from)
 {
     const char *text = cli_text(j->arguments, "from", NULL);
@@ -97,7 +99,7 @@ static int first_set(job *j, bool counted, koksma_points *from)
             return cli_usage_error(j->arguments, "-n N, the number of points, is missing");
         }
         if (source.n && ((counted && source.n != j->options.n) || (dim_given && source.dim != j->options.dim))) {
-            return cli_usage_error(j->arguments, "--from %s: -n or -d says otherwise", text);
+            return cli_usage_error(j->arguments, "--from %s: it differs from -n or -d", text);
         }
         j->options.n = source.n ? source.n : j->options.n;
         j->options.dim = source.n ? source.dim : j->options.dim;
@@ -112,7 +114,7 @@ static int first_set(job *j, bool counted, koksma_points *from)
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
-/* --weights W,..: one of each projection. */
+/* Reads --weights W,..: one weight for each projection. Returns false after an error. */
 static bool parse_weights(job *j)
 {
     const char *text = cli_text(j->arguments, "weights", NULL);
@@ -135,7 +137,8 @@ static bool parse_weights(job *j)
     return true;
 }
 
-/* --projections 0+1,2: bits of coordinates. */
+/* Reads --projections, such as 0+1,2, as sets of coordinates; bit k of a set is coordinate k. Returns false after an
+   error. */
 static bool parse_projections(job *j)
 {
     const char *text = cli_text(j->arguments, "projections", NULL), *at = text;
@@ -250,18 +253,18 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out with --from FILE)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {0, "from", "FILE",
-     "the first set, also PATTERN or SPEC@N (default: latin-hypercube; with --keep net or sequence: sobol)"},
-    {0, "keep", "none|latin|net|sequence", "what the points may not lose (default: none)"},
-    {0, "projections", "0+1,0+2,..|pairs", "the coordinates in which points are measured (default: all together)"},
-    {0, "weights", "W,..", "of the projections, in the root of the mean of squares (default: 1)"},
+     "the initial set, also PATTERN or SPEC@N (default: latin-hypercube; with --keep net or sequence: sobol)"},
+    {0, "keep", "none|latin|net|sequence", "a structure that the points keep (default: none)"},
+    {0, "projections", "0+1,0+2,..|pairs",
+     "groups of coordinates; each is measured by itself (default: one group of all)"},
+    {0, "weights", "W,..", "weights of the projections in the root mean square of their values (default: 1)"},
     {0, "steps", "K", "steps of a fixed amount of work: equal --seed and --steps give equal sets"},
-    {0, "time-limit", "SECONDS",
-     "end after the step in which so many seconds pass (default: 60, with --steps: none)"},
+    {0, "time-limit", "SECONDS", "end after the step in which this time is up (default: 60; with --steps: no limit)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
-    {'o', "output", "FILE.txt|.csv|.npy", "the best set, written anew after each gain"},
-    {0, "scene", "SCENE", "a set for the error of this scene's image with -n samples a pixel, used as file:FILE"},
-    {0, "held-out", "SCENE,..", "with --scene: scenes that decide (default: six of the library)"},
-    {0, "against", "PATTERN,..|all", "with --scene: patterns that it is compared with (default: 17)"},
+    {'o', "output", "FILE.txt|.csv|.npy", "the best set; the file is rewritten after each gain"},
+    {0, "scene", "SCENE", "search for a set for this scene's image with -n samples a pixel, to use as file:FILE"},
+    {0, "held-out", "SCENE,..", "with --scene: other scenes to test the set in (default: six of the library)"},
+    {0, "against", "PATTERN,..|all", "with --scene: patterns to compare the set with (default: 17)"},
     {0, "candidates", "N", "with --scene: sets to choose from (default: 8)"},
     {0, "phases", "N", "with --scene: shifts on the torus of each set (default: 4)"},
     {0, "size", "WxH", "with --scene: pixels (default: the scene's, halved until at most 1,200)"},
@@ -277,28 +280,21 @@ const cli_command cli_command_optimise = {
     .synopsis = "MEASURE -n N [-d DIM] [--from FILE] [--keep WHAT] [--projections LIST] [--steps K] -o FILE | "
                 "--scene SCENE -n SPP [--held-out SCENE,..] [--against PATTERN,..] -o FILE",
     .details =
-        "MEASURE is any with exact values, such as star or l2-disk:law=area; a distance is made large. Equal "
-        "arguments\n"
-        "with --steps give equal sets, on any number of threads; after a time limit the row says how many "
-        "steps were\n"
-        "done, and --steps with that number gives the set again. FILE holds the best set at any moment: the "
-        "search may\n"
-        "be ended by Ctrl-C (exit code 130) or a kill, and --from FILE goes on.\n"
-        "--keep latin only changes which coordinates go together; --keep net leaves each in its interval of "
-        "length 1/n.\n"
-        "--keep sequence changes the generator matrices of a digital sequence in base 2; the value is the "
-        "geometric mean\n"
-        "of the measure over its first 2, 4, .., n points, and FILE is one that net-file:FILE reads. Under "
-        "mpirun the\n"
-        "ranks share the work.\n"
-        "--scene SCENE renders: candidates by L2 discrepancies with the weights of x, y and both in the scene, "
-        "shifted, are\n"
-        "eliminated by the intervals of koksma rank; the best is compared with listed patterns there and in "
-        "held-out scenes.\n"
-        "gain: 1 - its error / theirs, with 95 % in each scene; shrinks_by: the gain in SCENE less that. Exit code "
-        "1: "
-        "on average\n"
-        "there is no gain in the held-out scenes.",
+        "MEASURE is any measure with exact values, such as star or l2-disk:law=area; distances are made large,\n"
+        "all other measures small. Equal arguments with --steps give equal sets, on any number of threads. After\n"
+        "a time limit the row has the number of steps, and --steps with this number gives the same set. FILE\n"
+        "always holds the best set: Ctrl-C (exit code 130) or a kill may end the search, and --from FILE\n"
+        "continues it.\n"
+        "--keep latin only changes which coordinates form a point; --keep net leaves each coordinate in its\n"
+        "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2;\n"
+        "the value is then the geometric mean of the measure over the first 2, 4, .., n points, and net-file:FILE\n"
+        "reads FILE. Under mpirun the ranks share the work.\n"
+        "--scene SCENE renders. Candidates are sets of low L2 discrepancy, with weights from the scene for x, for\n"
+        "y and for both, and shifts of these sets. The confidence intervals of koksma rank eliminate candidates;\n"
+        "the best one is compared with listed patterns in SCENE and in held-out scenes.\n"
+        "gain: 1 - (error of the set / error of the best listed pattern), with a 95 % interval in each scene.\n"
+        "shrinks_by: the gain in SCENE minus the gain in the row's scene. The exit code is 1 if the average gain\n"
+        "in the held-out scenes is not above 0.",
     .examples = "koksma optimise star -n 64 --time-limit 60 -o best.txt\n"
                 "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
                 "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n"

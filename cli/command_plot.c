@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma plot`: draws a curve of curves.def, or the points, of each source into one picture. */
+/* `koksma plot`: draws the points of each source, or another curve of the table curves.def, in one picture. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +7,8 @@
 #include "source.h"
 #include "warps.h"
 
-/* Trials that every source must have a set for. */
+/* Returns the number of sets that every source must have. The number is 1 for curves that show a file, which is one
+   set, beside means over the sets of a pattern. */
 static uint64_t trials_of_all(const cli_curves *c)
 {
     const cli_arguments *arguments = c->arguments;
@@ -18,7 +19,7 @@ static uint64_t trials_of_all(const cli_curves *c)
     return has_pattern && c->curve->plot.mixes_files ? 1 : c->trials;
 }
 
-/* --size W[xH] and --theme. */
+/* Reads --size W[xH] and --theme. Returns false after an error. */
 static bool choose_looks(const cli_arguments *arguments, cli_curves *c)
 {
     const char *size = cli_text(arguments, "size", NULL), *theme = cli_text(arguments, "theme", "light");
@@ -83,13 +84,13 @@ static const cli_option options[] = {
     {0, "grid", "M[xN]", "points: draw M x M cells, or M columns and N rows"},
     {0, "rooks", NULL, "points: draw n columns and n rows"},
     {0, "witness", "MEASURE", "points: draw the region where this measure's supremum is reached, with its value"},
-    {0, "warp", "WARP", "points: draw them and the cells through this map: see 'koksma list warps'"},
+    {0, "warp", "WARP", "points: draw points and cells mapped by WARP: see 'koksma list warps'"},
     {0, "local-discrepancy", NULL,
      "points: colour the square by the share of the points in the box from the origin, less its area"},
     {0, "white", "P", "power: the power that is drawn white (default: 2; random points have 1)"},
-    {'m', "measure", "MEASURE", "convergence, compare: of this measure (default: l2-star)"},
+    {'m', "measure", "MEASURE", "convergence, compare: the measure to draw (default: l2-star)"},
     {0, "sizes", "N,..",
-     "convergence, compare: at these n, as in 16,64,256 (default: the powers of 4 up to the source's that it has)"},
+     "convergence, compare: draw these n, as in 16,64,256 (default: powers of 4 up to the n of the source)"},
     CLI_CURVE_OPTIONS("chart", "2 sqrt(n)"),
     CLI_RUN_OPTIONS,
     {0},
@@ -97,7 +98,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_plot = {
     .name = "plot",
-    .summary = "draw points, where they are worst, spectra and convergence",
+    .summary = "draw points, their worst regions, spectra and convergence",
     .synopsis = "FILE|-|SPEC@N... [-p PATTERN,..|all -n N,..] -o OUT.svg|.pdf|.png [--curve KIND|--compare] "
                 "[--trials T]",
     .details =

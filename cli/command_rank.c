@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma rank`: ranks patterns by the error that they leave in a scene, once for each number of samples. The work
- * is koksma_rank_patterns's; here are the lists of patterns, the share of the time limit that each ranking gets,
- * the rows, and the exit code (1: the best pattern is undecided). The advice is rank_advice.c.
+ * `koksma rank`: ranks patterns by the error that they leave in a scene, separately for each number of samples.
+ * koksma_rank_patterns computes a ranking. This file has the lists of patterns, divides the time limit among the
+ * rankings, prints the rows, and returns the exit code (1: the best pattern is undecided). rank_advice.c prints the
+ * advice.
  */
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@
 
 enum { MAX_PATTERNS = 64 };
 
-/* The seven of Shirley's thesis, and more that came later. */
+/* The list "thesis" has the seven patterns of Shirley's thesis, "later" has five of these and twelve newer ones. */
 static const char thesis[] = "n-rooks,jittered,half-jittered,poisson-disk:d=0.2,poisson-disk:d=0.1,regular,random";
 static const char later[] =
     "n-rooks,jittered,half-jittered,regular,random,multi-jittered,correlated-multi-jittered,"
@@ -33,7 +34,7 @@ typedef struct patterns {
     size_t n;
 } patterns;
 
-/* *spp: of SPEC@N. */
+/* Reads --patterns. *spp: the number of samples N if a pattern is given as SPEC@N. Returns the exit code. */
 static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t *spp)
 {
     const char *list = cli_text(arguments, "patterns", "thesis");
@@ -47,11 +48,12 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
             return CLI_USAGE;
         }
         static char text[KOKSMA_MAX_PATTERNS_TEXT];
-        koksma_render_options options = {0}; /* for its patterns only */
+        koksma_render_options options = {0}; /* only its patterns are used */
         if (p->n == MAX_PATTERNS) {
             return cli_usage_error(arguments, "--patterns: more than %d", MAX_PATTERNS);
         }
-        koksma_status status = koksma_pattern_spec("n-rooks", &options.pattern); /* unless the text names another */
+        /* the default, for a text that sets patterns of single uses only */
+        koksma_status status = koksma_pattern_spec("n-rooks", &options.pattern);
         if (cli_text(arguments, "with", NULL)) {
             memcpy(text, item, sizeof item);
         } else if (status || (status = koksma_render_patterns(item, &options))) {
@@ -72,7 +74,7 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
             return cli_usage_error(arguments, "--patterns: '%s' stands twice", p->texts[i]);
         }
         p->at[p->n] = p->texts[p->n];
-        p->n += i == p->n; /* all: some have two names */
+        p->n += i == p->n; /* "all" lists some patterns under two names; they are added once */
     }
     return CLI_YES;
 }
@@ -81,7 +83,8 @@ static const char *const decisions[] = {"undecided", "best", "equal", "worse"};
 static const char *const states[] = {"ranked", "too-slow", "refused"};
 static const char *const check_sizes[KOKSMA_RANK_CHECKS][2] = {{"half_width", "half_height"},
                                                                {"twice_width", "twice_height"}};
-/* State, better pattern, coherence. */
+/* Keys of the columns for a check at another size: its result, the better pattern, and whether that pattern's error
+   is coherent. */
 static const char *const advice_names[KOKSMA_RANK_CHECKS][3] = {
     {"half_size", "half_size_best", "half_size_coherent"}, {"twice_size", "twice_size_best", "twice_size_coherent"}};
 static const char *const first_names[KOKSMA_RANK_CHECKS][3] = {
@@ -101,7 +104,8 @@ static void put_check(cli_rows *rows, const koksma_rank_options *options, const 
     }
 }
 
-/* advised: a pattern, where there is one. */
+/* Adds the values of a whole ranking to a JSON row. advised: the index of the advised pattern, which has no effect if
+   none is advised. */
 static void put_ranking(cli_rows *rows, const koksma_rank_options *options, const koksma_ranking *ranking,
                         size_t advised)
 {
@@ -129,7 +133,8 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     }
 }
 
-/* What holds for all rows of a ranking is for machines: a reader has it in the advice. */
+/* Prints row i of a ranking. Only JSON rows repeat the values of the whole ranking; the advice on stderr has them for
+   readers. */
 static void put_row(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_row *table, size_t i,
                     const koksma_ranking *ranking, bool json)
 {
@@ -173,7 +178,8 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_end(rows);
 }
 
-/* *settled: whether the best pattern is known. */
+/* Ranks the patterns for one number of samples, and prints the rows and the advice. *settled: whether the best
+   pattern is decided. */
 static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_options *options, cli_work *work,
                              cli_rows *rows, bool *settled)
 {
@@ -191,7 +197,8 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
         cli_rank_advise(options, table, &ranking);
     }
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
-        if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) { /* else the time is too short for all */
+        /* if no pattern was ranked in time, the advice says so */
+        if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) {
             cli_say("rank", "%s is not ranked: %s", options->patterns[table[i].pattern], table[i].reason);
         }
     }
@@ -199,7 +206,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     return KOKSMA_OK;
 }
 
-/* Sample count i of "4,16,64"; 0 past the end, -1 when it is none. */
+/* Returns sample count i (0..) of a list such as "4,16,64"; 0 past the end, -1 if the item is not a valid number. */
 static long spp_at(const char *list, size_t i)
 {
     for (; i > 0; i--) {
@@ -300,7 +307,8 @@ static const cli_option options[] = {
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
-    {'m', "metric", "METRIC", "what ranks: mae (default), rmse, relmse, smape, ldr-flip, hdr-flip with parameters"},
+    {'m', "metric", "METRIC",
+     "the error that ranks: mae (default), rmse, relmse, smape, ldr-flip or hdr-flip, with parameters"},
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
     {0, "max-trials", "N", "images of each pattern at each size, 8 to 65536 (default: 4096)"},
     CLI_ROW_OPTIONS,
@@ -316,46 +324,49 @@ const cli_command cli_command_rank = {
                 "[--with COMMAND "
                 "[--reference PATTERN]] [--json]",
     .details =
-        "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the mean\n"
-        "over the images of --metric, by default the mean absolute error in luminance. Patterns are compared as they "
-        "are used, including random shifts.\n"
+        "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
+        "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared\n"
+        "as they are used, including random shifts.\n"
         "\n"
         "The sequence of work depends on the command line, not on the machine: rounds of 8, 16, 32, ... trials\n"
-        "until the best pattern is decided, and the best of those without bands; then the same for the first three\n"
-        "of these and the first three of all at half and twice the size, with a remark where another one is the\n"
-        "best there; then rounds until every pair is decided. A pair is decided if the\n"
-        "confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 % of 1 (equal). A\n"
-        "time limit ends the sequence early: a longer limit never names another best pattern. With too little time\n"
-        "the answer is 'undecided', with an estimate of the time needed.\n"
+        "until the best pattern is decided, and also the best pattern without bands; then such rounds at half and\n"
+        "at twice the size for the first three patterns without bands and the first three of all, with a remark\n"
+        "if another pattern is the best at that size; then rounds until every pair is decided. A pair is decided\n"
+        "if the confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 % of 1\n"
+        "(equal). A time limit ends the sequence early; a longer limit never names another best pattern. With too\n"
+        "little time the answer is 'undecided', with an estimate of the time needed.\n"
         "\n"
         "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the\n"
         "first row. All intervals and decisions of a ranking hold together with 95 % probability, and include the\n"
         "error of the reference image. A pattern whose first 8 trials exceed its part of the time limit is put\n"
         "off until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
         "\n"
-        "coherence: the peak of the error's power spectrum divided by its mean, over the first 8 trials. 'coherent'\n"
-        "means that fewer than 0.5 % of noise reaches the value (koksma compare --help). Such an error has bands or\n"
-        "another pattern, which eyes notice more than noise of the same size. The advice is therefore the best\n"
-        "pattern whose error is not coherent, with what a coherent one would save.\n"
+        "coherence: the peak of the error's power spectrum divided by its mean, over the first 8 trials.\n"
+        "'coherent' means that fewer than 0.5 % of noise reaches the value (koksma compare --help). A coherent "
+        "error\n"
+        "has bands or another pattern, which eyes notice more than noise of the same size. The advice is\n"
+        "therefore the best pattern whose error is not coherent, and says how much error a coherent one would\n"
+        "save.\n"
         "\n"
-        "Where the 0.1 % of the pixels with the largest error carry half of it or more (top_share in --json), a "
-        "warning\n"
-        "says so: the order is that of few pixels. 'robust' is the error without them. FLIP takes 17 comparisons an\n"
-        "image, one for each part of the reference: for hdr-flip 0.7 s at 160 x 120 pixels, for mae a millisecond.\n"
+        "Where the 0.1 % of the pixels with the largest error carry half of it or more (top_share in --json), a\n"
+        "warning says that few pixels decide the order. 'robust' is the error without them. FLIP takes 17\n"
+        "comparisons an image, one for each part of the reference: for hdr-flip 0.7 s at 160 x 120 pixels, for\n"
+        "mae a millisecond.\n"
         "\n"
         "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other.\n"
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
-        "thesis: the seven patterns of Shirley 1991. later: these and ten newer ones.\n"
+        "thesis: the seven patterns of Shirley 1991. later: five of these and twelve newer ones.\n"
         "\n"
-        "--with ranks the samplers of another renderer: COMMAND is run by the shell for every image, with texts in\n"
-        "place of {scene}, {pattern}, {spp}, {seed} (0 to 2^31 - 1), {width}, {height} and {out}, the EXR file to\n"
-        "write; {out.pfm} and {out.png} ask for other formats. SCENE and PATTERN are then any texts. Without --size\n"
-        "images have the renderer's own size, and other sizes are not checked. The reference is the mean of 16\n"
-        "images of 16 times as many samples by the sampler --reference, which must be unbiased and follow the seed.\n"
-        "Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of Koksma in a\n"
-        "scene of Mitsuba, by the Python package; koksma.mitsuba.rank in Python starts Mitsuba once and is faster.\n"
+        "--with ranks the samplers of another renderer: COMMAND is run by the shell for every image, with texts\n"
+        "in place of {scene}, {pattern}, {spp}, {seed} (0 to 2^31 - 1), {width}, {height} and {out}, the EXR file\n"
+        "to write; {out.pfm} and {out.png} ask for other formats. SCENE and PATTERN are then any texts. Without\n"
+        "--size images have the renderer's own size, and other sizes are not checked. The reference is the mean\n"
+        "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and follow\n"
+        "the seed. Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
+        "Koksma in a scene of Mitsuba, by the Python package; koksma.mitsuba.rank in Python starts Mitsuba once\n"
+        "and is faster.\n"
         "\n"
-        "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least "
+        "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least\n"
         "one.\n",
     .examples = "koksma rank ball --spp 16\n"
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma render`: renders a scene into an image file and prints one row: options, rays and time. Before it starts
- * it compares the memory that the picture takes with the machine's, and refuses what is larger. An interrupted
- * picture is written with the pixels that were done.
+ * `koksma render`: renders a scene into an image file and prints one row with the options, the number of rays and the
+ * time. Before it starts it computes how much memory the image takes, and refuses an image that takes more than the
+ * machine has. When it is interrupted it writes the image with the pixels that are done.
  */
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +39,7 @@ static int put_row(const cli_arguments *arguments, const koksma_render_options *
     return cli_rows_close(rows);
 }
 
-/* What the picture is, for its file. */
+/* Writes the metadata of the image file into `text`: version, scene, patterns and options. */
 static void describe(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *o,
                      const koksma_adaptive_options *adaptive, char *text, size_t size)
 {
@@ -90,7 +90,7 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
     return status ? status : cli_adaptive_counts(arguments, &layers->samples);
 }
 
-/* From here on the program says before it starts how much memory a picture takes. */
+/* An image that takes so many bytes or more is announced, with its memory, before rendering starts. */
 #define LARGE (1ull << 30)
 
 static double in_gib(uint64_t bytes)
@@ -98,8 +98,8 @@ static double in_gib(uint64_t bytes)
     return (double)bytes / (1024.0 * 1024 * 1024);
 }
 
-/* Prints how much memory a large picture takes; false: more than the machine has, so that swapping would take longer
-   than rendering. */
+/* Prints how much memory a large image takes. Returns false, after an error, if this is more than the machine has,
+   because swapping would take longer than rendering. */
 static bool announce_size(const cli_arguments *arguments, const koksma_scene *scene,
                           const koksma_render_options *options, const koksma_adaptive_options *adaptive)
 {
@@ -111,8 +111,8 @@ static bool announce_size(const cli_arguments *arguments, const koksma_scene *sc
     const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : UINT64_MAX;
     if (first > machine) {
         cli_say("render",
-                "%d x %d pixels take %.1f GiB of memory, and this machine has %.1f; a smaller --size "
-                "would do%s%s",
+                "%d x %d pixels take %.1f GiB of memory, and this machine has %.1f; take a smaller "
+                "--size%s%s",
                 options->width, options->height, in_gib(first), in_gib(machine),
                 layers && !adaptive->method ? ", or .pfm, which has no layers" : "",
                 options->splat ? ", or no --splat" : "");
@@ -156,7 +156,8 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
                              : put_row(arguments, options, adaptive, layers.rays, seconds);
 }
 
-/* The options --sky and --environment. */
+/* Applies the options --sky and --environment to the scene. Returns false after an error and sets *code to the exit
+   code. */
 static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *code)
 {
     const char *image = cli_text(arguments, "environment", NULL);
@@ -215,8 +216,8 @@ static const cli_option options[] = {
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "sky", "L", "light of this radiance from all around, in place of the scene's sky or a bare model's studio"},
-    {0, "environment", "FILE", "the same of an image of latitude and longitude, times --sky"},
-    {'o', "output", "FILE", "{image-formats} by its ending; an .exr has all layers"},
+    {0, "environment", "FILE", "light from an image in latitude and longitude, times --sky"},
+    {'o', "output", "FILE", "the image, {image-formats}; an .exr has all layers"},
     CLI_UNKNOWN_OPTION,
     CLI_SAMPLING_OPTIONS,
     CLI_ADAPTIVE_OPTIONS,

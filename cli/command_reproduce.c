@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma reproduce`: runs the plans that reproduce papers, writes the report, and prints a table beside the
- * published numbers. It is `koksma study run` with these tables; both papers together bring the plan
- * open-questions. Under mpirun only rank 0 has a folder and prints.
+ * published numbers. The plans run as in `koksma study run`. If both papers are given, the plan open-questions is
+ * added. Under mpirun only rank 0 has a folder and prints.
  */
 #include <math.h>
 #include <stdint.h>
@@ -15,7 +15,7 @@
 
 enum { MAX_PLANS = 16 };
 
-/* Prints table `id` of the plan, ours beside the published numbers. */
+/* Prints table `id` of the plan, with our numbers beside the published numbers. */
 static koksma_status put_table(koksma_study *study, const char *id, cli_rows *rows)
 {
     koksma_study_row row;
@@ -54,12 +54,12 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     }
     const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
     const bool wanted = options->folder && table && strcmp(table, "none") != 0;
-    if (wanted && strcmp(table, "all") != 0) { /* an unknown table is an error before hours of work */
+    if (wanted && strcmp(table, "all") != 0) { /* reports an unknown table before hours of work */
         koksma_study_row row;
         bool found;
         status = koksma_study_table_row(study, table, SIZE_MAX, &row, &found);
     }
-    work->share = options->folder ? 0.95 : 1; /* of the bar; the rest is for the report */
+    work->share = options->folder ? 0.95 : 1; /* part of the progress bar; the rest is for the report */
     status = status ? status : koksma_study_run(study, &work->run, summary);
     *refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = *refused ? KOKSMA_OK : status;
@@ -80,7 +80,8 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     return status;
 }
 
-/* Both papers together bring the questions that they leave open. */
+/* Collects the plans of the operands and returns their number. If both papers are given, it adds the plan
+   open-questions, about questions that the papers leave open. */
 static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX_PLANS])
 {
     bool shirley = false, mitchell = false, open = false;
@@ -112,7 +113,7 @@ static int run(const cli_arguments *arguments)
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     koksma_study_summary summary;
     const char *plans[MAX_PLANS];
-    folder = koksma_study_mpi_rank() > 0 ? NULL : folder; /* one rank of several keeps the results */
+    folder = koksma_study_mpi_rank() > 0 ? NULL : folder; /* under MPI only rank 0 keeps the results */
     const koksma_study_options options = {.plans = plans,
                                           .n_plans = choose_plans(arguments, plans),
                                           .folder = folder,
@@ -141,7 +142,7 @@ static const cli_option option_table[] = {
      "folder for results.sqlite, report.html and report.json; an interrupted run continues there"},
     {0, "trials", "T", "trials of every cell instead of the plan's own number"},
     {0, "quick", NULL, "every block's 'quick' number of trials, where it has one"},
-    {0, "papers-only", NULL, "without the plan open-questions, which both papers together bring"},
+    {0, "papers-only", NULL, "leave out the plan open-questions, which both papers together add"},
     {0, "table", "ID|all|none",
      "table to print at the end (default: the first); the first plan's where several have one ID"},
     CLI_ROW_OPTIONS,

@@ -25,7 +25,7 @@ static void put_range(cli_rows *rows, const char *key, double low, double high, 
     cli_row_json(rows, key, json, text);
 }
 
-/* Where the parts are, and which part of the picture their boxes cover. */
+/* Prints a row for each part of the scene, with its bounding box and the part of the image that the box covers. */
 static void put_parts(const cli_arguments *arguments, cli_rows *rows, const koksma_scene *scene)
 {
     koksma_scene_part part;
@@ -83,11 +83,11 @@ const cli_command cli_command_scene = {
     .name = "scene",
     .summary = "check a scene file",
     .synopsis = "check SCENE",
-    .details =
-        "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or Mitsuba "
-        "(.xml). An error names file, line, field and reason\n"
-        "(exit code 3). A warning is about something odd that can be rendered (exit code 1). stdout lists what the\n"
-        "scene contains: the box around each part, and the part of the picture that it covers at most.\n",
+    .details = "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or Mitsuba "
+               "(.xml). An error names file, line, field and reason\n"
+               "(exit code 3). A warning reports something odd that can still be rendered (exit code 1). stdout "
+               "lists what the\n"
+               "scene contains: the box around each part, and the part of the picture that it covers at most.\n",
     .examples = "koksma scene check ball\n",
     .options = options,
     .run = run,

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma study`: new writes an example of a plan; run measures and renders what plans list, into a folder, and
- * goes on where an earlier run ended; estimate says what it will cost; export and report print the results again;
- * audit makes them again; images compares sets of images. One function for each verb, and one table of which options each takes.
+ * `koksma study` has one function for each verb, and one table, `verbs`, of the options that each verb takes. The
+ * verb `new` writes an example of a plan. `run` measures and renders what plans list, writes the results into a
+ * folder, and continues an earlier run in that folder; `quick` does so for a plan made from the command line.
+ * `estimate` predicts the cost of a run. `export` and `report` write the results of a run again, `audit` computes
+ * results again and compares them, and `images` compares sets of images.
  */
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +20,7 @@
 #include "metric_option.h"
 #include "study_quick.h"
 
-/* A plan to begin with. `comment` is allowed in every object and means nothing. */
+/* The plan that `koksma study new` writes. Every object of a plan may have a `comment`, which is ignored. */
 static const char example[] =
     "{\n"
     "  \"comment\": \"A plan of koksma study; every object may have a 'comment'. studies/README.md has all "
@@ -69,7 +71,7 @@ static int new_plan(const cli_arguments *arguments)
         return cli_usage_error(arguments, "%s: a plan's name ends in .json", path);
     }
     struct stat info;
-    if (!stat(path, &info) && S_ISREG(info.st_mode)) { /* somebody's work */
+    if (!stat(path, &info) && S_ISREG(info.st_mode)) { /* the file may be somebody's work */
         return cli_usage_error(arguments, "%s: it is there already, and new writes over no file", path);
     }
     const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
@@ -92,7 +94,7 @@ static double percent(double part, double of)
     return of > 0 ? 100 * part / of : 0;
 }
 
-static const double RUN_SHARE = 0.95; /* of the bar; the rest is for the report */
+static const double RUN_SHARE = 0.95; /* part of the progress bar; the rest is for the report */
 
 static int run_study(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work)
 {
@@ -174,7 +176,7 @@ static int run_plans(const cli_arguments *arguments)
     return code;
 }
 
-/* Writes a plan from the command line, and runs it. */
+/* Writes a plan from the options of the command line, and runs it. */
 static int run_quick(const cli_arguments *arguments)
 {
     cli_work work;
@@ -225,7 +227,7 @@ static int estimate(const cli_arguments *arguments)
     if (!study_options(arguments, &options, &work)) {
         return CLI_USAGE;
     }
-    if (koksma_study_mpi_rank() > 0) { /* one rank of several does it */
+    if (koksma_study_mpi_rank() > 0) { /* under MPI only rank 0 estimates */
         return CLI_YES;
     }
     options.folder = NULL;
@@ -300,7 +302,7 @@ static int report(const cli_arguments *arguments)
 /* ---- audit --------------------------------------------------------------------------------------------- */
 
 typedef struct audited {
-    cli_rows *rows; /* of JSON; NULL: text */
+    cli_rows *rows; /* open for JSON output; NULL for text output */
 } audited;
 
 static void put_difference(void *context, const char *text)
@@ -329,7 +331,8 @@ static void put_audit_row(cli_rows *rows, const koksma_audit *a)
     cli_row_end(rows);
 }
 
-/* The limit is rounded up to two digits: what is printed holds. */
+/* Prints the result of an audit. The bound on the share of wrong rows is rounded up to two digits, so that the
+   printed bound holds. */
 static void print_audit(const koksma_audit *a)
 {
     printf("of %lld rows drawn, %lld agree", a->drawn, a->agree);
@@ -450,7 +453,8 @@ static int images(const cli_arguments *arguments)
 
 /* ---- The command --------------------------------------------------------------------------------------- */
 
-/* False after an error that names an option which this verb has no use for. */
+/* Returns false, after an error, if an option is given that the verb does not take. own: the names of the verb's own
+   options, with blanks between them. */
 static bool takes_options(const cli_arguments *arguments, const char *own)
 {
     static const char common[] = " threads progress quiet allow-exec exec-seconds help ";
@@ -471,7 +475,7 @@ static int run(const cli_arguments *arguments)
     static const struct {
         const char *name;
         int (*run)(const cli_arguments *arguments);
-        const char *options; /* that it takes beside those of all long work */
+        const char *options; /* the names of the options that the verb takes besides the common ones */
     } verbs[] = {
         {"run", run_plans, " output trials quick time-limit "},
         {"quick", run_quick, " output trials quick time-limit patterns measures integrands points scene spp "},
@@ -492,7 +496,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'p', "patterns", "LIST", "quick: the patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
     {'m', "measures", "LIST", "quick: the measures (default: star,l2-star)"},
-    {0, "integrands", "INTEGRAND,..", "quick: errors of integration beside the measures"},
+    {0, "integrands", "INTEGRAND,..", "quick: integrands, whose errors are measured, too (default: none)"},
     {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
     {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
     {0, "spp", "LIST", "quick: samples a pixel in the scenes (default: 4,16,64)"},
@@ -502,10 +506,10 @@ static const cli_option options[] = {
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
-    {'s', "seed", "SEED", "audit: of the draw (default: 1)"},
+    {'s', "seed", "SEED", "audit: seed of the random draw (default: 1)"},
     {0, "reference", "FILE", "images: the reference image"},
-    {0, "metric", "METRIC", "images: of the error: mae (default), relmse, hdr-flip, ..."},
-    {0, "format", "csv|json|npy|sha256", "export (default: by the file's ending, else csv)"},
+    {0, "metric", "METRIC", "images: metric of the error: mae (default), relmse, hdr-flip, ..."},
+    {0, "format", "csv|json|npy|sha256", "export: the format (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -538,13 +542,13 @@ const cli_command cli_command_study = {
         "report: writes DIR/report.html.\n"
         "audit: makes rows of DIR again, and all reference images, and compares them bit for bit; prints what\n"
         "differs, and below which part of all rows is wrong with 95 % confidence. The exit code is 1 if anything\n"
-        "differs. Rows that another revision of a pattern, measure or the renderer made are counted apart. It "
-        "changes\n"
-        "nothing, and works under mpirun, too.\n"
+        "differs. Rows that another revision of a pattern, measure or the renderer made are counted apart. The verb\n"
+        "changes nothing, and works under mpirun, too.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
         "braces, which make groups. 'behind' is how much larger a group's error is than that of the first of its "
         "spp,\n"
-        "with an interval of the differences of images with equal {trial}, where both groups have the same. 'koksma "
+        "with an interval from the differences of images with equal {trial}, if both groups have the same trials. "
+        "'koksma "
         "compare --help' explains coherence. With -o DIR it writes DIR/report.html, a page with these numbers, "
         "charts "
         "and pictures, and DIR/report.json.\n",

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma verify`: which properties points have, and with --expect an exit code that tells whether some hold. */
+/* `koksma verify`: reports which properties points have; with --expect the exit code tells whether given properties
+   hold. */
 #include <koksma/optimise.h>
 #include <koksma/verify.h>
 
@@ -48,7 +49,7 @@ static const char *all_properties(char *text, size_t size)
     return text;
 }
 
-/* The first name of the list that is no property; NULL: none. */
+/* Returns the first name of the list that is no property, or NULL if all are properties. */
 static const char *misspelt(const char *list, char *name, size_t size)
 {
     for (size_t i = 0; cli_list_item(list, i, name, size); i++) {
@@ -59,7 +60,8 @@ static const char *misspelt(const char *list, char *name, size_t size)
     return NULL;
 }
 
-/* Whether a property of the list fails or was not tested; the latter is reported on stderr. */
+/* Whether a property of the list fails, was not tested, or was tested in some of the coordinates only. The last two
+   cases are reported on stderr. */
 static bool disappoints(const char *list, const char *source, const koksma_points *points,
                         const koksma_findings *findings)
 {
@@ -88,8 +90,9 @@ static bool disappoints(const char *list, const char *source, const koksma_point
     return false;
 }
 
-/* --record: prints the exact value of the points beside that of the set of the pattern `record`. *is_record: the points have
-   the lower value, or `record` has no set of so many points. */
+/* --record: prints the exact value of a measure for the points beside the best known value for as many points, which
+   a set of the pattern `record` has. *is_record: the points have the lower value, or no value is known for so many
+   points. Returns the exit code. */
 static int put_record(const cli_arguments *arguments, cli_rows *rows, const char *source, const koksma_points *points,
                       const koksma_run *run, bool *is_record)
 {
@@ -113,7 +116,8 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
     if (status) {
         return cli_fail(arguments, status);
     }
-    *is_record = !here || value.value < here->value - 1e-11; /* beyond the rounding of the coordinates here */
+    /* the difference must exceed the rounding error of the coordinates in the known sets */
+    *is_record = !here || value.value < here->value - 1e-11;
     cli_row_text(rows, "source", source);
     cli_row_whole(rows, "n", points->n);
     cli_row_whole(rows, "dim", (uint64_t)points->dim);
@@ -126,7 +130,7 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
     return CLI_YES;
 }
 
-/* The properties of the points; *missed: one of --expect does not hold. */
+/* Prints the properties of the points. *missed: a property of --expect does not hold. Returns the exit code. */
 static int put_findings(const cli_arguments *arguments, cli_rows *rows, const char *source,
                         const koksma_points *points, cli_work *work, bool *missed)
 {
@@ -199,7 +203,7 @@ const cli_command cli_command_verify = {
     .summary = "check which properties points have",
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--record] [--json]",
     .details =
-        "Each property is one to wish for; 'yes' means that the points have it, and the detail explains the value.\n"
+        "Each property is desirable; 'yes' means that the points have it, and the detail explains the value.\n"
         "{property-meanings}"
         "\n"
         "Exit codes: 0 whatever the findings, without --expect; 1 when a property of --expect fails or was not "

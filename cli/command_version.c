@@ -12,7 +12,7 @@
 
 #include "cli.h"
 
-/* Of a part that is left out null. */
+/* Adds a column with the text `what` of an optional part, or null if the build has no such part. */
 static void put_part(cli_rows *rows, const char *key, const char *what)
 {
     if (what) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of curves (curves.def): names, the options that each takes, and the means over sets that curves are made
- * of.
+ * The table of curves (curves.def): finds curves by name, checks the options that each curve takes, and computes the
+ * means over sets that curves consist of.
  */
 #include "curves.h"
 
@@ -38,7 +38,7 @@ const cli_curve *cli_curve_find(cli_curve_list list, const char *name)
     return NULL;
 }
 
-/* Whether a word is among words with blanks between. */
+/* Whether `word` is one of the words in `words`, which have blanks between them. */
 static bool has_word(const char *words, const char *word)
 {
     for (const char *at = words; *at; at += strcspn(at, " ")) {
@@ -73,7 +73,7 @@ const char *cli_curve_names(cli_curve_list list, const char *option, const char 
     return text;
 }
 
-/* Options that some curves take and this one has no use for are errors. */
+/* Returns false, after an error, if an option is given that other curves take but this one does not. */
 static bool options_fit(const cli_arguments *arguments, const cli_curve *curve, cli_curve_list list,
                         const char *before)
 {

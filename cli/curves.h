@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of curves: measures that are functions, and pictures. A curve is computed row by row into a sink: `curve`
- * prints the rows, `plot` draws two of their columns in a chart (charts.h). A picture that is no chart draws itself.
+ * The table of curves: measures whose values are functions, such as spectra, and pictures. A curve computes its rows
+ * and passes them one by one to a sink: `koksma curve` prints the rows, `koksma plot` draws two of their columns in a
+ * chart (charts.h). A curve that is not a chart, such as the points themselves, has its own drawing function.
  */
 #ifndef KOKSMA_CLI_CURVES_H
 #define KOKSMA_CLI_CURVES_H
@@ -15,7 +16,7 @@ enum { CLI_CURVE_COLUMNS = 4, CLI_MAX_PANELS = 16 };
 
 typedef struct cli_curve cli_curve;
 
-/* A run of `curve` or `plot`: what its options say. */
+/* The option values of a run of `koksma curve` or `koksma plot`. */
 typedef struct cli_curves {
     const cli_arguments *arguments;
     const cli_curve *curve;
@@ -23,42 +24,46 @@ typedef struct cli_curves {
     double r_max;
     koksma_spectrum_method method;
     cli_work work;
-    const char *output;   /* a file; NULL: none */
-    double width, height; /* of a picture; 0: the default */
+    const char *output;   /* the file of --output, or NULL */
+    double width, height; /* of the picture; 0: the default size */
     bool dark;
-    const char *witness;     /* plot: a measure; NULL: none */
-    const koksma_warp *warp; /* plot: NULL: none */
+    const char *witness;     /* plot --witness: the measure, or NULL */
+    const koksma_warp *warp; /* plot --warp, or NULL */
     koksma_plot_format format;
 } cli_curves;
 
-/* Takes the rows of one source. */
+/* Receives the rows of one source. */
 typedef struct cli_sink {
-    double points; /* in each set; known before the first row */
+    double points; /* the number of points in each set; set before the first row */
     void (*row)(struct cli_sink *sink, const double *values);
 } cli_sink;
 
 struct cli_curve {
     const char *name;
-    const char *meaning; /* what it is, for --help */
-    const char *cite;    /* keys of docs/references.bib, or "-" */
-    /* The rows of a source into the sink; the exit code. What was computed before an interruption is in the rows too.
-     */
+    const char *meaning; /* a description for --help */
+    const char *cite;    /* the source in the literature: keys of docs/references.bib, or "-" */
+    /* Passes the rows of a source to the sink. Returns the exit code. After an interruption the rows show the sets
+       that were complete. */
     int (*compute)(cli_curves *c, const char *source, cli_sink *sink);
-    const char *columns[CLI_CURVE_COLUMNS + 1]; /* keys of a row's numbers, ended by NULL */
+    const char *columns[CLI_CURVE_COLUMNS + 1]; /* keys of the numbers in a row, ended by NULL */
     struct {
-        const char *options; /* of `curve`: those that have an effect, with blanks between; NULL: it isn't printed */
-        koksma_status (*write)(cli_curves *c, const koksma_spectrum *spectrum); /* --output; NULL: there is none */
+        /* options of `koksma curve` that have an effect, with blanks between, or NULL if it can't be printed */
+        const char *options;
+        /* writes the file of --output, or NULL if the curve has no such file */
+        koksma_status (*write)(cli_curves *c, const koksma_spectrum *spectrum);
     } print;
     struct {
-        const char *options; /* of `plot`: likewise; NULL: it isn't drawn */
+        /* options of `koksma plot` that have an effect, with blanks between, or NULL if the command can't draw it */
+        const char *options;
         int (*draw)(cli_curves *c);
-        const char *title;             /* of a chart, unless --title says another */
-        const char *x_label, *y_label; /* of a chart: its axes, its columns, and whether x is divided by sqrt(n) */
-        int y, error;                  /* error 0: there are no error bars */
+        const char *title;             /* heading of a chart, unless --title gives another */
+        const char *x_label, *y_label; /* labels of a chart's axes; x_per_root: x is divided by sqrt(n) */
+        int y, error;                  /* columns of y and of its error; error 0: there are no error bars */
         bool x_per_root;
-        double (*level)(const cli_curves *c); /* where random points are, dashed */
+        double (*level)(const cli_curves *c); /* the value that random points have, drawn as a dashed line */
         bool of_filters;                      /* the operands are names of pixel filters */
-        bool mixes_files;                     /* a file, which is one set, may stand beside means of patterns */
+        /* a file, which is one set, may be shown beside means over a pattern's sets */
+        bool mixes_files;
     } plot;
 };
 
@@ -66,19 +71,21 @@ struct cli_curve {
 #include "curves.def"
 #undef CURVE
 
-/* What takes a list of curves: those that are printed, or those that are drawn. */
+/* Selects the curves that `koksma curve` prints, or those that `koksma plot` draws. */
 typedef enum cli_curve_list { CLI_PRINTED, CLI_DRAWN } cli_curve_list;
 
-/* Curve i, NULL past the end; by name, NULL where the list has none of this name. */
+/* cli_curve_at returns curve i, or NULL past the end. cli_curve_find returns the curve of that name, or NULL if the
+   list has none. */
 const cli_curve *cli_curve_at(size_t i);
 const cli_curve *cli_curve_find(cli_curve_list list, const char *name);
 
-/* The names in a list, of all curves or of those that take an option (else NULL), with `comma` between and `last`
-   before the last one. Returns text. */
+/* Returns `text`: the names of the curves in a list, either all (option NULL) or those that take an option, with
+   `comma` between them and `last` before the last one. */
 const char *cli_curve_names(cli_curve_list list, const char *option, const char *comma, const char *last, char *text,
                             size_t size);
 
-/* Options of both commands. list: "curve" or "chart", as cli/texts.c has it; a file's word before trials. */
+/* Options of both `koksma curve` and `koksma plot`. list: "curve" or "chart", the placeholder of cli/texts.c.
+   default_half: the default of --half, as the help shows it. */
 #define CLI_CURVE_OPTIONS(list, default_half)                                                                        \
     {'s', "seed", "S", "seed of patterns (default: 0)"},                                                             \
         {'t', "trials", "T", "{" list ":trials}: the mean over T sets with seeds S, S+1, .., with standard errors"}, \
@@ -90,19 +97,20 @@ const char *cli_curve_names(cli_curve_list list, const char *option, const char 
         0, "bins", "B", "{" list ":bins}: rings of distances (default: 100)"                                         \
     }
 
-enum { CLI_DEFAULT_HALF = KOKSMA_SPECTRUM_MAX_HALF / 2 - 1 }; /* the most that nobody asked for */
+enum { CLI_DEFAULT_HALF = KOKSMA_SPECTRUM_MAX_HALF / 2 - 1 }; /* the largest default of --half */
 
-/* Reads CLI_CURVE_OPTIONS and CLI_RUN_OPTIONS; false after an error, also for an option that this curve has no use
-   for. before: the text before a curve's name on the command line. */
+/* Reads CLI_CURVE_OPTIONS and CLI_RUN_OPTIONS. Returns false after an error, also for an option that has no effect on
+   this curve. before: the text before a curve's name on the command line, for error messages. */
 bool cli_curves_begin(const cli_arguments *arguments, const cli_curve *curve, cli_curve_list list, const char *before,
                       cli_curves *c);
 
-/* The mean spectrum over the trials, of frequencies up to per_root sqrt(n), at most CLI_DEFAULT_HALF, where --half
-   doesn't say. Returns the exit code; what was done until then is in out, which the caller ends with
-   koksma_spectrum_fini. */
+/* Computes the mean spectrum over the trials. The spectrum has frequencies up to --half; without this option up to
+   per_root sqrt(n), and at most CLI_DEFAULT_HALF. Returns the exit code. After a failure *out has the mean over the
+   complete sets. The caller frees *out with koksma_spectrum_fini. */
 int cli_curves_spectrum(cli_curves *c, const char *source, double per_root, koksma_spectrum *out);
 
-/* Calls add for the points of each trial; a set that is not of the plane ends it. Returns the exit code. */
+/* Calls `add` for the points of each trial until it fails, as it does for points that are not 2-dimensional. Returns
+   the exit code. */
 int cli_curves_each_set(cli_curves *c, const char *source,
                         koksma_status (*add)(cli_curves *c, const koksma_points *points, void *context),
                         void *context);

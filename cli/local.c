@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* measure --at X,Y..: the share of the points in the box from the origin to that corner, less its volume. */
+/* `koksma measure --at X,Y..`: the local discrepancy at a corner, which is the share of the points in the box from
+   the origin to that corner, less the volume of the box. */
 #include "local.h"
 
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 
 enum { MAX_CORNER = 64 };
 
-/* The numbers of a list such as 0.3,0.7: at most MAX_CORNER of them; 0 after an error. */
+/* Reads a list of coordinates such as 0.3,0.7. Returns their number, at most MAX_CORNER, or 0 after an error. */
 static int parse_corner(const cli_arguments *arguments, const char *list, double corner[MAX_CORNER])
 {
     char item[64];

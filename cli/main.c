@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The program: finds the command that argv[1] names in the table (commands.def) and runs it. */
+/* The program koksma: finds the command that argv[1] names in the table commands.def, and runs it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,8 @@ const cli_command *cli_command_find(const char *name)
     return NULL;
 }
 
-/* Of the environment: an instruction set that is not there would be answered by another's speed. */
+/* Checks the environment variable KOKSMA_KERNELS. If it names an instruction set that the machine lacks, the library
+   uses another one; an error keeps users from measuring the speed of the wrong one. */
 static bool kernels_are_there(void)
 {
     const char *wish = getenv("KOKSMA_KERNELS");

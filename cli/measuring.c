@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Values of measures over many sets or several sizes, for `koksma measure`: running statistics for each measure and
+ * Evaluates measures over many sets or several sizes, for `koksma measure`: running statistics for each measure and
  * size, differences from the first source with equal seeds (--paired), and slopes. A trial is one set, whose first
- * points are measured for --prefixes, or one set of each size for --sizes. What an interruption leaves is printed,
- * too.
+ * points are measured for --prefixes, or one set of each size for --sizes. After an interruption the statistics of
+ * the completed trials are printed.
  */
 #include "measuring.h"
 
@@ -37,7 +37,8 @@ void measuring_close(measuring *j)
     free(j->first_is_exact);
 }
 
-/* The columns that all rows of trials begin with; theirs and the first's when it is a difference. */
+/* Adds the first columns of a row of trials. In a row of differences they also name the first source or warp,
+   which is subtracted. */
 static void put_head(measuring *j, const char *source, size_t n, int dim, const char *measure, bool difference)
 {
     char text[2 * KOKSMA_MAX_SPEC];
@@ -55,8 +56,9 @@ static void put_head(measuring *j, const char *source, size_t n, int dim, const 
     }
 }
 
-/* What only some rows have something for: of how many trials the value is exact and no bound, the 95 % interval of
-   the mean, theory, and of one set's slope the error by its residuals. NaN: nothing. */
+/* Values of the last columns, NaN where a row has none: the number of trials with exact values, the 95 % interval of
+   the mean, the exponents that theory gives for the pattern and for the best points, and the residual error of a
+   slope fitted to one set. */
 typedef struct tail {
     double n_exact, low, high, theory, best, residual_error;
 } tail;
@@ -97,9 +99,9 @@ bool measuring_by_size(const measuring *j)
     return cli_text(j->arguments, "prefixes", NULL) || cli_text(j->arguments, "sizes", NULL);
 }
 
-/* Whether the first k points are a set of the pattern, for all k, so that theory and a slope are about the pattern:
-   those of a sequence, or independent ones without cells. The first k points of others are a part of a set, such as
-   a strip of cells. */
+/* Whether the first k points are a set of the pattern for all k, so that a slope describes the pattern and theory
+   applies to it. Sequences, and independent points without cells, have this property. The first k points of other
+   patterns are only a part of a set, such as a strip of cells. */
 static bool prefixes_are_sets(const koksma_pattern *pattern)
 {
     const bool independent =
@@ -125,13 +127,14 @@ bool measuring_check_prefixes(const measuring *j)
     return true;
 }
 
-/* Measures that sample give estimates, which are neither exact nor bounds: NaN. */
+/* Returns the number of exact values, or NaN for a measure that samples, because its estimates are neither exact nor
+   bounds. */
 static double n_exact_of(const measuring *j, size_t measure, size_t count)
 {
     return j->measures[measure].measure->answer == KOKSMA_ANSWER_SAMPLED ? (double)NAN : (double)count;
 }
 
-/* The slope of log value over log n, beside the exponents of theory. */
+/* Prints the slope of log value over log n, beside the exponents that theory gives. */
 static void put_slope(measuring *j, const char *source, size_t measure, int dim)
 {
     double sizes[MAX_PREFIXES], means[MAX_PREFIXES];
@@ -148,7 +151,7 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
         return;
     }
     const koksma_measure *m = j->measures[measure].measure;
-    const bool known = parts.is_pattern && !j->warp; /* of mapped points there is no theorem */
+    const bool known = parts.is_pattern && !j->warp; /* no theorem covers mapped points */
     koksma_spec_text(&j->measures[measure], text);
     snprintf(name, sizeof name, "slope of %s", text);
     put_head(j, source, j->prefixes[j->n_prefixes - 1], dim, name, false);
@@ -166,7 +169,7 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
 
 static void put_tallies(measuring *j, const char *source, int dim)
 {
-    for (size_t m = 0; m < j->n_measures; m++) { /* a table is of one kind of rows */
+    for (size_t m = 0; m < j->n_measures; m++) { /* all rows of a table have the same columns */
         j->bounds = j->bounds || j->n_cut[m] > 0;
     }
     for (size_t m = 0; m < j->n_measures; m++) {
@@ -186,7 +189,8 @@ static void put_tallies(measuring *j, const char *source, int dim)
     }
 }
 
-/* The prefixes that a set of n has; the whole set without --prefixes. The exit code after an error. */
+/* Chooses the prefixes for a set of n points. Without --prefixes and --sizes there is one, the whole set. Returns the
+   exit code. */
 static int choose_prefixes(measuring *j, size_t n)
 {
     if (j->powers || !measuring_by_size(j)) {
@@ -205,7 +209,8 @@ static int choose_prefixes(measuring *j, size_t n)
     return CLI_YES;
 }
 
-/* Allocates the arrays for the first source's values when their number is known; returns the exit code. */
+/* With --paired, allocates the arrays for the first source's values once their number is known. Returns the exit
+   code. */
 static int open_firsts(measuring *j, const char *source)
 {
     const size_t count = j->n_prefixes * j->n_measures;
@@ -245,14 +250,14 @@ static void tally_value(measuring *j, const koksma_value *value, size_t at, uint
     }
 }
 
-/* What a trial gave: values by prefix, and whether all of a measure's are exact. */
+/* The values of one trial: for each measure a value by prefix, and whether all of these are exact. */
 typedef struct trial_values {
     double values[MAX_MEASURES][MAX_PREFIXES];
     bool whole[MAX_MEASURES];
 } trial_values;
 
-/* The measures of prefix i. Of the powers of two, which nobody has asked for one by one, those are left out that a
-   measure does not take, as distances of one point. */
+/* Evaluates the measures for prefix i. With `--prefixes powers` a measure that does not accept so few points, such as
+   min-distance for one point, is left out. */
 static koksma_status tally_set(measuring *j, const koksma_points *points, size_t i, uint64_t trial, bool first,
                                trial_values *v)
 {
@@ -275,7 +280,8 @@ static koksma_status tally_set(measuring *j, const koksma_points *points, size_t
     return KOKSMA_OK;
 }
 
-/* points: the whole set; NULL: source makes one of each size. */
+/* Evaluates the measures for all prefixes of a trial. points: the whole set, or NULL if `source` generates a set of
+   each size. */
 static koksma_status tally_points(measuring *j, const koksma_points *points, const cli_source *source, uint64_t trial,
                                   bool first)
 {

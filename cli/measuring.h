@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The state of `koksma measure`, and its evaluation of measures over many sets or several sizes (measuring.c). */
 #ifndef KOKSMA_CLI_MEASURING_H
 #define KOKSMA_CLI_MEASURING_H
 
@@ -9,29 +10,31 @@
 
 enum { MAX_MEASURES = 64, MAX_PREFIXES = KOKSMA_MAX_SIZES, MAX_WARPS = 16, MAX_PAIRED_TRIALS = 1000000 };
 
-/* The options of `measure`, and its progress. */
+/* The option values of `koksma measure`, and the state of its run. */
 typedef struct measuring {
     const cli_arguments *arguments;
     koksma_spec measures[MAX_MEASURES];
     size_t n_measures;
-    bool all; /* -m all: measures that can't serve a set are left out */
+    bool all; /* -m all: leave out measures that do not accept a set */
     uint64_t seed, trials;
     const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the one in use, or NULL */
     size_t n_warps;
     size_t prefixes[MAX_PREFIXES], n_prefixes;
-    bool powers;   /* prefixes are the powers of two */
-    bool own_sets; /* --sizes: of patterns not prefixes, but a set of each size */
+    bool powers;   /* --prefixes powers: the prefixes are the powers of two */
+    bool own_sets; /* --sizes: a pattern makes a set of each size; there are no prefixes of it */
     double time_limit_s;
     cli_work work;
-    size_t n_evaluated; /* values that were looked for, for the progress */
+    size_t n_evaluated; /* number of evaluations begun, for the progress line */
     cli_rows *rows;
-    koksma_tally *tallies; /* [prefix][measure] */
-    size_t *n_exact;       /* likewise: of how many trials the value is exact */
-    size_t *n_cut;         /* [measure]: values of all sources that are bounds, as the search was cut short */
-    size_t *n_whole;       /* [measure]: trials whose values are exact at all prefixes */
-    koksma_joint *joints;  /* [measure] */
-    bool bounds, sampled;  /* rows have the columns of bounds, of standard errors */
-    /* --paired: the first source's values by trial, [prefix][measure] each, and tallies of what others have more */
+    koksma_tally *tallies; /* statistics of the values, [prefix][measure] */
+    size_t *n_exact;       /* number of trials with exact values, [prefix][measure] */
+    /* number of values of all sources that are only bounds, the search being cut short, [measure] */
+    size_t *n_cut;
+    size_t *n_whole;      /* number of trials whose values are exact at all prefixes, [measure] */
+    koksma_joint *joints; /* values for the fitted slopes, [measure] */
+    bool bounds, sampled; /* whether rows have the columns of bounds, and of standard errors */
+    /* --paired: the first source's values, [trial][prefix][measure], and statistics of how much the values of the
+       other sources exceed them */
     bool paired;
     double *firsts;
     bool *first_is_exact;
@@ -42,19 +45,21 @@ typedef struct measuring {
     const koksma_warp *first_warp;
 } measuring;
 
-bool measuring_open(measuring *j); /* room for tallies; false when memory runs out */
+bool measuring_open(measuring *j); /* allocates the statistics; false when memory runs out */
 void measuring_close(measuring *j);
 
 koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value);
 koksma_status measuring_forgive(const measuring *j, koksma_status status);
 
-/* Whether values are wanted at several sizes, with a slope. */
+/* Whether --prefixes or --sizes asks for values at several sizes, with a slope. */
 bool measuring_by_size(const measuring *j);
 
-/* Refuses --prefixes of a pattern whose first points are no set of it; false after an error on stderr. */
+/* Refuses --prefixes for a pattern whose first points are not a set of the pattern. Returns false after an error on
+   stderr. */
 bool measuring_check_prefixes(const measuring *j);
 
-/* Many sets, or several sizes: what was done is printed even if it was cut short. Returns the exit code. */
+/* Measures many sets, or several sizes, of a source. After an interruption it prints what was measured. Returns the
+   exit code. */
 int measuring_trials(measuring *j, const char *source);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The option --metric of compare, and the warning that compare and rank share. */
+/* The option --metric of commands that compare images, and their warning about errors that few pixels carry. */
 #include "metric_option.h"
 
 #include <string.h>

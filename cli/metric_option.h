@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Metrics of images on a command line. */
+/* The option --metric, and a warning about errors that few pixels carry. */
 #ifndef CLI_METRIC_OPTION_H
 #define CLI_METRIC_OPTION_H
 
@@ -14,13 +14,14 @@ typedef struct cli_metrics {
     koksma_metric_spec specs[CLI_MAX_METRICS];
 } cli_metrics;
 
-/* Adds the metrics of --metric, each once: METRIC,.. or all; without the option nothing. false after a message. */
+/* Adds the metrics of --metric, METRIC,.. or all, each once; without this option it adds none. Returns false after an
+   error. */
 bool cli_metrics_parse(const cli_arguments *arguments, cli_metrics *metrics);
 
-/* The one metric of --metric, or mae. false after a message. */
+/* Reads --metric as one metric, by default mae. Returns false after an error. */
 bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics);
 
-/* Warns when few pixels carry most of the error; subject: of what, such as the pattern. */
+/* Warns when few pixels carry most of the error. subject: what has the error, such as a pattern's name. */
 void cli_warn_of_few_pixels(const char *command, const char *subject, const char *metric,
                             const koksma_metric_value *value);
 

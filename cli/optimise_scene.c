@@ -1,17 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma optimise --scene SCENE -n SPP`: a point set for the error of one scene's image, used in every pixel as file:FILE.
+ * `koksma optimise --scene SCENE -n SPP`: searches for a point set that makes the error of one scene's image small
+ * when every pixel uses it as file:FILE.
  *
- * 1. Weights. The radiance at 8 x 8 places of every pixel, one sample each, is analysed as a two-way layout: the variance
- *    along x, along y and of both together (which also has the noise of lights and lenses), summed over the pixels.
- * 2. Candidates. An L2 discrepancy (l2-star, l2-periodic, l2-extreme in turn) of x, of y and of the plane, weighted by the share of
- *    each in the variance over its value for random points, is made small by koksma_optimise. The first three have the
- *    scene's weights, the others these times random factors from 1/4 to 4, as many sets of low discrepancy are equal.
- *    Each candidate comes in several phases: shifted on the torus by multiples of a vector of the R2 sequence.
- * 3. Elimination. koksma_rank_patterns renders the scene with all of them until it is decided which has the least error; those
- *    whose interval says that they have more are rendered no further.
- * 4. Judgement. The set against listed patterns, in the scene itself with other random numbers and in held-out scenes, which had no
- *    part in 1 to 3: a gain in the scene that they do not share is luck of that scene.
+ * 1. Weights. The radiance at 8 x 8 positions in every pixel, one sample each, is analysed as a two-way layout: the
+ *    variance along x, along y, and of the interaction of both (which includes the noise of lights and lenses),
+ *    summed over the pixels.
+ *
+ * 2. Candidates. koksma_optimise makes an L2 discrepancy (l2-star, l2-periodic, l2-extreme in turn) of the
+ *    projections on x, on y and on the plane small. The weight of a projection is its share of the variance, divided
+ *    by the discrepancy of random points. The first three candidates have these weights; the others have these
+ *    weights times random factors from 1/4 to 4, because many sets have the same low discrepancy. Each candidate
+ *    comes in several phases: shifted on the torus by multiples of a vector of the R2 sequence.
+ *
+ * 3. Elimination. koksma_rank_patterns renders the scene with all candidates until it is decided which one has the
+ *    least error. A candidate is rendered no further once its confidence interval shows a larger error.
+ *
+ * 4. Evaluation. The chosen set is compared with listed patterns, in the scene itself with other random numbers, and
+ *    in held-out scenes, which took no part in steps 1 to 3. A gain in the scene that the held-out scenes do not show
+ *    is a matter of luck in that scene.
  */
 #include "optimise_scene.h"
 
@@ -40,18 +47,18 @@ static const char listed[] =
     "fibonacci,fibonacci:shift=1,zaremba,regular,best-candidate";
 static const char scenes[] = "ball,balls,checker,checker-45,cornell,glossy,mirror-block";
 
-/* The sets that candidates are: of this process, for the pattern below, which is in no table. */
+/* The candidate sets. The pattern set_pattern below, which is in no table of the library, reads them. */
 static koksma_points *sets;
 
 typedef struct scene_job {
     const cli_arguments *arguments;
     cli_work work;
     const char *scene;
-    koksma_scene *open; /* the scene that is rendered at present */
+    koksma_scene *open; /* the scene that is being rendered */
     uint64_t seed, salt, n_sets, phases, max_trials;
     int spp, width, height;
-    double shares[3]; /* of the variance: x, y, both */
-    size_t n;         /* candidates: sets and phases */
+    double shares[3]; /* shares in the variance: x, y, both together */
+    size_t n;         /* number of candidates: sets times phases */
     size_t chosen, eliminated;
     bool settled;
     char held_out[MOST_SCENES][KOKSMA_MAX_SPEC], names[MOST_PATTERNS][KOKSMA_MAX_SPEC];
@@ -59,18 +66,18 @@ typedef struct scene_job {
     size_t n_held_out, n_patterns;
 } scene_job;
 
-/* The error of the set against the best listed pattern in one scene. */
+/* The error of the set compared with the best listed pattern, in one scene. */
 typedef struct verdict {
     const char *scene, *role;
     koksma_rank_row own, other;
-    double gain, low, high; /* 1 - error of the set over that of the other */
+    double gain, low, high; /* 1 - error of the set / error of the other, with its interval */
     bool settled;
     int width, height;
 } verdict;
 
 /* ---- Patterns and pictures --------------------------------------------------------------------------------- */
 
-/* Set params[0], or with params[0] < 0 one point, params[1] and [2]. */
+/* Generates the candidate set params[0]. If params[0] < 0, all points are (params[1], params[2]). */
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
@@ -97,7 +104,8 @@ static const koksma_pattern set_pattern = {.name = "set",
                                            .params = set_params,
                                            .generate = generate};
 
-/* Equal seeds of a ranking are other random numbers with another salt. */
+/* Renders one image for koksma_rank_patterns. Rankings with different salts use different random numbers although
+   their seeds are equal. */
 static koksma_status render(void *context, const koksma_rank_picture *picture, const koksma_run *run,
                             koksma_image *image)
 {
@@ -118,7 +126,7 @@ static koksma_status render(void *context, const koksma_rank_picture *picture, c
     return status ? status : koksma_render(j->open, &o, run, image);
 }
 
-/* The scene's size, or that of --size, halved until it has few pixels. */
+/* Chooses the size of the images: that of --size, or the scene's, halved until it has at most MOST_PIXELS pixels. */
 static void choose_size(const scene_job *j, int *width, int *height)
 {
     koksma_render_options o;
@@ -157,7 +165,8 @@ static double luminance(const koksma_image *image, size_t p)
                                 : 0.2126 * (double)v[0] + 0.7152 * (double)v[1] + 0.0722 * (double)v[2];
 }
 
-/* Adds the variances of a pixel: MS_x = SIDE var_x + var_xy on average, and so for y (two-way layout without replicates). */
+/* Adds the variances of a pixel. In a two-way layout without replicates the mean square along x is on average
+   MS_x = SIDE var_x + var_xy, and likewise along y. */
 static void add_pixel(const double *f, size_t pixels, double *variances)
 {
     double rows[SIDE] = {0}, columns[SIDE] = {0}, mean = 0, ms[2] = {0}, rest = 0;
@@ -209,7 +218,8 @@ static koksma_status find_shares(scene_job *j)
         add_pixel(f + p, pixels, variances);
     }
     free(f);
-    for (int k = 0; k < 3; k++) { /* a share that is not seen still counts a little */
+    /* below, a share of 0 becomes 0.01, because the samples may have missed the variance */
+    for (int k = 0; k < 3; k++) {
         sum += fmax(variances[k], 0);
     }
     for (int k = 0; k < 3; k++) {
@@ -220,14 +230,14 @@ static koksma_status find_shares(scene_job *j)
 
 /* ---- Candidates -------------------------------------------------------------------------------------------- */
 
-/* The square of the measure of random points, times n: on the line and in the plane. */
+/* The mean square of each measure for n random points, times n: on the line and in the plane. */
 static const struct {
     const char *measure;
     double line, plane;
 } kernels[] = {
     {"l2-star", 1.0 / 6, 5.0 / 36}, {"l2-periodic", 1.0 / 6, 5.0 / 36}, {"l2-extreme", 1.0 / 12, 1.0 / 48}};
 
-/* Random numbers from 1/4 to 4. */
+/* Draws three random factors from 1/4 to 4. */
 static koksma_status random_factors(uint64_t seed, double factors[3])
 {
     koksma_spec spec;
@@ -274,7 +284,7 @@ static koksma_status make_set(const scene_job *j, size_t c, koksma_points *out)
     return status;
 }
 
-/* Phase p: 1/g and 1/g^2 times p, g^3 = g + 1 (the R2 sequence of Roberts 2018). */
+/* Makes phase p of a set: shifts it by p (1/g, 1/g^2), where g^3 = g + 1 (the R2 sequence of Roberts 2018). */
 static koksma_status shift(const koksma_points *from, size_t p, koksma_points *out)
 {
     static const double step[] = {0.7548776662466927, 0.5698402909980532};
@@ -304,7 +314,7 @@ static koksma_status make_candidates(scene_job *j)
     return status;
 }
 
-/* Those that rank does not eliminate, and of them the one with the least error. */
+/* Ranks the candidates. Counts those that are eliminated, and chooses the one with the least error. */
 static koksma_status choose(scene_job *j)
 {
     char *names = calloc(j->n, NAME);
@@ -332,9 +342,10 @@ static koksma_status choose(scene_job *j)
     return status;
 }
 
-/* ---- Judgement --------------------------------------------------------------------------------------------- */
+/* ---- Evaluation -------------------------------------------------------------------------------------------- */
 
-/* With q = 1 + behind the quotient of a pattern's error and that of row 0. */
+/* Compares the chosen set with the listed patterns in one scene. In a ranking, 1 + behind is the quotient of a
+   pattern's error and that of row 0. */
 static koksma_status judge(scene_job *j, verdict *v)
 {
     const char *patterns[MOST_PATTERNS + 1];
@@ -395,7 +406,8 @@ static void put_verdict(const scene_job *j, cli_rows *rows, const verdict *v, do
     cli_row_end(rows);
 }
 
-/* The scene and those held out, and their mean. *gains: in the held-out scenes on average. */
+/* Prints a row for the optimised scene, for each held-out scene, and for the mean over the held-out scenes. *home:
+   the gain in the optimised scene. *mean: the mean gain in the held-out scenes. */
 static koksma_status judge_all(scene_job *j, cli_rows *rows, double *home, verdict *mean)
 {
     *mean = (verdict){.scene = "-", .role = "mean of held-out"};
@@ -424,7 +436,7 @@ static koksma_status judge_all(scene_job *j, cli_rows *rows, double *home, verdi
     return KOKSMA_OK;
 }
 
-/* ---- The whole --------------------------------------------------------------------------------------------- */
+/* ---- The command ------------------------------------------------------------------------------------------- */
 
 static koksma_status write_set(const scene_job *j)
 {
@@ -531,7 +543,8 @@ int cli_optimise_scene(const cli_arguments *arguments)
     koksma_status status = koksma_scene_open(j->scene, &j->open);
     status = status ? status : find_shares(j);
     status = status ? status : make_candidates(j);
-    status = status ? status : write_set(j); /* the first candidate, until one is chosen */
+    /* writes the first candidate, in case of an interruption before one is chosen */
+    status = status ? status : write_set(j);
     status = status ? status : choose(j);
     status = status ? status : write_set(j);
     code = status ? code : report(j, &status);

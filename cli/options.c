@@ -18,12 +18,12 @@
 #include "paragraphs.h"
 #include "source.h"
 
-/* No table has the letter of --help. */
+/* The letter of --help, which no option table may use. */
 enum { LONG_BASE = 1000, HELP = LONG_BASE + CLI_MAX_OPTIONS, HELP_LETTER = 'h' };
 
-static bool complained; /* one error, one line */
+static bool complained; /* an error was printed: cli_no_memory() prints no second one */
 
-enum { LEFT = 22, HELP_COLUMN = 29 }; /* the width of "--NAME ARGUMENT", and where its help begins */
+enum { LEFT = 22, HELP_COLUMN = 29 }; /* the width of "--NAME ARGUMENT", and the column where the help begins */
 
 static void print_option(char letter, const char *name, const char *argument, const char *help)
 {
@@ -91,7 +91,7 @@ static bool has_option(const cli_command *command, const char *name)
     return o->name != NULL;
 }
 
-/* word: --NAME or --NAME=VALUE */
+/* Reports an option that does not exist or takes no argument. word: --NAME or --NAME=VALUE. */
 static int unknown_option(const cli_arguments *arguments, const char *word)
 {
     char name[64];
@@ -107,7 +107,7 @@ static int unknown_option(const cli_arguments *arguments, const char *word)
 
 static int parse_failure(const cli_arguments *arguments, int code, char **argv)
 {
-    /* With a short option getopt sets optopt; with a long one the word before optind is the culprit. */
+    /* The faulty option is optopt if it is a short one; a long one is the word before optind. */
     if (optopt > 0 && optopt < LONG_BASE) {
         return cli_usage_error(arguments, code == ':' ? "option -%c takes an argument" : "no option -%c", optopt);
     }
@@ -116,7 +116,7 @@ static int parse_failure(const cli_arguments *arguments, int code, char **argv)
                        : unknown_option(arguments, word);
 }
 
-/* A second value goes on a line of its own. */
+/* Sets the value of option i. A second value is appended on a new line. Returns false when memory runs out. */
 static bool add_value(cli_arguments *arguments, int i, const char *value)
 {
     const char *before = arguments->values[i];
@@ -137,7 +137,7 @@ static bool add_value(cli_arguments *arguments, int i, const char *value)
 
 enum { PARSED = -1 };
 
-/* PARSED, or the exit code when there is nothing to run. */
+/* Parses the options. Returns PARSED, or the exit code when nothing is left to run. */
 static int parse(cli_arguments *arguments, int argc, char **argv)
 {
     const cli_command *command = arguments->command;
@@ -154,7 +154,7 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
     }
     longs[n] = (struct option){"help", no_argument, NULL, HELP};
     opterr = 0;
-    optind = 0; /* glibc: afresh, even when a parse before stopped in the middle of a word */
+    optind = 0; /* 0 resets glibc's getopt completely, even if the previous parse stopped in the middle of a word */
     for (int code; (code = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
         if (code == HELP || code == HELP_LETTER) {
             cli_print_help(command);
@@ -180,7 +180,8 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
     return PARSED;
 }
 
-/* What is on stdout must have got there: a full disk shows when the buffer is written. */
+/* Flushes stdout, because a full disk causes an error only when the buffer is written. Returns `code`, or the exit
+   code of that error. */
 int cli_end_output(int code)
 {
     errno = 0;
@@ -191,12 +192,13 @@ int cli_end_output(int code)
     return code;
 }
 
-/* Whether a file to write has an ending of its option's argument, "FILE.txt|.csv", or none. */
+/* Whether a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending; else it
+   prints an error. */
 static bool ending_fits(const cli_arguments *arguments, const char *argument, const char *path)
 {
     const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.');
     const char *first = strchr(argument, '.');
-    dot = dot && dot > base && dot[1] ? dot : NULL; /* none: ".", "..", ".name" */
+    dot = dot && dot > base && dot[1] ? dot : NULL; /* ".", ".." and ".name" have no ending */
     char all[64] = "";
     size_t used = 0;
     for (const char *at = first, *end; dot && at && *at; at = end + (*end == '|')) {
@@ -216,7 +218,7 @@ static bool ending_fits(const cli_arguments *arguments, const char *argument, co
     return !used;
 }
 
-/* What options mean in all commands that have them. The exit code. */
+/* Reads the options that mean the same in all commands that have them. Returns the exit code. */
 static int read_shared_options(cli_arguments *arguments)
 {
     uint64_t digits = CLI_DIGITS;
@@ -272,7 +274,7 @@ const char *cli_text(const cli_arguments *arguments, const char *name, const cha
             return arguments->values[i] ? arguments->values[i] : fallback;
         }
     }
-    abort(); /* a name that is not in the table is a mistake in the program */
+    abort(); /* the option table lacks the name, which is a bug */
 }
 
 bool cli_flag(const cli_arguments *arguments, const char *name)
@@ -384,10 +386,9 @@ static bool is_use(const char *name, size_t length)
     return koksma_use_at(i) != NULL;
 }
 
-/* The end of the list item that starts at s: the next comma that is not followed by "key=value" up to the next
-   comma (that is the current spec's next parameter). A parameter never holds a ':'; a new spec has its ':' before
-   any '=', or a ';' or '+' of the uses that patterns are for, or is for a single use, which no
-   parameter is named after. */
+/* Returns the end of the list item that starts at s: the next comma that does not begin another parameter,
+   "key=value", of the same spec. A new spec is recognised by a ':' before any '=' (a parameter never holds a ':'), by
+   the ';' or '+' of patterns for several uses, or by the name of a use, "USE=", which no parameter has. */
 static const char *item_end(const char *s)
 {
     bool has_parameters = false;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Parses command lines by option tables, and prints the help. */
 #ifndef KOKSMA_CLI_OPTIONS_H
 #define KOKSMA_CLI_OPTIONS_H
 
@@ -6,14 +7,17 @@
 
 #include "cli.h"
 
-/* All commands in a line each, as `koksma --help` prints it; one command's table, as its --help does, on stdout. */
+/* cli_print_overview prints a line for each command, as `koksma --help` does. cli_print_help prints the help of one
+   command on stdout. */
 void cli_print_overview(FILE *stream);
 void cli_print_help(const cli_command *command);
 
-/* Parses argv (argv[0] is the command's name) by the command's table and runs it; --help or -h prints the table. */
+/* Parses argv (argv[0] is the command's name) by the command's option table and runs the command. --help and -h print
+   its help instead. Returns the exit code. */
 int cli_run(const cli_command *command, int argc, char **argv);
 
-/* The exit code in the end: 4, after a line on stderr, instead of 0 or 1 when stdout could not be written. */
+/* Flushes stdout and returns the final exit code: `code`, or 4 after a message on stderr if `code` is 0 or 1 but
+   stdout could not be written. */
 int cli_end_output(int code);
 
 #endif

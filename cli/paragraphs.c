@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Help texts in lines of at most 80 columns: words are put on a line as long as they fit. A blank that must not become
-   the end of a line is TIED until it is printed. */
+/* Prints help texts in lines of at most 80 columns, with as many words on a line as fit. A blank at which no line may
+   end is stored as TIED until it is printed. */
 #include "paragraphs.h"
 
 #include <stdio.h>
@@ -15,7 +15,8 @@ static void put(const char *text, size_t length)
     }
 }
 
-/* How much of a word that is longer than a line goes on this one: up to the last '|' that fits, or all. */
+/* Returns how many bytes of a word go on the current line, which has `room` columns left: those up to the last '|'
+   that fits, or all. */
 static size_t beginning(const char *word, size_t length, size_t room)
 {
     for (size_t i = room < length ? room : 0; i > 0; i--) {
@@ -28,7 +29,7 @@ static size_t beginning(const char *word, size_t length, size_t room)
 
 void cli_fill(const char *text, size_t column, size_t indent)
 {
-    bool first = true; /* on its line */
+    bool first = true; /* the next word is the first of its line */
     for (const char *at = text + strspn(text, " "); *at;) {
         const size_t length = strcspn(at, " ");
         if (!first && column + 1 + length > WIDTH) {
@@ -55,7 +56,7 @@ void cli_fill_use(const char *use, size_t column, size_t indent)
 {
     char tied[CLI_PARAGRAPH];
     int depth = 0;
-    bool option = false; /* this word is one */
+    bool option = false; /* the current word is an option or its argument */
     size_t i = 0;
     for (; use[i] && use[i] != '\n' && i + 1 < sizeof tied; i++) {
         depth += (use[i] == '[') - (use[i] == ']');

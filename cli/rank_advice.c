@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a ranking means to a reader. The pattern to use is the best of those whose error is not coherent; where one in
- * bands leaves less error, that is said, too.
+ * Explains a ranking in sentences on stderr. The advice is to use the best pattern whose error is not coherent. The
+ * text also names a pattern that leaves less error, but in visible bands.
  */
 #include "rank_advice.h"
 
@@ -17,7 +17,7 @@ static const char *base_of(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* The rows have the paths of files; here their names do, where they differ. */
+/* Returns a pattern's name for the advice. A file is shown without its folder if no other has the same name. */
 static const char *name_of(const koksma_rank_options *options, size_t pattern)
 {
     const char *base = base_of(options->patterns[pattern]);
@@ -34,7 +34,8 @@ static const char *in_bands(const koksma_rank_row *row)
     return row->coherence.coherent ? " (in bands)" : "";
 }
 
-/* "a", "a and b (in bands)", "a, b and c": those with the decision, at the position, if it is not 0. */
+/* Prints a list "a", "a and b (in bands)" or "a, b and c" of the patterns at `position` or, if this is 0, of the
+   patterns with the decision. */
 static void print_patterns(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n,
                            koksma_rank_decision decision, size_t position)
 {
@@ -54,7 +55,7 @@ static void print_patterns(const koksma_rank_options *options, const koksma_rank
     }
 }
 
-/* A number to two digits, without an exponent where it is large. */
+/* Prints a number to two digits; a large number has no exponent. */
 static void print_two_digits(double x)
 {
     fprintf(stderr, fabs(x) < 99.5 ? "%.2g" : "%.0f", x);
@@ -94,7 +95,8 @@ static bool saves_in_bands(const koksma_rank_row *row, const koksma_rank_row *be
     return row->coherence.coherent && row->mean < best->mean;
 }
 
-/* Those in bands that leave less error than row `best`: how much the first of them saves, and the others' names. */
+/* Prints which patterns leave less error than row `best`, but in bands: how much error the first of them saves, and
+   the names of the others. */
 static void advise_against(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n, size_t best)
 {
     size_t count = 0, done = 0;
@@ -123,7 +125,7 @@ static void advise_against(const koksma_rank_options *options, const koksma_rank
     }
 }
 
-/* The next and the last that leave more error than row `best`. */
+/* Prints the next and the last pattern that leave more error than row `best`. */
 static void advise_behind(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n, size_t best)
 {
     size_t next = best + 1;
@@ -145,7 +147,8 @@ static void advise_behind(const koksma_rank_options *options, const koksma_rank_
     }
 }
 
-/* The row of what is advised, or that is the best so far of those without bands; 0 where there are none. */
+/* Returns the row of the advised pattern, or else of the best pattern so far whose error has no bands; 0 if all
+   errors have bands. */
 static size_t best_row(const koksma_rank_row *rows, const koksma_ranking *ranking)
 {
     size_t best = ranking->n;
@@ -183,7 +186,7 @@ static void advise_best(const koksma_rank_options *options, const koksma_rank_ro
     advise_behind(options, rows, ranking->n, best);
 }
 
-/* What is known, and what it would take. */
+/* Prints what is known about an undecided ranking, and how many trials would decide it. */
 static void advise_undecided(const koksma_rank_options *options, const koksma_rank_row *rows,
                              const koksma_ranking *ranking)
 {
@@ -222,7 +225,8 @@ static void advise_undecided(const koksma_rank_options *options, const koksma_ra
     fprintf(stderr, " would %s", ranking->n_slow ? "rank them" : "decide it");
 }
 
-/* Which pattern leaves the least error there, in bands or not, unless the advice's line says so. */
+/* Prints which pattern leaves the least error at another size, with or without bands, unless the line of advice says
+   so. */
 static void advise_first(const koksma_rank_options *options, const koksma_rank_row *rows,
                          const koksma_rank_check *check)
 {
@@ -235,11 +239,12 @@ static void advise_first(const koksma_rank_options *options, const koksma_rank_r
         break;
     case KOKSMA_RANK_UNSETTLED:
         if (check->advice.state != KOKSMA_RANK_UNSETTLED) {
-            fprintf(stderr, "; undecided after %lld trials which of all leaves the least error", check->trials);
+            fprintf(stderr, "; after %lld trials it is undecided which of all patterns leaves the least error",
+                    check->trials);
         }
         break;
     case KOKSMA_RANK_UNCHECKED:
-        fprintf(stderr, "; the time was up before it was decided which of all leaves the least error");
+        fprintf(stderr, "; the time was up before it was decided which of all patterns leaves the least error");
         break;
     default:;
     }
@@ -275,7 +280,7 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
     }
 }
 
-/* Where few pixels carry most of the error of some patterns. */
+/* Prints a warning if few pixels carry most of the error of some patterns. */
 static void warn_of_few_pixels(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n)
 {
     size_t count = 0, most = 0;
@@ -284,11 +289,10 @@ static void warn_of_few_pixels(const koksma_rank_options *options, const koksma_
         most = rows[i].top_share > rows[most].top_share ? i : most;
     }
     if (count) {
-        fprintf(
-            stderr,
-            "  warning: 0.1 %% of the pixels carry most of the error of %zu of %zu patterns (%s: %.0f %%), and this "
-            "order is theirs; a metric that weighs them less, such as smape, may have another\n",
-            count, n, name_of(options, rows[most].pattern), 100 * rows[most].top_share);
+        fprintf(stderr,
+                "  warning: 0.1 %% of the pixels carry most of the error of %zu of %zu patterns (%s: %.0f %%), and "
+                "decide this order; a metric that weighs them less, such as smape, may give another order\n",
+                count, n, name_of(options, rows[most].pattern), 100 * rows[most].top_share);
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Options that render, rank and scene check share: pairing, scope, lights, depth, integrator, filter and the
- * patterns of uses, read into koksma_render_options; and the warnings about a scene or about patterns that have no
+ * Options that render, rank and scene check share. Reads pairing, scope, lights, depth, integrator, filter and the
+ * patterns of uses into koksma_render_options. Prints the warnings about a scene, and about patterns that have no
  * effect in it.
  */
 #include "render_options.h"
@@ -10,7 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The number of a choice by its name; false after an error that lists them all. */
+/* Reads an option that is one of several names. *out: the index of the name. Returns false after an error that lists
+   all names. */
 static bool parse_choice(const cli_arguments *arguments, const char *option, const char *(*name_of)(int), int *out)
 {
     const char *text = cli_text(arguments, option, NULL);
@@ -183,7 +184,7 @@ size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, cons
         }
     }
     if (n > most) {
-        cli_say(arguments->command->name, "%s: %zu more warnings; 'koksma scene check' tells all", name, n - most);
+        cli_say(arguments->command->name, "%s: %zu more warnings; 'koksma scene check' prints all", name, n - most);
     }
     return n;
 }

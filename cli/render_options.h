@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The options of everything that renders, for the option tables of commands, and their values. */
+/* The options of all commands that render: their lines in option tables, and their values. */
 #ifndef KOKSMA_CLI_RENDER_OPTIONS_H
 #define KOKSMA_CLI_RENDER_OPTIONS_H
 
@@ -27,33 +27,34 @@
             "add samples to all pixels that the filter reaches, instead of drawing from it: less error"              \
     }
 
-/* Values of --integrator and --filter; *integrator and *filter are the defaults. False after an error that names one.
- */
+/* Reads --integrator and --filter; *integrator and *filter hold the defaults before. Returns false after an error
+   that names the option. */
 bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_integrator **integrator,
                                const koksma_filter **filter);
 
-/* Values of all those options; false after an error that names one. */
+/* Reads all options of CLI_SAMPLING_OPTIONS. Returns false after an error that names the option. */
 bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options *options);
 
-/* --spp, and patterns: lines of what koksma_render_patterns takes, which may have @SPP; false after an error, whose code is in *code. */
+/* Reads --spp and the patterns. lines: texts as koksma_render_patterns takes them, one per line, also with @SPP.
+   Returns false after an error and sets *code to the exit code. */
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code);
 
 /* Warns on stderr about each use that was given a pattern although rendering this scene needs no samples for it. */
 void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                    const koksma_render_options *options);
 
-/* What commands that open a scene do with what is unknown in one of pbrt or Mitsuba. */
+/* The option --unknown: what commands do with parts of a pbrt or Mitsuba scene that Koksma does not know. */
 #define CLI_UNKNOWN_OPTION                                                                                           \
     {                                                                                                                \
         0, "unknown", "approximate|refuse",                                                                          \
-            "what of a pbrt or Mitsuba scene is unknown: a warning, or an error (default: approximate)"              \
+            "unknown parts of a pbrt or Mitsuba scene give a warning, or an error (default: approximate)"            \
     }
 
-/* Opens a scene, by that option; returns 0, or the exit code after an error. */
+/* Opens a scene and applies the option --unknown. Returns 0, or the exit code after an error. */
 int cli_scene_open(const cli_arguments *arguments, const char *name, koksma_scene **out);
 
-/* The scene's warnings on stderr, `most` lines of them at most and one that tells how many more there are; with
-   options those that matter to them, with NULL all. Returns how many there are. */
+/* Prints at most `most` of the scene's warnings on stderr, and a line with the number of the others. options: print
+   only warnings that matter with these options, or NULL for all. Returns the number of warnings. */
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                           const koksma_render_options *options, size_t most);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rows of results: JSON lines as they come, or aligned text at the end, when the widths of columns are known. */
+/* Rows of results: JSON lines, printed when a row ends, or aligned text, printed after the last row, when the widths
+   of the columns are known. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +10,10 @@
 #include "aligned.h"
 #include "cli.h"
 
-/* As text, rows are kept until the end, because columns are as wide as their widest cell. */
+/* Text rows are kept until the end, because a column is as wide as its widest cell. */
 struct cli_rows {
     bool json, started, failed;
-    cli_cell *cells; /* of all rows; a row ends at a cell with a NULL key */
+    cli_cell *cells; /* cells of all rows; a row ends at a cell with a NULL key */
     size_t n, capacity;
 };
 
@@ -25,7 +26,7 @@ void cli_set_style(int n_digits, bool all_columns)
     is_long = all_columns;
 }
 
-static cli_rows no_rows = {.failed = true}; /* takes rows and keeps none */
+static cli_rows no_rows = {.failed = true}; /* replaces the rows when memory runs out; it ignores all cells */
 
 cli_rows *cli_rows_open(bool json)
 {
@@ -110,7 +111,7 @@ const char *cli_number(double value, char text[CLI_NUMBER])
     if (!isfinite(value)) {
         strcpy(text, "-");
     } else if (whole) {
-        snprintf(text, CLI_NUMBER, "%.0f", value + 0.0); /* no -0 */
+        snprintf(text, CLI_NUMBER, "%.0f", value + 0.0); /* + 0.0 turns -0 into 0 */
     } else {
         snprintf(text, CLI_NUMBER, "%.*g", digits, value);
     }

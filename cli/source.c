@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Operands that name points, for all commands: files, - for standard input, and [pattern:]SPEC@N[@DIM], N points of a
- * pattern. SPEC@N is a pattern if its name is one, or if no such file exists; ./SPEC@N is a file. -p PATTERN,.. adds
- * operands, and -n N,.. and -d DIM complete those that are patterns without @N.
+ * pattern. SPEC@N is a pattern if the library has a pattern of that name, or if there is no such file; ./SPEC@N is
+ * always a file. -p PATTERN,.. adds operands; -n N,.. and -d DIM complete operands that are patterns without @N.
  */
 #include "source.h"
 
@@ -14,7 +14,8 @@
 
 static const char prefix[] = "pattern:";
 
-/* Splits "SPEC@N" or "SPEC@N@DIM" at its last one or two '@'; *dim is 0 when no set has so many. */
+/* Splits "SPEC@N" or "SPEC@N@DIM" at its last one or two '@'. *dim is 0 if DIM is out of range. Returns false if the
+   text has another form. */
 static bool split(char *text, size_t *n, int *dim)
 {
     char *last = strrchr(text, '@');
@@ -35,7 +36,7 @@ static bool split(char *text, size_t *n, int *dim)
         n_text = before + 1;
     }
     const unsigned long long count = strtoull(n_text, &end, 10);
-    *n = count < SIZE_MAX ? (size_t)count : SIZE_MAX; /* 32 bits */
+    *n = count < SIZE_MAX ? (size_t)count : SIZE_MAX; /* where size_t has 32 bits */
     return n_text[0] >= '0' && n_text[0] <= '9' && !*end;
 }
 
@@ -90,12 +91,13 @@ int cli_source_open(const cli_arguments *arguments, const char *text, cli_source
                : code;
 }
 
-/* For the end of an error about a file: what was meant, if its name begins as a pattern's spec does; else "". */
+/* Returns a hint for the end of an error about a missing file: "; did you mean SPEC@N?" if the operand begins with a
+   pattern's name, else "". */
 static const char *hint(const char *operand, char *text, size_t size)
 {
     bool plausible = strlen(operand) + 32 < size && cli_names_pattern(operand);
     for (const char *s = operand; *s; s++) {
-        plausible = plausible && !iscntrl((unsigned char)*s); /* an error is one line */
+        plausible = plausible && !iscntrl((unsigned char)*s); /* an error message is one line */
     }
     text[0] = 0;
     if (plausible) {
@@ -157,7 +159,8 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
-/* Whether a pattern has sets of this kind, by its checks alone. */
+/* Whether a pattern has sets of n points in dim dimensions. koksma_generate checks this before it starts, and is then
+   stopped at once. */
 static bool can_serve(const koksma_spec *spec, size_t n, int dim)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
@@ -196,15 +199,15 @@ static int add_operand(cli_arguments *arguments, const char *text)
     return CLI_YES;
 }
 
-/* -n and -d, and what -p all leaves out. */
+/* The values of -n and -d, and the operands that -p all leaves out. */
 typedef struct sizes {
-    const char *list; /* NULL: none */
+    const char *list; /* the list of -n, or NULL */
     uint64_t dim;
     bool all, used;
     char left_out[1024];
 } sizes;
 
-/* An operand as it is, or of each size when it is a pattern without one. */
+/* Adds an operand as it is, or once for each size of -n if it is a pattern without a size. Returns the exit code. */
 static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
 {
     char item[32], operand[KOKSMA_MAX_SPEC + 64];
@@ -251,10 +254,10 @@ int cli_sources_expand(cli_arguments *arguments)
         code = strcmp(last, "-") && access(last, F_OK) && !cli_source_is_pattern(last) &&
                        koksma_pattern_spec(last, &unknown)
                    ? cli_fail(arguments, KOKSMA_ARGUMENT)
-                   : cli_usage_error(arguments, "-n %s: no pattern without @N is there to take it", of.list);
+                   : cli_usage_error(arguments, "-n %s: there is no pattern without @N to apply it to", of.list);
     }
     if (!code && *of.left_out && !cli_flag(arguments, "quiet")) {
-        cli_say(arguments->command->name, "-p all leaves out what has no such set: %s", of.left_out);
+        cli_say(arguments->command->name, "-p all leaves out patterns without such a set: %s", of.left_out);
     }
     arguments->operands = arguments->made;
     arguments->n_operands = arguments->n_made;

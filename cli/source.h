@@ -1,35 +1,38 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Operands that name points: files, standard input, and patterns. */
 #ifndef KOKSMA_CLI_SOURCE_H
 #define KOKSMA_CLI_SOURCE_H
 
 #include "cli.h"
 
-/* The options of commands that take points, beside the operands. */
+/* Options of commands that take points, in addition to their operands. */
 #define CLI_SOURCE_OPTIONS                                                                                           \
-    {'p', "patterns", "PATTERN,..|all", "patterns, as operands PATTERN or SPEC@N; all: that have such sets"},        \
+    {'p', "patterns", "PATTERN,..|all", "more patterns, as operands PATTERN or SPEC@N; all: those with such sets"},  \
         {'n', "n", "N,..", "number of points of patterns without @N"},                                               \
     {                                                                                                                \
         'd', "dim", "DIM", "number of dimensions of patterns without @N (default: 2)"                                \
     }
 
-/* The points of an operand: a file, "-" for stdin, or "[pattern:]SPEC@N[@DIM]", which is generated with seed. Allocates points. Returns the exit code, after an error on stderr unless it is 0. */
+/* Reads the points of an operand, which is a file or "-" for stdin, or generates them, with `seed`, for
+   "[pattern:]SPEC@N[@DIM]". Allocates the points. Returns the exit code, which is not 0 after an error on stderr. */
 int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
                       koksma_points *points);
 
-/* Whether an operand is "[pattern:]SPEC@N[@DIM]", and no file. */
+/* Whether an operand has the form "[pattern:]SPEC@N[@DIM]" and is no file. */
 bool cli_source_is_pattern(const char *text);
 
 /* Whether a text begins with the name of a pattern. */
 bool cli_names_pattern(const char *text);
 
-/* Pattern i (0..) of -p: of its list, or of the table for "all". False past the end. */
+/* Copies pattern i (0..) of the -p list to `spec`; for "all" these are the patterns of the library that read no file.
+   Returns false past the end. */
 bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC]);
 
-/* Takes "pattern:" and "@N" off the patterns of uses, "[USE=]SPEC@N;..", where N is the number of samples a pixel. *n:
-   0 where it is unknown so far. False after an error: two numbers. */
+/* Removes "pattern:" and "@N" from `text`, the patterns of uses "[USE=]SPEC@N;..", where N is the number of samples a
+   pixel. *n: this number, 0 as long as it is unknown. Returns false after an error if two numbers differ. */
 bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n);
 
-/* What an operand names: a pattern's points taken apart, or a file. */
+/* What an operand names: a file, or a pattern with its number of points and dimensions. */
 typedef struct cli_source {
     bool is_pattern;
     koksma_spec spec;
@@ -37,19 +40,20 @@ typedef struct cli_source {
     int dim;
 } cli_source;
 
-/* Reads no file. Returns the exit code, after an error on stderr unless it is 0. */
+/* Parses an operand without reading its file. Returns the exit code, which is not 0 after an error on stderr. */
 int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source);
 
-/* Reads "[pattern:]SPEC[@N[@DIM]]", never as the name of a file; n and dim are 0 where they are not given. Returns the
-   exit code, after an error on stderr unless it is 0. */
+/* Parses "[pattern:]SPEC[@N[@DIM]]", which is never taken for the name of a file. n and dim are 0 where the text does
+   not give them. Returns the exit code, which is not 0 after an error on stderr. */
 int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_source *source);
 
-/* Completes the operands by -p, -n and -d, for the parser of options, and frees them. Returns the exit code. */
+/* cli_sources_expand completes the operands by -p, -n and -d, and returns the exit code; cli_sources_free frees them.
+   The option parser calls both. */
 int cli_sources_expand(cli_arguments *arguments);
 void cli_sources_free(cli_arguments *arguments);
 
-/* Refuses what can't be read so often, from operand `first` on: stdin twice, also for two warps, and files for
-   several trials, as each is one set. False after an error on stderr. */
+/* Checks the operands from number `first` on. Refuses to read stdin twice, also for two warps, and to read files for
+   several trials, because a file is one set. Returns false after an error on stderr. */
 bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trials, size_t n_warps);
 
 #endif

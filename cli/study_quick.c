@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The plan of `koksma study quick`: the patterns, measures, integrands, numbers of points and scenes of the command line as one
- * block of points and one of images, both with `skip`, written to DIR/plan.json, from where `koksma study run` takes
- * it as well. Files get absolute paths, as a plan's paths begin in its own folder.
+ * Writes the plan of `koksma study quick` to DIR/plan.json, which `koksma study run` accepts, too. The patterns,
+ * measures, integrands and numbers of points of the command line become one block of points, the scenes one block of
+ * images. Both blocks of the plan have `skip`, which leaves out sizes that a pattern does not have. Relative paths
+ * become absolute, because a plan's paths are relative to the plan's folder.
  */
 #include "study_quick.h"
 
@@ -25,7 +26,8 @@ static void put_characters(FILE *out, const char *text)
     }
 }
 
-/* A pattern, measure or scene in quotes. A relative path of one begins in the folder that the program was started in. */
+/* Prints a pattern, measure or scene in quotes. A relative path in it becomes an absolute path from the current
+   directory. */
 static void put_item(FILE *out, const char *item, bool is_scene)
 {
     char here[PATH_MAX];
@@ -60,7 +62,7 @@ static bool is_named(const koksma_spec *spec, const char *name)
     return !strncmp(text, name, length) && strchr(":", text[length]);
 }
 
-/* Every pattern that needs no file, under its own name: another name of one, such as latin-hypercube, is no other. */
+/* Prints every pattern that needs no file, once: a second name of a pattern, such as latin-hypercube, is left out. */
 static void put_all_patterns(FILE *out)
 {
     const koksma_pattern *pattern;
@@ -83,7 +85,7 @@ static void put_patterns(FILE *out, const char *list)
     }
 }
 
-/* False after an error: a number of a list that is none. */
+/* Prints the list of an option as JSON numbers. Returns false after an error if an item is not a whole number. */
 static bool put_numbers(FILE *out, const cli_arguments *arguments, const char *key, const char *option,
                         const char *fallback)
 {
@@ -143,7 +145,7 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
     return true;
 }
 
-/* Whether the plan of a folder has exactly this text, or the folder no results. */
+/* Whether the plan may be written: the folder has no results, or its plan has exactly this text. */
 static bool may_write(const char *folder, const char *path, const char *text, size_t size)
 {
     char results[CLI_QUICK_PATH + 32];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The plan of `koksma study quick`. */
+/* Writes the plan of `koksma study quick`. */
 #ifndef CLI_STUDY_QUICK_H
 #define CLI_STUDY_QUICK_H
 
@@ -7,8 +7,8 @@
 
 enum { CLI_QUICK_PATH = 1024 };
 
-/* Makes the folder and writes plan.json into it, whose path it gives; another plan that has results is left alone. The exit
-   code; not CLI_YES: after an error message. */
+/* Makes the folder and writes plan.json into it. path: the path of that file. A different plan whose results are in
+   the folder is not overwritten. Returns the exit code, which is not CLI_YES after an error. */
 int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, char path[CLI_QUICK_PATH]);
 
 #endif

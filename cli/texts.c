@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Help texts that name members of tables. A synopsis, an option's argument or help, or the details of a command may
- * hold a placeholder in braces; cli_expand puts the names in, so that a new member is in help, completion and manual
- * pages:
+ * Puts the names of table members into help texts. A synopsis, an option's argument or help, or the details of a
+ * command may hold a placeholder in braces. cli_expand replaces it by names, so that a new member of a table appears
+ * in help, completion and manual pages:
  *
  *     {curve}, {chart}                     power|rings|...: the curves that are printed, and those that are drawn
  *     {curve:OPTION}, {chart:OPTION}       power, rings, ...: those that take an option
- *     {curve-meanings}, {chart-meanings}   a paragraph each
- *     {property-meanings}                  a paragraph each, of `verify`
+ *     {curve-meanings}, {chart-meanings}   a paragraph for each of these curves
+ *     {property-meanings}                  a paragraph for each property of `verify`
  *     {image-formats}, {images}            .exr, .png, .pfm or .jpg; .exr|.png|.pfm|.jpg
  *     {lists}                              patterns|measures|...: what `list` lists
  *
- * Other braces stay as they are. The texts are kept until the program ends, in one block of fixed size; a text that
- * does not fit is a mistake in the program and aborts.
+ * Braces with any other text are kept. The texts are kept until the program ends, in one block of fixed size. The
+ * program aborts if a text does not fit, which is a bug.
  */
 #include "texts.h"
 
@@ -40,7 +40,7 @@ static void put(const char *text, size_t length)
     used += length;
 }
 
-/* "name: meaning.", a paragraph. */
+/* Appends a paragraph "name: meaning.". */
 static void put_meaning(const char *name, const char *meaning)
 {
     put(name, strlen(name));
@@ -74,7 +74,8 @@ const char *cli_image_formats(const char *comma, const char *last, char *text, s
     return text;
 }
 
-/* What a placeholder, without its braces, stands for; false: it is none. */
+/* Appends the text that a placeholder, without its braces, is replaced by. Returns false if there is no such
+   placeholder. */
 static bool put_placeholder(const char *name)
 {
     char text[512] = "", option[32] = "";

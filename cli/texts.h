@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Texts made of tables. */
+/* Puts the names of table members into help texts. */
 #ifndef KOKSMA_CLI_TEXTS_H
 #define KOKSMA_CLI_TEXTS_H
 
 #include "cli.h"
 
-/* Command i of the table with the placeholders of its texts replaced; texts.c lists them. The same pointer each time.
- */
+/* Returns command i of the table, with the placeholders in its texts replaced; texts.c lists the placeholders. Later
+   calls for the same i return the same pointer. */
 const cli_command *cli_expand(const cli_command *command, size_t i);
 
-/* The endings of image files with `comma` between and `last` before the last one, as ".exr, .png, .pfm or .jpg". Returns text. */
+/* Returns `text`: the endings of image files, with `comma` between them and `last` before the last one, such as
+   ".exr, .png, .pfm or .jpg". */
 const char *cli_image_formats(const char *comma, const char *last, char *text, size_t size);
 
-/* What `koksma list` lists (command_list.c), with `comma` between. Returns text. */
+/* Returns `text`: the names of the tables that `koksma list` prints (command_list.c), with `comma` between them. */
 const char *cli_list_names(const char *comma, char *text, size_t size);
 
 #endif

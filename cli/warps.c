@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* --warp of measure, generate and plot: looks a map up by its name, and maps sets of points. */
+/* The option --warp of measure, generate and plot: finds a map by its name, and maps sets of points. */
 #include "warps.h"
 
 #include <stdio.h>

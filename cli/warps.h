@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* --warp: maps of the square onto a domain, by name. */
+/* The option --warp: maps from the square onto a domain, by name. */
 #ifndef KOKSMA_CLI_WARPS_H
 #define KOKSMA_CLI_WARPS_H
 
@@ -7,10 +7,10 @@
 
 #include "cli.h"
 
-/* The warp of that name; NULL after an error that lists them. */
+/* Returns the warp of that name, or NULL after an error that lists all names. */
 const koksma_warp *cli_find_warp(const cli_arguments *arguments, const char *name);
 
-/* The points of the plane mapped by the warp, which *points becomes, with the warp's dim. */
+/* Maps 2-dimensional points by the warp. *points becomes the set of mapped points, of the warp's dimension. */
 koksma_status cli_map_points(const koksma_warp *warp, koksma_points *points);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Long work: threads, the progress line on stderr, and Ctrl-C, which ends the work between blocks and keeps what
- * was done.
+ * Long work: threads, the progress line on stderr, and Ctrl-C, which stops the work between blocks and keeps what was
+ * done.
  */
 #include <math.h>
 #include <signal.h>
@@ -19,7 +19,7 @@ static void on_signal(int number)
 {
     (void)number;
     interrupted = 1;
-    signal(SIGINT, SIG_DFL); /* the second one, of either kind, ends the program at once */
+    signal(SIGINT, SIG_DFL); /* a second SIGINT or SIGTERM ends the program at once */
     signal(SIGTERM, SIG_DFL);
 }
 
@@ -59,9 +59,9 @@ const char *cli_duration(double seconds, char text[CLI_NUMBER])
     return text;
 }
 
-static bool shown; /* a progress line */
+static bool shown; /* a progress line is shown */
 
-/* A line that is longer than the terminal could not be cleared. */
+/* Prints the progress line. The line is cut to the terminal's width, because a wrapped line could not be cleared. */
 static void show(cli_work *work, double fraction)
 {
     const double now = cli_seconds(), elapsed = now - work->started_s;
@@ -111,7 +111,8 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     *work = (cli_work){.what = what, .share = 1, .started_s = cli_seconds()};
     work->run = (koksma_run){
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
-    signal(SIGXFSZ, SIG_IGN); /* a full disk, or a limit, is an error of the write */
+    /* a full disk or a limit on file sizes makes the write fail, and does not kill the program */
+    signal(SIGXFSZ, SIG_IGN);
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);
     return true;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * compare: the figure of papers on sampling: the points of each source, below them the mean power spectra, and in two
- * charts for all of them the radial means and the convergence of a measure.
+ * compare: the usual figure of papers on sampling. The figure shows the points of each source, below them their mean
+ * power spectra, and below these two charts with all sources: the radial means of the spectra, and the convergence of
+ * a measure.
  */
 #include <string.h>
 
@@ -17,7 +18,7 @@ typedef struct comparison {
     char titles[CLI_MAX_PANELS][CLI_CHART_LABEL];
 } comparison;
 
-/* Points and spectra. */
+/* Prepares the panels of points and of power spectra for all sources. Returns the exit code. */
 static int open_panels(cli_curves *c, comparison *m)
 {
     size_t colours[CLI_MAX_PANELS];
@@ -70,7 +71,7 @@ const cli_curve cli_curve_compare = {
     .name = "compare",
     .meaning =
         "points, power spectra, their radial means and the convergence of a measure, of several sources beside "
-        "each other; means of 10 sets unless --trials says",
+        "each other; means of 10 sets unless --trials is given",
     .cite = "-",
     .plot = {.options = "half exact measure sizes trials", .draw = draw, .mixes_files = true},
 };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * convergence: a measure's mean over trials against n on logarithmic axes, with the line fitted by least squares to
- * the logarithms, its slope and standard error, and dashed the slope that theory gives for the pattern, or else the
- * best that any points can have. A file's sizes are its prefixes.
+ * convergence: a measure's mean over trials against n on logarithmic axes. A line is fitted by least squares to the
+ * logarithms; the legend shows its slope and standard error. A dashed line has the slope that theory gives for the
+ * pattern, or else the best slope that any points can have. For a file, the set of n points is its first n points.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@
 
 enum { MAX_SIZES = KOKSMA_MAX_SIZES, PER_SOURCE = 3 };
 
-/* A file has prefixes of all sizes. */
+/* Whether a source has a set of n points. A file has prefixes of all sizes. */
 static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
 {
     koksma_points points = {0};
@@ -25,8 +25,8 @@ static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
     return has;
 }
 
-/* --sizes, or those of the powers of four from 16 (squares: patterns with cells have them) up to the source's n that it
-   has, or else this n. */
+/* Chooses the sizes of a source: those of --sizes, or else the powers of four from 16 to n for which the source has a
+   set (powers of four are squares, which patterns with cells need), or else only n. Returns false after an error. */
 static bool choose_sizes(const cli_curves *c, const cli_source *source, size_t n, size_t *sizes, size_t *count)
 {
     const char *text = cli_text(c->arguments, "sizes", NULL);
@@ -51,15 +51,16 @@ static bool choose_sizes(const cli_curves *c, const cli_source *source, size_t n
     return true;
 }
 
-/* A source's means over trials by size. */
+/* Running statistics of a source's values over the trials, for each size. */
 typedef struct means {
     size_t sizes[MAX_SIZES], count;
     koksma_tally tallies[MAX_SIZES];
     koksma_joint joint;
-    size_t n_cut; /* values that are bounds, as the search was cut short */
+    size_t n_cut; /* values that are only bounds because the search was cut short */
 } means;
 
-/* Values over sets of n points: a pattern's own sets of n, the first n of a file. */
+/* Evaluates the measure on sets of all sizes: a pattern makes a set of n points for each n, a file has its first n
+   points. Returns the exit code. */
 static int tally_sizes(cli_curves *c, const koksma_spec *measure, const cli_source *source, const koksma_points *file,
                        means *v)
 {
@@ -92,7 +93,8 @@ static int tally_sizes(cli_curves *c, const koksma_spec *measure, const cli_sour
     return status ? cli_fail(c->arguments, status) : CLI_YES;
 }
 
-/* The fitted slope for the legend; the slope of theory through the fit's first point, dashed. */
+/* Adds a dashed line with the slope -theory, through the first point of the fitted line. what: the name of this slope
+   in the legend. */
 static void push_slopes(cli_chart_store *s, const koksma_line *line, double theory, const char *what)
 {
     const koksma_curve *values = &s->curves[s->n - 1];
@@ -113,7 +115,8 @@ static void push_slopes(cli_chart_store *s, const koksma_line *line, double theo
     s->curves[s->n - 1].errors = NULL;
 }
 
-/* What the legend says of a source: its slope, with the trials' standard error or one set's residuals. */
+/* Appends the fitted slope of a source to its label in the legend, with the standard error over the trials or, for
+   one set, that of the residuals. */
 static void label_slope(char *label, const means *v, const koksma_line *line)
 {
     const size_t used = strlen(label);
@@ -157,7 +160,7 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
     koksma_line line;
     const bool fitted = koksma_joint_line(&v->joint, v->count, numbers, numbers + s->per, &line);
     char *n = strstr(cli_title(text, label), ", n = "), *d = n ? strstr(n, ", d = ") : NULL;
-    if (n) { /* the axis has it */
+    if (n) { /* the x axis shows n */
         memmove(n, d ? d : "", d ? strlen(d) + 1 : 1);
     }
     label_slope(label, v, fitted ? &line : NULL);
@@ -219,8 +222,8 @@ const cli_curve cli_curve_convergence = {
     .name = "convergence",
     .meaning =
         "the mean of a measure over trials against n on logarithmic axes, with the fitted slope and its standard "
-        "error, and dashed the slopes that theory gives for the pattern, or else the best that any points can have; "
-        "a file's sizes are its prefixes",
+        "error; a dashed line has the slope that theory gives for the pattern, or else the best possible slope; "
+        "a file is measured by its first n points",
     .cite = "-",
     .plot = {.options = "measure sizes trials", .draw = draw, .mixes_files = true},
 };

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * filter and filter-response: pixel filters of integral 1, and the size of their frequency responses in decibels, in
- * one chart. Leakage is the part of the squared response beyond half a cycle a pixel.
+ * filter and filter-response: pixel filters, scaled to integral 1, and the absolute values of their frequency
+ * responses in decibels, all filters in one chart. Leakage is the part of the squared response beyond half a cycle a
+ * pixel.
  */
 #include <math.h>
 #include <stdio.h>
@@ -13,10 +14,10 @@
 
 enum { POSITIONS = 401, LABEL = 96 };
 
-/* Decibels below this are drawn here. */
+/* Responses below this level, in decibels, are drawn at this level. */
 static const double floor_db = -80;
 
-/* The integral of f, by midpoints. */
+/* The integral of a filter, by the midpoint rule. */
 static double mass(const koksma_filter *filter)
 {
     const int n = 4096;
@@ -27,7 +28,8 @@ static double mass(const koksma_filter *filter)
     return sum * 2 * filter->radius / n;
 }
 
-/* Up to 4 cycles a pixel, or 2 pixels from the middle. */
+/* Computes a filter at positions up to 2.2 pixels from its middle, or its response at frequencies up to 4 cycles a
+   pixel. */
 static void fill(const koksma_filter *filter, bool response, double *xs, double *ys)
 {
     const double scale = 1 / mass(filter);
@@ -83,14 +85,15 @@ static int draw(cli_curves *c)
 
 const cli_curve cli_curve_filter = {
     .name = "filter",
-    .meaning = "pixel filters, whose names are the sources",
+    .meaning = "pixel filters; the operands are names of filters",
     .cite = "-",
     .plot = {.options = "", .draw = draw, .of_filters = true},
 };
 
 const cli_curve cli_curve_filter_response = {
     .name = "filter-response",
-    .meaning = "their frequency responses; leakage is the part of the squared response beyond half a cycle a pixel",
+    .meaning = "frequency responses of pixel filters; leakage is the part of the squared response beyond half a "
+               "cycle a pixel",
     .cite = "-",
     .plot = {.options = "", .draw = draw, .of_filters = true},
 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * pairs: the pair correlation on the torus, the density of points at a distance from a point over the mean density,
- * in `bins` rings of distances up to r_max. 1 for random points.
+ * pairs: the pair correlation on the torus, which is the density of points at a distance from a point divided by the
+ * mean density. The correlation is computed in `bins` rings of distances up to r_max. Random points have the value 1.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * points: the points themselves in the square or through a map of it, with cells, the region where a measure reaches
- * its supremum, or the local discrepancy as colours behind them; one panel a source.
+ * points: draws the points of each source in a panel, in the square or mapped by a warp. Options add cells, the
+ * region where a measure reaches its supremum, or the local discrepancy as colours behind the points.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 enum { MAX_CELLS = 4096 };
 
-/* --grid M or MxN, --rooks, --columns and --rows. */
+/* Reads the number of cells from --grid M or MxN, --rooks, --columns and --rows. Returns false after an error. */
 static bool choose_cells(const cli_curves *c, const koksma_points *points, koksma_scatter_options *out)
 {
     uint64_t columns, rows;
@@ -37,14 +37,16 @@ static bool choose_cells(const cli_curves *c, const koksma_points *points, koksm
         }
     }
     if (cli_flag(c->arguments, "rooks")) {
-        columns = rows = points->n < MAX_CELLS ? points->n : 0; /* closer than a line is wide */
+        /* lines of more cells would be closer than a line is wide */
+        columns = rows = points->n < MAX_CELLS ? points->n : 0;
     }
     out->columns = columns;
     out->rows = rows;
     return true;
 }
 
-/* One panel's points, its cells and its witness; caption has room for KOKSMA_MAX_SPEC characters. */
+/* Prepares one panel: its points, cells and witness. caption has room for KOKSMA_MAX_SPEC characters. Returns the
+   exit code. */
 static int add_points(cli_curves *c, const char *source, koksma_points *points, koksma_panel *panel,
                       koksma_value *value, char *caption, char *title)
 {

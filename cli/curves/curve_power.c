@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * power: the periodogram (1/n) |sum exp(-2 pi i k.x)|^2 of points of the plane at every frequency k, mean over
- * trials; half of the plane of frequencies, since k and -k have the same. A picture leaves out the frequency 0.
+ * power: the periodogram (1/n) |sum exp(-2 pi i k.x)|^2 of 2-dimensional points at every frequency k, as a mean over
+ * trials. Rows cover half of the plane of frequencies, since k and -k have the same power. A picture leaves out the
+ * frequency 0.
  */
 #include <string.h>
 
@@ -28,7 +29,7 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
     return code;
 }
 
-/* The grid as an image, ky = half on top. */
+/* Writes the spectrum as an image; the top row has the largest ky. */
 static koksma_status write_image(const char *path, const koksma_spectrum *s)
 {
     const int side = 2 * s->half + 1;
@@ -47,7 +48,8 @@ static koksma_status write_image(const char *path, const koksma_spectrum *s)
     return status;
 }
 
-/* An image by its ending, else text or numbers. */
+/* Writes the spectrum as an image if the file's ending is that of an image format, else as text or an array of
+   numbers. */
 static koksma_status write(cli_curves *c, const koksma_spectrum *s)
 {
     const char *dot = strrchr(c->output, '.');

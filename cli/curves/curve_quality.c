@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * quality: two numbers of a blue-noise spectrum (Heck, Schlomer & Deussen 2013): the effective Nyquist frequency, up
- * to which the spectrum holds less than a tenth of random points' energy, and the oscillation beyond it, which needs
- * frequencies up to about 6.5 sqrt(n).
+ * quality: two numbers that describe a blue-noise spectrum (Heck, Schlomer & Deussen 2013). Up to the effective
+ * Nyquist frequency the spectrum holds less than a tenth of the energy of random points. The oscillation describes
+ * the spectrum beyond that frequency, and needs frequencies up to about 6.5 sqrt(n).
  */
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +32,8 @@ const cli_curve cli_curve_quality = {
     .meaning =
         "the effective Nyquist frequency, also over sqrt(n)/2 in steps of 1/sqrt(n), so that a square lattice of "
         "16 points has 3/4; and oscillation (Heck, Schlomer, Deussen 2013), which takes frequencies up to about "
-        "6.5 sqrt(n): from 85,000 points on --half must say so, up to 4096. Memory grows as its square: 1 GB at "
+        "6.5 sqrt(n): from 85,000 points on --half must ask for them, up to 4096. Memory grows as the square of H: 1 "
+        "GB at "
         "2047, 4 GB at 4096",
     .cite = "heck2013",
     .compute = compute,
