@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * min-distance: the smallest distance between two points. Larger is more even, unlike the discrepancies.
+ * min-distance: the smallest distance between two points. Unlike for the discrepancies, a larger value means more
+ * even points.
  *
  * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in the plane.
  * Source: Lagae and Dutre 2008, who compare Poisson disk patterns by it; see relative-radius.
  * Known exactly: two points at (0,0) and (1/2,1/2): 1/sqrt 2; m x m centres 1/m.
- * Limits: one point has no distance: the error KOKSMA_N, in every interface. Exact to rounding.
+ * Limits: for a single point the measure fails with KOKSMA_N. The value is exact to rounding.
  */
 #include <math.h>
 
