@@ -119,7 +119,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"grid", "sides at multiples of 1/grid only, half-open boxes (2D); 0: everywhere, exactly", 0, 0, 4096, NULL,
+    {"grid", "half-open boxes with sides at multiples of 1/grid only (2D); 0: all boxes, exactly", 0, 0, 4096, NULL,
      true},
     {0},
 };

@@ -25,7 +25,8 @@ enum { FIRST_STEPS = 200, FIRST_RESTARTS = 1 };
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    KOKSMA__FAIL_IF(points->n >= (size_t)1 << 28, KOKSMA_N, "star: n = %zu: fewer than 2^28 points", points->n);
+    KOKSMA__FAIL_IF(points->n >= (size_t)1 << 28, KOKSMA_N, "star: n = %zu: it takes fewer than 2^28 points",
+                    points->n);
     if (points->dim <= 2) {
         return koksma__star_2d(points, args->run, out);
     }

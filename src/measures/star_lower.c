@@ -27,8 +27,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"steps", "steps of a walk", 1000, 1, 1e9, NULL, true},
-    {"restarts", "walks for excess and for deficit", 10, 1, 1e6, NULL, true},
+    {"steps", "steps of each walk", 1000, 1, 1e9, NULL, true},
+    {"restarts", "walks for the excess, and as many for the deficit", 10, 1, 1e6, NULL, true},
     {"seed", "seed of the search", 1, 0, 9007199254740992.0, NULL, true},
     {0},
 };

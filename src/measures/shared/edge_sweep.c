@@ -326,7 +326,7 @@ koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const d
 {
     const size_t n_blocks = (n + PIVOTS_PER_BLOCK - 1) / PIVOTS_PER_BLOCK;
     const double end_s = koksma__deadline_s(run, 0.95);
-    KOKSMA__FAIL_IF(n > UINT32_MAX / 2, KOKSMA_N, "edge: n = %zu: fewer than 2^31 points", n);
+    KOKSMA__FAIL_IF(n > UINT32_MAX / 2, KOKSMA_N, "edge: n = %zu: it takes fewer than 2^31 points", n);
     pivots job = {.domain = domain,
                   .xs = xs,
                   .n = n,

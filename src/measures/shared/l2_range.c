@@ -65,7 +65,7 @@ static koksma_status fail_product(const koksma__l2_row *row, int dim)
 {
     return koksma__fail(KOKSMA_DIM,
                         "%s: in %d dimensions a product over the first coordinates of a point is beyond the range of "
-                        "doubles; coordinates in another order may serve",
+                        "doubles; another order of the coordinates may work",
                         row->name, dim);
 }
 

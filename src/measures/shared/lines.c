@@ -17,7 +17,8 @@ const char *const koksma__line_laws[] = {"isotropic", "mitchell", NULL};
 koksma_status koksma__fail_law_of_plane(const char *measure)
 {
     return koksma__fail(KOKSMA_ARGUMENT,
-                        "%s: law=mitchell is of lines in the plane; law=isotropic takes 3 dimensions", measure);
+                        "%s: law=mitchell is only for lines in the plane; use law=isotropic in 3 dimensions",
+                        measure);
 }
 
 /* The area of the triangle that a line cuts off from a corner at distances c/a and c/b. */

@@ -16,7 +16,7 @@ koksma_status koksma_local_discrepancy(const koksma_points *points, const double
     double volume = 1;
     size_t inside = 0;
     KOKSMA__FAIL_IF(!points || !x || !out, KOKSMA_ARGUMENT,
-                    "koksma_local_discrepancy takes points, a corner and room for the result");
+                    "koksma_local_discrepancy: points, x and out must not be NULL");
     KOKSMA__TRY(koksma__points_check(points));
     for (int k = 0; k < points->dim; k++) {
         KOKSMA__FAIL_IF(!(x[k] >= 0 && x[k] <= 1), KOKSMA_ARGUMENT, "the corner has a coordinate outside [0,1]");

@@ -74,7 +74,7 @@ koksma_status koksma__spectrum_check(const koksma_spectrum *spectrum)
 {
     return spectrum->power && spectrum->rings && spectrum->half >= 1 && spectrum->half <= KOKSMA_SPECTRUM_MAX_HALF
                ? KOKSMA_OK
-               : koksma__fail(KOKSMA_ARGUMENT, "spectrum: koksma_spectrum_init comes first");
+               : koksma__fail(KOKSMA_ARGUMENT, "spectrum: call koksma_spectrum_init first");
 }
 
 koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
@@ -87,7 +87,7 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
     KOKSMA__TRY(koksma__spectrum_check(spectrum));
     KOKSMA__TRY(koksma__points_check(points));
     KOKSMA__FAIL_IF(method != KOKSMA_SPECTRUM_EXACT && method != KOKSMA_SPECTRUM_FAST, KOKSMA_ARGUMENT,
-                    "spectrum: %d is no method", (int)method);
+                    "spectrum: there is no method %d", (int)method);
     const size_t rows = (size_t)spectrum->half + 1, count = rows * side_of(spectrum->half);
     double *power = calloc(count + 2 * rows, sizeof *power), *means = power + count;
     KOKSMA__REQUIRE_MEMORY(power, (count + 2 * rows) * sizeof *power);
