@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Chooses the table of kernels once: the fastest instruction set that the processor has (cpuid), or the one that
- * the environment variable KOKSMA_KERNELS names.
+ * Chooses the table of kernels once: the one for the fastest instruction set that the processor has (by cpuid), or
+ * the one that the environment variable KOKSMA_KERNELS names.
  */
 #include <pthread.h>
 #include <stdlib.h>

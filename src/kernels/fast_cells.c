@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Points into the cells of a grid, both coordinates of several points at once. A quotient by a power of two is a
-   product by its reciprocal, to the bit; the reference divides. */
+/* Puts points into the cells of a grid, both coordinates of several points at once. Division by a power of two is
+   done as multiplication by its reciprocal, which gives the same bits as the division in the reference. */
 
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
@@ -9,7 +9,7 @@ void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, dou
 
 enum { POINTS = LANES64 / 2 };
 
-/* Numbers of cells along x and y; the lanes alternate. exact: both are powers of two. */
+/* The numbers of cells along x and y, in even and in odd lanes. exact: both numbers are powers of two. */
 typedef struct grid {
     double m[2];
     lanes64_d ms, inverses;
@@ -26,7 +26,7 @@ static grid make_grid(size_t nx, size_t ny)
     return g;
 }
 
-/* koksma__in_cell, which takes the quotient if it is below the cell's end, else the double before the end. */
+/* koksma__in_cell in lanes: the quotient where it is below the cell's end, elsewhere the double just below that end. */
 static inline lanes64_d in_cells(const grid *g, lanes64_d cells, lanes64_d u, bool exact)
 {
     const lanes64_d places = cells + u, ends = cells + 1;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Corners whose count and volume differ too much: most blocks have none, and are left after one comparison. */
+/* Finds the box corners whose count and volume differ by more than a limit. Most blocks have no such corner and are
+   skipped after one comparison with the block's largest difference. */
 #include "kernels/kernels.h"
 
 enum { BLOCK = 128, LANES = 32 };
@@ -7,7 +8,7 @@ enum { BLOCK = 128, LANES = 32 };
 size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const float *xs, float sign, float y,
                                 float limit, uint32_t *out);
 
-/* The largest difference of `count` corners, a multiple of LANES; at least 0. */
+/* The largest difference over `count` corners, or 0 if all are negative; count is a multiple of LANES. */
 static float largest(size_t count, const int16_t *restrict counts, const float *restrict xs, float sign, float y)
 {
     float most[LANES] = {0}, largest = 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The questions of dart throwing (dart_cells.h), of many darts and of many squares at a time without branches. */
+/* Distance tests of dart throwing (see dart_cells.h), without branches: which darts are far enough from all points,
+   and which quarters of squares no point covers. */
 #include "core/random.h"
 #include "kernels/kernels.h"
 #include "kernels/lanes8.h"
@@ -51,12 +52,13 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
     return found;
 }
 
-/* The points of the cells that a square of the cell can be in reach of, but those at the corners, which hardly are:
-   21 of them, and at least eight places far away. Returns how many. */
+/* Writes to `out` the places of the points in the 21 cells around a cell (5 x 5 without the corners, whose points
+   hardly ever reach a square of the cell), then eight places of an empty cell, so that `out` can be read eight at a
+   time. Returns the number of points. */
 LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t cell_x, uint32_t cell_y,
                                  uint32_t *out)
 {
-    /* Shifts y so that points fall into the first 8 of 16 cells, and the marks of empty cells into the others. */
+    /* Subtracting `start` moves the y of points into the first 8 of 16 cells, that of empty cells into the last 8. */
     lanes8_pairs start;
     size_t count = 0;
     lanes8_splat((4 * cell_y - 17) << (KOKSMA__PLACE_BITS + 14), &start);
@@ -74,10 +76,10 @@ LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t 
     return count;
 }
 
-/* The quarters of a square: middles, half of a side in x and in y, and the places looked at. */
+/* The four quarters of a square: their middles, half of their side (in x and in y), and the distances to places. */
 typedef struct four {
     lanes8_pairs at[4], half;
-    lanes8 least[4]; /* squares of distances to far ends; the smallest of a lane */
+    lanes8 least[4]; /* the smallest squared distance, in each lane, from a place to a quarter's far corner */
 } four;
 
 LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, four *q)
@@ -90,7 +92,7 @@ LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, four *q)
     lanes8_splat(koksma__place(half, half), &q->half);
 }
 
-/* The next eight places; the first ones set `least`. */
+/* Updates `least` with eight places; the first call for a square sets it. */
 LANES8_INLINE void look_at(const lanes8_pairs *places, bool first, four *q)
 {
     for (int k = 0; k < 4; k++) {
@@ -116,8 +118,8 @@ LANES8_INLINE size_t put_quarters(uint32_t square, unsigned covered, uint32_t *o
     return (size_t)__builtin_popcount(open);
 }
 
-/* Squares so large that hardly a point beyond the eight cells about their own covers a quarter. One cell more in each
-   row is looked at in passing. Nothing depends on the square before, and nothing branches. */
+/* For squares so large that points outside the eight neighbour cells hardly ever cover a quarter. Each row is read as
+   four cells, one more than needed. No square depends on the one before it, and there are no branches. */
 static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;
@@ -140,12 +142,12 @@ static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint
     return kept;
 }
 
-/* Smaller ones: the places about a cell are found once for its squares. */
+/* For smaller squares: the places around a cell are collected once for all squares of the cell. */
 static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;
     const uint32_t half = KOKSMA__PLACE_UNITS / 4 >> own.level;
-    const uint32_t mask = ~(((1u << own.level) - 1) * 0x10001); /* keeps the bits of a square's cell */
+    const uint32_t mask = ~(((1u << own.level) - 1) * 0x10001); /* keeps the bits of a square that give its cell */
     uint32_t cell = UINT32_MAX, around[40];
     size_t kept = 0, count = 0;
     bool full = false;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Digital nets, hashed Owen scrambling and fractions: loops whose lanes are independent, for the compiler to
-   vectorise. All arithmetic on 32-bit words is exact; every division and product of doubles is rounded once. */
+/* Digital nets, hashed Owen scrambling and fractions: loops with independent iterations, which the compiler
+   vectorises. All arithmetic on 32-bit words is exact; each division and each product of doubles is rounded once. */
 #include <koksma/sampler.h>
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "kernels/kernels.def"
 #undef KERNEL
 
-/* Whether x / whole is x * (1 / whole) for all x: for the powers of two. */
+/* True for the powers of two, for which x / whole equals x * (1 / whole) for all x. */
 static bool is_power_of_two(double whole)
 {
     int exponent;
@@ -48,7 +48,8 @@ void KERNEL_NAME(steps)(size_t count, double first, double add, double whole, do
     }
 }
 
-/* Signed conversion is one instruction everywhere; v ^ 2^31 is v - 2^31, and adding it back is exact. */
+/* Converts a word by way of a signed integer, as that is one instruction on every processor: v ^ 2^31 is v - 2^31 as
+   a signed integer, and adding 2^31 back as a double is exact. */
 static inline double fraction(uint32_t v)
 {
     return ((double)(int32_t)(v ^ 0x80000000u) + 0x1p31) * 0x1p-32;
@@ -61,7 +62,7 @@ void KERNEL_NAME(fractions)(size_t count, const uint32_t *restrict v, double *re
     }
 }
 
-/* Doubling: the second half of an aligned block is the first, xor one direction. */
+/* By doubling: the second half of an aligned block is the first half xor one direction. */
 void KERNEL_NAME(digital)(size_t count, const uint32_t *restrict directions, uint32_t start, uint32_t *restrict out)
 {
     if (count) {
@@ -102,7 +103,8 @@ void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
     }
 }
 
-/* Eight points at a time: the partners of an aligned group of eight are one, in an order that xor makes. */
+/* Eight points at a time: the partners of an aligned group of eight points form an aligned group too, whose order is
+   permuted by the lowest three bits of `partner`. */
 typedef uint32_t octet __attribute__((vector_size(32)));
 
 #define GROW_OCTETS(p)                                                                                               \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Disks on the torus. The arc cosine and the logarithm of their overlaps are polynomials here, so that whole vectors
-   go through them and every instruction set gives the same bits; sums run in a fixed number of lanes. */
+/* Overlaps of disks on the torus. The arc cosine and the logarithm in the formulas are evaluated as polynomials on
+   whole vectors, and sums run in a fixed number of lanes, so that every instruction set gives the same bits. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t 
 
 enum { LANES = 8, VECTORS = LANES / LANES64 };
 
-/* (asin(sqrt z) / sqrt z - 1) / z on [0, 1/4], to 2.4e-16: the Chebyshev fit of degree 11. */
+/* (asin(sqrt z) / sqrt z - 1) / z on [0, 1/4], by a Chebyshev fit of degree 11 with error 2.4e-16. */
 static inline lanes64_d asin_series(lanes64_d z)
 {
     static const double c[] = {0.166666666666666486,  0.0750000000002076436,  0.0446428571034236434,
@@ -35,8 +35,8 @@ static inline lanes64_d arc_cosine(lanes64_d x)
     return lanes64_chosen(low, M_PI / 2 - angle, 2 * angle);
 }
 
-/* ln of a normal number >= 1, to 3e-16 relative to 1 or to the result: the exponent, and 2 atanh((m-1)/(m+1)) of
-   the mantissa m in [1/sqrt 2, sqrt 2] by its series. */
+/* ln of a normal number >= 1, with an error of 3e-16 relative to the larger of 1 and the result: the exponent times
+   ln 2, plus ln m = 2 atanh((m-1)/(m+1)) by its series, with the mantissa m in [1/sqrt 2, sqrt 2]. */
 static inline lanes64_d logarithm(lanes64_d y)
 {
     const lanes64_d biased = (lanes64_d)(((lanes64_u)y >> 52) | 0x4330000000000000u); /* 2^52 + the exponent */
@@ -51,7 +51,7 @@ static inline lanes64_d logarithm(lanes64_d y)
     return lanes64_chosen(high, exponent + 1, exponent) * M_LN2 + 2 * (s * sum);
 }
 
-/* The overlap for r = 1 of disks whose centres are 2q apart; 0 from q = 1 on. */
+/* The overlap of two disks of radius 1 whose centres are 2q apart; 0 for q >= 1. */
 static inline lanes64_d overlap(int law, lanes64_d q)
 {
     const lanes64_d t = lanes64_min(q, lanes64_splat_d(1)), s = lanes64_sqrt((1 - t) * (1 + t)),
@@ -81,7 +81,7 @@ static inline lanes64_d overlap_images(int law, int images, double scale, lanes6
            (overlap_at(law, scale, ax, by) + overlap_at(law, scale, bx, ay));
 }
 
-/* Disks at infinity, which fill up the last vectors, overlap none: they add 0. */
+/* The last vectors are filled up with disks at infinity, which overlap nothing and add 0. */
 static inline double sum_overlaps(int law, int images, double r, double x, double y, size_t count, const double *xs,
                                   const double *ys)
 {
@@ -108,7 +108,7 @@ static inline double sum_overlaps(int law, int images, double r, double x, doubl
 double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t count, const double *xs,
                                   const double *ys)
 {
-    /* Up to r = 1/4 only the nearest image can overlap; up to 1/2 the four nearest. */
+    /* For r <= 1/4 only the nearest periodic image of a disk can overlap; for r <= 1/2 the four nearest can. */
     switch (2 * law + (r > 0.25)) {
     case 0:
         return sum_overlaps(0, 1, r, x, y, count, xs, ys);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Best boxes of 16 strips at once: points outside a strip change nothing but its candidates for sides, which are then
-   no worse than true ones. */
+/* Best boxes of 16 vertical strips at once, by one pass over the points in order of y. A point outside a strip does
+   not change the strip's count; it only adds its y as a candidate for a side of a box, and the largest value over all
+   y is the same, as a side through a point of the strip is no worse. */
 #include <math.h>
 #include <string.h>
 

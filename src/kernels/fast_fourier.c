@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sums of outer products in registers, and Stockham's transform (radix 4, and 2 once for odd m) with 16 sequences
-   side by side, so that every loop is over lanes. */
+/* Sums of outer products in registers, and Stockham's fast Fourier transform of length 2^m (radix 4, with one step of
+   radix 2 for odd m) of 16 interleaved sequences, so that every inner loop runs over lanes. */
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
@@ -10,7 +10,7 @@ void KERNEL_NAME(outer_sums)(size_t count, const double *a, const double *b, dou
 bool KERNEL_NAME(fourier16)(size_t n, const double *twiddles, double *re, double *im, double *spare_re,
                             double *spare_im);
 
-/* A step transforms as many rows at once as fit into the registers. Type `loose` is a vector without alignment. */
+/* outer_sums works on GROUP rows at a time, as many as fit into the registers. Type `loose` is an unaligned vector. */
 enum { VECTORS = LANES / LANES64, GROUP = LANES64 == 8 ? 8 : LANES64 / 2 };
 typedef double loose __attribute__((vector_size(8 * LANES64), aligned(8), may_alias));
 

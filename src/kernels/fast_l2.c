@@ -18,7 +18,8 @@ typedef struct shape {
     double q, r;
 } shape;
 
-/* out[0 .. count) = the kernels of point i with points j .. j + count - 1 in coordinate k, times out if k > 0. */
+/* Multiplies out[0 .. count) by the kernels of point i with points j .. j + count - 1 in coordinate k; for k = 0 sets
+   it to them. */
 static inline void multiply(const shape *s, size_t k, size_t i, size_t j, size_t count, double *restrict out)
 {
     const double *restrict u = s->u + k * s->n + j, *restrict g = s->g + k * s->n + j;
@@ -36,7 +37,7 @@ static inline void multiply(const shape *s, size_t k, size_t i, size_t j, size_t
     }
 }
 
-/* sum_{j < i} of the products */
+/* The sum over all j < i of the products over the coordinates of the kernels of points i and j. */
 static double row(const shape *s, size_t i)
 {
     double lanes[LANES] = {0}, products[CHUNK];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The product of a matrix of 32 x 32 bits and the words of many points, modulo 2. */
+/* Multiplies a matrix of 32 x 32 bits with the words of many points, modulo 2. With AVX2 each product is looked up in
+   tables for 4 bits by byte shuffles. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -11,13 +12,15 @@ enum { POINTS = 32 };
 #ifdef __AVX2__
 #include <immintrin.h>
 
-/* With byte k of 32 points side by side, a shuffle of bytes looks up what four bits add to a byte of the result. */
+/* Tables for the byte shuffle, which looks up for 32 points at once what four bits of a word contribute to one byte
+   of the result. */
 typedef struct tables {
-    __m256i bytes[4]
-                 [4]; /* of byte j to byte k: of its lower four bits in the lower half, of its upper in the upper */
+    __m256i
+        bytes[4]
+             [4]; /* [j][k], from byte j to byte k: low half, for its low four bits; high half, for the high four */
 } tables;
 
-/* Four words become four vectors, of 4-byte parts, in each half. Its own inverse. */
+/* Transposes, within each 128-bit half, the 4 x 4 matrix of 4-byte words of four vectors; is its own inverse. */
 static inline __attribute__((always_inline)) void transpose(__m256i v[4])
 {
     const __m256i a = _mm256_unpacklo_epi32(v[0], v[1]), b = _mm256_unpackhi_epi32(v[0], v[1]);
@@ -28,7 +31,8 @@ static inline __attribute__((always_inline)) void transpose(__m256i v[4])
     v[3] = _mm256_unpackhi_epi64(b, d);
 }
 
-/* The bytes of four words, all first ones first; of these, the words. */
+/* Within each group of four words puts the first bytes first, then the second, third and fourth bytes; is its own
+   inverse. */
 static inline __attribute__((always_inline)) void sort_bytes(__m256i v[4])
 {
     const __m256i order =

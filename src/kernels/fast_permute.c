@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_permute for many elements at once. The bijection of the next power of two is the same few steps for all;
-   those that it takes beyond n are put together and go through it again. */
+/* koksma_permute for many elements at once by cycle walking: a bijection of 0 .. 2^k - 1, with 2^k >= n the next
+   power of two, is applied to all elements; those that it maps to n or above are collected and mapped again. */
 #include <koksma/sampler.h>
 
 #include "kernels/kernels.h"
@@ -10,7 +10,7 @@ void KERNEL_NAME(permute)(uint32_t first, size_t count, uint32_t n, uint64_t key
 enum { ROUNDS = 6, BLOCK = 256 };
 
 typedef struct bijection {
-    uint32_t mask, near, far; /* of the power of two; how far the upper bits are moved */
+    uint32_t mask, near, far; /* the power of two less 1; two distances by which upper bits are shifted down */
     uint32_t flip[ROUNDS], factor[ROUNDS], add[ROUNDS];
 } bijection;
 

@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Philox4x32-10, and -7 for draws, on vectors of counters, each word in the lower half of a 64-bit lane. Same bits as Random123's
-   (Salmon et al. 2011), which the reference twin calls. */
+/* The random generator Philox4x32-10 (for the kernel `draws` with 7 rounds) on vectors of counters, with each word in
+   the lower half of a 64-bit lane. It gives the same bits as the Random123 library (Salmon et al. 2011), which the
+   reference calls. */
 #include <string.h>
 
 #include "core/random.h"
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-/* Independent chains hide the multiplier's latency, about as many as the registers hold; the last few numbers take
-   fewer. */
+/* CHAINS independent vectors are computed together to hide the latency of multiplication, about as many as fit into
+   the registers; the last few numbers use fewer. */
 enum {
     CHAINS = LANES64 == 8   ? 4
              : LANES64 == 4 ? 3
                             : 2,
     LANES = CHAINS * LANES64,
-    ROUNDS = 8 /* behind the first two */,
+    ROUNDS = 8 /* after the first two */,
     DRAW_ROUNDS = 5
 };
 
-/* Lanes are in the order of lanes64_count_pairs, if nothing is said; their upper halves are garbage. */
+/* The four words of LANES counters. Lanes are in the order of lanes64_count_pairs unless a comment names another;
+   their upper halves have no meaning. */
 typedef struct block {
     lanes64_u w[4][CHAINS];
 } block;
@@ -29,15 +31,16 @@ void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
 void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs);
 
-/* What counters share that differ in the lowest word only: that round 0 makes w[0] and w[1] the same for all, and
-   round 1 w[3] and what w[2] is xored with. The keys of the other rounds; in memory they take no instruction. */
+/* Values that all counters share which differ only in their lowest word: round 0 gives them equal w[0] and w[1],
+   round 1 an equal w[3] and an equal word to xor into w[2]. Then the keys of the other rounds, which are used as
+   memory operands and need no load instruction. */
 typedef struct stream {
     lanes64_u w2_of_0, w0_of_1, w2_of_1, w3_of_1, keys[ROUNDS][2];
 } stream;
 
 static const uint32_t multiplier[2] = {0xD2511F53u, 0xCD9E8D57u}, weyl[2] = {0x9E3779B9u, 0xBB67AE85u};
 
-/* Not inlined: compilers would make the vectors anew in each round. */
+/* Not inlined, as compilers would otherwise build the vectors again in each round. */
 static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpose, uint32_t high, uint32_t lane,
                                                   int rounds, stream *out)
 {
@@ -57,9 +60,9 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
     }
 }
 
-#define INLINE static inline __attribute__((always_inline)) /* once for each number of chains */
+#define INLINE static inline __attribute__((always_inline)) /* compiles one copy for each number of chains */
 
-/* The first two rounds, and one of the others. */
+/* begin does the first two rounds, go_on one of the others. */
 INLINE block begin(const stream *s, lanes64_u order, uint64_t first, int chains)
 {
     const lanes64 m0 = (lanes64)lanes64_splat(multiplier[0]), m1 = (lanes64)lanes64_splat(multiplier[1]);
@@ -105,8 +108,8 @@ INLINE block philox(const stream *s, uint64_t first, int chains)
 
 typedef uint32_t words_of_lanes __attribute__((vector_size(8 * LANES64)));
 
-/* koksma__unit: (high * 2^21 + low / 2^11) * 2^-53, as an exact sum of two doubles. 2^20 + high 2^-32 and
-   1/2 + (low / 2^11) 2^-53 have these numbers as the lower bits of their mantissas. */
+/* koksma__unit in lanes: (high * 2^21 + low / 2^11) * 2^-53, as an exact sum of two doubles. The doubles 2^20 + high
+   2^-32 and 1/2 + (low / 2^11) 2^-53 have high and low / 2^11 as the low bits of their mantissas. */
 static inline lanes64_d unit(lanes64_u high, lanes64_u low)
 {
     const lanes64_u upper = lanes64_splat(0x4130000000000000u), lower = lanes64_splat(0x3fe0000000000000u);
@@ -115,7 +118,7 @@ static inline lanes64_d unit(lanes64_u high, lanes64_u low)
     return h + l;
 }
 
-/* The pairs of a block, in order. */
+/* Stores the pairs of doubles of a block, in the order of the counters. */
 INLINE void store_units(const block *b, int chains, double *out)
 {
     for (int c = 0; c < chains; c++, out += 2 * LANES64) {
@@ -126,7 +129,7 @@ INLINE void store_units(const block *b, int chains, double *out)
     }
 }
 
-/* The words of a block, in order; two make a lane. */
+/* Stores the words of a block, in the order of the counters; two words fill a lane. */
 INLINE void store_words(const block *b, int chains, uint32_t *out)
 {
     for (int c = 0; c < chains; c++, out += 4 * LANES64) {
@@ -139,7 +142,7 @@ INLINE void store_words(const block *b, int chains, uint32_t *out)
     }
 }
 
-/* The numbers below `first` + count of the counters from it on that share the second word. */
+/* How many of the counters first .. first + count - 1 share the second word of `first`. */
 static size_t share(uint64_t first, size_t count)
 {
     const uint64_t left = ((uint64_t)1 << 32) - (uint32_t)first;
@@ -191,7 +194,7 @@ INLINE void quads(const stream *s, uint64_t first, int chains, int rounds, uint3
     store_words(&b, chains, out);
 }
 
-/* room: whole vectors may be written. */
+/* room: `out` has room for whole vectors beyond the last number. */
 INLINE void some_words(const stream *s, uint64_t first, size_t count, int rounds, bool room, uint32_t *out)
 {
     size_t done = 0;
@@ -238,7 +241,7 @@ void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
     all_words(seed, purpose, first, lane, count, DRAW_ROUNDS, out);
 }
 
-/* koksma__below(word, first + i + 1) for the words number i of a block, in order: the products' upper halves. */
+/* Stores koksma__below(word, first + i + 1) for word number i of a block, in order: the upper half of the product. */
 INLINE void store_below(const block *b, uint32_t first, int chains, uint32_t *out)
 {
     lanes64_u bound = 4 * lanes64_count_pairs() + lanes64_splat(first + 1);
@@ -257,7 +260,7 @@ INLINE void store_below(const block *b, uint32_t first, int chains, uint32_t *ou
     }
 }
 
-/* Numbers first .. first + count - 1 of an order that grows inside out. */
+/* Adds the numbers first .. first + count - 1 to a random permutation by the inside-out Fisher-Yates shuffle. */
 INLINE void insert(const uint32_t *at, uint32_t first, uint32_t count, uint32_t *out)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -267,8 +270,8 @@ INLINE void insert(const uint32_t *at, uint32_t first, uint32_t count, uint32_t 
     }
 }
 
-/* The random numbers wait for the multiplier, the order for the caches: the rounds of a block of numbers take turns
-   with the use of the block before. */
+/* Computing random numbers waits for multiplications, inserting them for the caches. To overlap the two, each round
+   for a block of numbers is followed by inserting a part of the block before. */
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
 {
     enum { WORDS = 4 * LANES, SHARE = WORDS / ROUNDS };
@@ -290,16 +293,17 @@ void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t
     insert(at, first, n - first, out);
 }
 
-/* (cell + word 2^-32) / n. `upper` has the cell in its upper half, with the exponent of `base`, 2^20: with the word
-   below it, it is their sum to the last bit. For powers of two base is 2^20 / n, and all of it smaller by n. */
+/* (cell + word 2^-32) / n, exactly for n a power of two. `upper` has the cell in its upper half together with the
+   exponent of base = 2^20, so that with the word in the lower half it is the double base + cell + word 2^-32. For n a
+   power of two base is 2^20 / n instead, which divides the whole sum by n. */
 INLINE lanes64_d place(lanes64_u word, lanes64_u upper, lanes64_d base, lanes64_d n, bool power_of_two)
 {
     const lanes64_d x = (lanes64_d)lanes64_halves(word, upper) - base;
     return power_of_two ? x : x / n;
 }
 
-/* With n <= 2^20 the quotient is below the cell's end: they are 2^-52 apart, and the double before 1 is 2^-53 from
-   it. Two points a counter, which are rows of four numbers. */
+/* For n <= 2^20 the quotient is below the cell's end after rounding: the two are at least 2^-52 apart, and the double
+   before 1 is 1 - 2^-53. Each counter gives two points, which are stored as a row of four numbers. */
 INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, size_t count, double n,
                           bool power_of_two, double *xs)
 {
@@ -324,7 +328,7 @@ INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, s
     return i;
 }
 
-/* koksma__in_cell. */
+/* koksma__in_cell of patterns/shared/cells.h. */
 static double in_cell(double cell, uint32_t word, double n)
 {
     const double x = (cell + word * 0x1p-32) / n, end = (cell + 1) / n;

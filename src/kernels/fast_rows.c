@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Coordinates side by side. For the points of a digital net without columns in between: words in 64-bit lanes with
-   the exponent of 2^20 above them are doubles 2^20 + w 2^-32, and those of an aligned group of 32 points are the
-   words of the first group, xor one word a coordinate. */
+/* Stores points row by row, with the coordinates of a point adjacent, from columns of coordinates or, for a digital
+   net, directly from its directions. A word w in a 64-bit lane below the exponent of 2^20 is the double 2^20 + w
+   2^-32. The words of an aligned group of 32 points of a net are those of the first group, xor one word for each
+   coordinate. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -15,13 +16,14 @@ void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, 
 void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
                                 double *out);
 
-#define INLINE static inline __attribute__((always_inline)) /* once for each dim, stream and kind of column */
+#define INLINE static inline __attribute__((always_inline)) /* one copy for each dim, stream and kind of column */
 #define EXPONENT 0x4130000000000000u
 
 enum { BITS = 5, GROUP = 1 << BITS, MOST_DIM = 16, RUN = MOST_DIM * LANES64, TURN = GROUP / LANES64 };
 
-/* The first group; and as vectors over LANES64 points what group g has to be xored with, and what that is xored with
-   from group g to g + 1, when g + 1 ends in j zeros. */
+/* group: the words of the first group. start: the word of each coordinate with which the current group is xored,
+   repeated for LANES64 points. change[j]: the words to xor into it on the step from group g to g + 1 when g + 1 ends
+   in j zero bits. */
 typedef struct net {
     uint64_t group[GROUP * MOST_DIM], start[RUN], change[32 - BITS][RUN];
 } net;
@@ -111,7 +113,7 @@ void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *dir
 
 typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
 
-/* Columns of doubles, or of words w for w 2^-32: one of them is NULL. */
+/* Stores columns of doubles, or of words w that mean w 2^-32; one of the two pointers is NULL. */
 INLINE void store_columns(size_t count, int dim, const double *doubles, const uint32_t *words, size_t stride,
                           bool stream, double *out)
 {
@@ -136,7 +138,7 @@ INLINE void store_columns(size_t count, int dim, const double *doubles, const ui
     }
 }
 
-/* dim 2 or 4, told apart here, so that each has code of its own. */
+/* Branches on dim, 2 or 4, so that the compiler makes separate code for each. */
 INLINE void rows_of(size_t count, int dim, const double *doubles, const uint32_t *words, size_t stride, bool stream,
                     double *out)
 {
@@ -158,7 +160,7 @@ INLINE void rows_of(size_t count, int dim, const double *doubles, const uint32_t
 void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
                                   double *out)
 {
-    if (columns) { /* so that the compiler knows which of the two is NULL */
+    if (columns) { /* branches so that the compiler knows which pointer is NULL */
         rows_of(count, dim, columns, NULL, stride, stream, out);
     }
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The sweep of the star discrepancy: the counts after an insertion serve the excess at this x and the deficit at the
-   next. Maxima are kept in lanes; a maximum is the same in any order. The partition's steps are convolutions with
-   extremes for sums: each vector of results stays in registers while one list slides along the other. */
+/* Two parts of the star discrepancy. The sweep of the plane uses the counts after each insertion twice, for the
+   excess at this x and the deficit at the next x. Maxima are kept in lanes, as a maximum does not depend on the
+   order. The steps of the partition are convolutions with extremes in place of sums: each vector of results stays in
+   registers while one list slides along the other. */
 #include <math.h>
 #include <string.h>
 
@@ -20,8 +21,8 @@ typedef struct step {
     double best[2];
 } step;
 
-/* Excess of ranks 0 .. n-1 and deficit of ranks 0 .. n. What vectors reach behind is a box of height 1, whose deficit
-   is that of rank n and whose excess is no larger than that of rank n-1. */
+/* The largest excess over ranks 0 .. n-1 and the largest deficit over ranks 0 .. n. The last vector reads past the
+   end, where y is 1: such a box has the deficit of rank n, and no larger excess than rank n-1. */
 static void maxima(size_t n, const double *y, const double *count, step *s)
 {
     lanes64_d excess = lanes64_splat_d(-INFINITY), deficit = excess;
@@ -43,7 +44,7 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
     }
     at[0] = at[1] = 0;
     best[0] = -INFINITY;
-    best[1] = scale * x[0]; /* nothing before the first point: the whole height */
+    best[1] = scale * x[0]; /* the empty box of full height to the left of the first point */
     for (size_t i = 0; i < n; i++) {
         step s = {.here = scale * x[i], .next = scale * (i + 1 < n ? x[i + 1] : 1)};
         for (size_t j = (size_t)rank[i] + 1; j <= n + 8; j++) {
@@ -63,15 +64,16 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
 
 enum { WIDTH = 8, VECTORS = WIDTH / LANES64, ROOM = 256 };
 
-/* Up to ROOM sides of the longer list, between WIDTH that change no extreme: 0, and infinity (whose product with 0 is
-   no number, and not below any). The shorter list is that of the kernel's caller. */
+/* longs: up to ROOM sides of the longer list, padded at both ends with WIDTH numbers that change no extreme: 0 for
+   the largest, infinity for the smallest product (0 times infinity is NaN, which is not below any number). shorts:
+   the shorter list, not copied. */
 typedef struct convolution {
     size_t n_short, first, count;
     const double *shorts[2];
     double longs[2][ROOM + 2 * WIDTH];
 } convolution;
 
-/* The extremes of short[i] long[j], i + j = c .. c + WIDTH - 1, and those that are already there. */
+/* Updates the extremes of the products short[i] long[j] with i + j = c .. c + WIDTH - 1. */
 static inline void extremes(const convolution *s, size_t c, lanes64_d most[VECTORS], lanes64_d least[VECTORS])
 {
     const size_t past = s->first + s->count, begin = c >= past ? c - past + 1 : 0;
@@ -85,7 +87,7 @@ static inline void extremes(const convolution *s, size_t c, lanes64_d most[VECTO
     }
 }
 
-/* Takes the chunk of the longer list from `first`. Returns the number behind its largest i + j. */
+/* Copies the chunk of the longer list that begins at `first`. Returns one more than its largest i + j. */
 static inline size_t take_chunk(convolution *s, size_t n_long, const double *const longs[2], size_t first)
 {
     s->first = first;
@@ -122,7 +124,8 @@ void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, 
     }
 }
 
-/* Rounding keeps order, so that the share of all pairs of one sum can be taken from their extremes. */
+/* All pairs with the same i + j subtract the same share of points. Rounding is monotonic, so that it suffices to
+   subtract it from the extremes of their products. */
 void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
                              double inside, double best[2])
 {

@@ -14,14 +14,15 @@ typedef struct koksma__kernel_table {
 #undef KERNEL
 } koksma__kernel_table;
 
-/* The fastest table that this machine runs; the reference twins with KOKSMA_KERNELS=ref in the environment, and
-   another table by its name. Chosen once. */
+/* The table of the fastest kernels that this machine runs, or the table that the environment variable KOKSMA_KERNELS
+   names (KOKSMA_KERNELS=ref: the reference kernels). The choice is made once. */
 KOKSMA__LAB const koksma__kernel_table *koksma__kernels(void);
 
-/* A table by its name; NULL if this build or machine has none. For tests and benchmarks. */
+/* The table of kernels with this name; NULL if this build or machine has none. For tests and benchmarks. */
 KOKSMA__LAB const koksma__kernel_table *koksma__kernels_find(const char *isa);
 
-/* In a kernel's source file, KERNEL_NAME(uniform) is the symbol for the instruction set being compiled. */
+/* In a kernel's source file, KERNEL_NAME(uniform) is the name of that kernel's function for the instruction set being
+   compiled. */
 #define KOKSMA__JOIN3(a, b, c) a##b##_##c
 #define KOKSMA__JOIN(a, b, c) KOKSMA__JOIN3(a, b, c)
 #define KERNEL_NAME(name) KOKSMA__JOIN(koksma__kernel_, name, KOKSMA_ISA)

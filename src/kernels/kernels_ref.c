@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reference twins: plain loops and compensated sums, no intrinsics, no blocking. The judge of fast_*.c. */
+/* The reference kernels of the measures: plain loops and compensated sums, without intrinsics or blocking. Tests
+   compare fast_*.c with them. */
 #define KOKSMA_ISA ref
 #include <math.h>
 
@@ -67,7 +68,7 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
                              double best[2], size_t at[2])
 {
     for (size_t j = 0; j <= n; j++) {
-        count[j] = 0; /* points so far of rank below j */
+        count[j] = 0; /* the number of points so far whose rank is below j */
     }
     best[0] = best[1] = -INFINITY;
     at[0] = at[1] = 0;
@@ -219,7 +220,8 @@ static double overlap(int law, double r, double distance)
     if (h >= r) {
         return 0;
     }
-    const double s = sqrt((r - h) * (r + h)), angle = atan2(s, h); /* r * r - h * h cancels at h = r */
+    const double s = sqrt((r - h) * (r + h)),
+                 angle = atan2(s, h); /* in this form, as r * r - h * h cancels near h = r */
     switch (law) {
     case 0:
         return 2 * r * r * angle - 2 * h * s;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Vectors of 64-bit lanes for the one thing that compilers don't find by themselves: the product of two 32-bit
-   numbers in 64-bit lanes as one instruction. What the upper half of a lane holds does not matter to it. */
+/* Vectors of 64-bit lanes, for operations that compilers do not turn into one instruction by themselves, above all
+   lanes64_product: the 64-bit product of the 32-bit numbers in the lower halves of lanes, whatever the upper halves
+   hold. */
 #ifndef KOKSMA_KERNELS_LANES64_H
 #define KOKSMA_KERNELS_LANES64_H
 
@@ -42,7 +43,7 @@ static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
 }
 #endif
 
-/* Lanes of 64 bits as unsigned and signed integers and as doubles, for the operators of the compiler's vector types. */
+/* Vectors of 64-bit unsigned integers, signed integers and doubles, to which the compiler's operators apply. */
 typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
 typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
@@ -77,7 +78,7 @@ static inline lanes64_u lanes64_count(void)
 #endif
 }
 
-/* 0 .. LANES64 - 1 in the order in which lanes64_pairs takes its lanes. */
+/* 0 .. LANES64 - 1 in the order of lanes that lanes64_pairs expects. */
 static inline lanes64_u lanes64_count_pairs(void)
 {
 #if defined(__AVX512F__)
@@ -89,7 +90,8 @@ static inline lanes64_u lanes64_count_pairs(void)
 #endif
 }
 
-/* low, high = x[0], y[0], x[1], y[1], ..., of lanes in that order: one instruction each. */
+/* low, high = x[0], y[0], x[1], y[1], ..., where the lanes of x and y are in the order of lanes64_count_pairs: one
+   instruction for each result. */
 static inline void lanes64_pairs(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64_d *high)
 {
 #if defined(__AVX512F__)
@@ -104,7 +106,7 @@ static inline void lanes64_pairs(lanes64_d x, lanes64_d y, lanes64_d *low, lanes
 #endif
 }
 
-/* Lanes of the lower half of `low` and the upper half of `high`. */
+/* Each lane of the result has the lower half of the lane of `low` and the upper half of the lane of `high`. */
 static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
 {
 #if defined(__AVX2__) && !defined(__AVX512F__)
@@ -114,7 +116,8 @@ static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
 #endif
 }
 
-/* The words that lay at even and at odd places where lanes of two were loaded from; the upper halves are garbage. */
+/* For lanes loaded from an array of words: the words of even index (for lanes64_odd_words: of odd index), in the
+   lower halves; the upper halves have no meaning. */
 static inline lanes64_u lanes64_even_words(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -133,7 +136,8 @@ static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
 #endif
 }
 
-/* The even words of the lanes, in the upper halves; what is in the lower halves has no meaning. */
+/* For lanes loaded from an array of words: the words of even index (for lanes64_odd_upper: of odd index), in the
+   upper halves; the lower halves have no meaning. */
 static inline lanes64_u lanes64_even_upper(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -152,8 +156,8 @@ static inline lanes64_u lanes64_odd_upper(lanes64_u lanes)
 #endif
 }
 
-/* Lanes that hold two words each, of which `even` lies first in memory: from the lower halves, and from the upper
- * ones. */
+/* Lanes of two words each, the word from `even` first in memory and the word from `odd` second. lanes64_words takes
+   the lower halves of its arguments, lanes64_upper_words the upper halves. */
 static inline lanes64_u lanes64_words(lanes64_u even, lanes64_u odd)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -172,25 +176,25 @@ static inline lanes64_u lanes64_upper_words(lanes64_u even, lanes64_u odd)
 #endif
 }
 
-/* x where the mask is set, and 0 elsewhere. */
+/* The lanes of x where the mask is set, 0 in the other lanes. */
 static inline lanes64_d lanes64_masked(lanes64_i mask, lanes64_d x)
 {
     return (lanes64_d)((lanes64_i)x & mask);
 }
 
-/* x where the mask is set, and y elsewhere. */
+/* The lanes of x where the mask is set, those of y elsewhere. */
 static inline lanes64_d lanes64_chosen(lanes64_i mask, lanes64_d x, lanes64_d y)
 {
     return (lanes64_d)(((lanes64_i)x & mask) | ((lanes64_i)y & ~mask));
 }
 
-/* Whole numbers below 2^52 as doubles. */
+/* Converts whole numbers below 2^52 to doubles. */
 static inline lanes64_d lanes64_whole(lanes64_u x)
 {
     return (lanes64_d)(x | 0x4330000000000000u) - 0x1p52;
 }
 
-/* The largest whole numbers not above numbers in [0, 2^52). */
+/* The floor of each lane, for numbers in [0, 2^52). */
 static inline lanes64_d lanes64_floor(lanes64_d x)
 {
 #if defined(__AVX2__) && !defined(__AVX512F__)
@@ -218,7 +222,7 @@ static inline void lanes64_zip(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64
 #endif
 }
 
-/* out = x[0], y[0], x[1], y[1], ...: the bits of 2 LANES64 doubles. */
+/* Writes x[0], y[0], x[1], y[1], ... to out, which has room for 2 LANES64 doubles. */
 static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
 {
     lanes64_d low, high;
@@ -227,7 +231,7 @@ static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
     memcpy((char *)out + sizeof low, &high, sizeof high);
 }
 
-/* x < y ? x : y, and x > y ? x : y. */
+/* lanes64_min is x < y ? x : y in each lane, lanes64_max is x > y ? x : y. */
 static inline lanes64_d lanes64_min(lanes64_d x, lanes64_d y)
 {
 #if defined(__AVX512F__)
@@ -287,7 +291,7 @@ static inline double lanes64_largest(lanes64_d v)
 #endif
 }
 
-/* Stores a vector; with stream, past the caches, for which `out` is aligned to 16 bytes. */
+/* Stores a vector. With stream the write bypasses the caches, and `out` must be aligned to 16 bytes. */
 static inline void lanes64_store(lanes64_d v, bool stream, double *out)
 {
 #if defined(__SSE2__)
@@ -304,7 +308,7 @@ static inline void lanes64_store(lanes64_d v, bool stream, double *out)
     memcpy(out, &v, sizeof v);
 }
 
-/* LANES64 points of 2 or 4 coordinates from as many columns. */
+/* Stores LANES64 points of dim = 2 or 4 coordinates, given as dim vectors, one for each coordinate. */
 static inline __attribute__((always_inline)) void lanes64_store_rows(const lanes64_d *columns, int dim, bool stream,
                                                                      double *out)
 {
@@ -333,7 +337,7 @@ static inline __attribute__((always_inline)) void lanes64_store_rows(const lanes
     }
 }
 
-/* After the last streaming store. */
+/* To be called after the last streaming store. */
 static inline void lanes64_stored(void)
 {
 #if defined(__SSE2__)

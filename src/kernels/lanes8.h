@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Eight words of two 16-bit numbers each, and what compilers don't find by themselves: the sum of the squares of the
-   two, which lanes of a mask are set, and a vector's chosen lanes side by side. Without AVX2 they are two vectors, or
-   whatever the compiler makes of them. */
+/* Vectors of eight words of two 16-bit numbers each, with operations that compilers do not turn into one instruction
+   by themselves: the sum of the squares of the two numbers, the bits of the lanes that are set in a mask, and packing
+   the chosen lanes of a vector. Without AVX2 a vector is two of 128 bits, or what the compiler makes of it. */
 #ifndef KOKSMA_KERNELS_LANES8_H
 #define KOKSMA_KERNELS_LANES8_H
 
@@ -27,7 +27,7 @@ LANES8_INLINE void lanes8_load(const uint32_t *from, lanes8_pairs *v)
     memcpy(v, from, sizeof *v);
 }
 
-/* Two halves. */
+/* Loads the first four words from `low` and the last four from `high`. */
 LANES8_INLINE void lanes8_load_halves(const uint32_t *low, const uint32_t *high, lanes8_pairs *v)
 {
     uint32_t words[8];
@@ -59,7 +59,7 @@ LANES8_INLINE void lanes8_squares(const lanes8_pairs *v, lanes8 *sums)
 #endif
 }
 
-/* Of both numbers of each lane, as signed ones. */
+/* Replaces both numbers of each lane, taken as signed, by their absolute values. */
 LANES8_INLINE void lanes8_absolute(lanes8_pairs *v)
 {
 #ifdef LANES8_AVX2
@@ -70,7 +70,7 @@ LANES8_INLINE void lanes8_absolute(lanes8_pairs *v)
 #endif
 }
 
-/* The lower of x and least, lane by lane. */
+/* Sets each lane of `least` to the smaller of this lane of x and of least. */
 LANES8_INLINE void lanes8_min(const lanes8 *x, lanes8 *least)
 {
 #ifdef LANES8_AVX2
@@ -97,7 +97,7 @@ LANES8_INLINE int32_t lanes8_least(const lanes8 *v)
 #endif
 }
 
-/* Bit l: whether lane l is negative. */
+/* Bit l of the result is set if lane l is negative. */
 LANES8_INLINE unsigned lanes8_signs(const lanes8 *v)
 {
 #if defined(LANES8_AVX2)
@@ -115,7 +115,7 @@ LANES8_INLINE unsigned lanes8_signs(const lanes8 *v)
 #endif
 }
 
-/* Bit q, q < 4: whether a lane of v[q] is below the limit. */
+/* Bit q < 4 of the result is set if some lane of v[q] is below the limit. */
 LANES8_INLINE unsigned lanes8_below(const lanes8 v[4], int32_t limit)
 {
 #ifdef LANES8_AVX2
@@ -135,7 +135,7 @@ LANES8_INLINE unsigned lanes8_below(const lanes8 v[4], int32_t limit)
 #endif
 }
 
-/* Those of the first five lanes with a bit, side by side at out, which has room for eight. */
+/* Packs at out, which has room for eight words, those of the first five lanes whose bit is set. */
 LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2
@@ -157,7 +157,7 @@ LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *
 #endif
 }
 
-/* Of four lanes, those with a bit, side by side at out, which has room for four. */
+/* Packs at out, which has room for four words, those of the four lanes whose bit is set. */
 LANES8_INLINE void lanes4_pick(const lanes4 *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of one instruction set; compiled once for each, with KOKSMA_ISA set to its name. */
+/* The table of the kernels for one instruction set. This file is compiled once for each instruction set, with
+   KOKSMA_ISA set to its name. */
 #include "kernels/kernels.h"
 
 #ifdef __AVX512F__

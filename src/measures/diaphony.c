@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * diaphony: how far the trigonometric sums of the points are from those of the volume, all frequencies weighed
- * together.
+ * diaphony: the weighted norm, over all frequencies, of the difference between the trigonometric sums of the points
+ * and those of the uniform distribution.
  *
  * Formula: F^2 = sum over h in Z^d, h != 0, of |(1/n) sum_i exp(2 pi i h.x_i)|^2 / prod_k max(1, |h_k|)^2
  *              = (1/n^2) sum_ij prod_k (1 + 2 pi^2 (t^2 - t + 1/6)) - 1,  t = |x_ik - x_jk|.
- * Source: Zinterhof 1976. Known exactly: one point, F^2 = (1 + pi^2/3)^d - 1; m points i/m on the line, F = pi/(m
- * sqrt 3). Limits: the terms are near 1 and cancel: the square is good to about 1e-15, and from 1,024 points on in
- * one and two dimensions, where they are added up in 106 bits, to 1e-11 of itself. In some 970 dimensions it is
- * beyond the range of doubles: an error.
+ * Source: Zinterhof 1976.
+ * Known exactly: one point, F^2 = (1 + pi^2/3)^d - 1; m points i/m on the line, F = pi/(m sqrt 3).
+ * Limits: the terms are near 1 and cancel, which leaves an absolute error of about 1e-15 in the square. In one and
+ * two dimensions with 1,024 points or more the sums have 106 bits, and the relative error of the square is 1e-11.
+ * From about 970 dimensions on the square is beyond the range of doubles, and the measure fails.
  */
 #include <math.h>
 
@@ -26,7 +27,8 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    /* K = 1 + q (1/6 - t + t^2). Sorting takes 6 K / q with coefficients that are doubles: no digits cancel. */
+    /* The kernel is K = 1 + q (1/6 - t + t^2). The sorting method is given 6 K / q instead, whose coefficients are
+       exact in doubles, so that no digits are lost to cancellation. */
     static const double q = 2 * M_PI * M_PI;
     const koksma__l2_row row = {12, {24, 0, 0, 0}, {(1 + q / 6) / 2, 0, 0, 0}, -q, q, "diaphony"};
     const double one = (1 + 6 / q) - 1;

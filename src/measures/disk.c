@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * disk: the largest difference, over all disks on the torus with a radius up to r, between the share of points in the
- * disk and its area.
+ * disk: the largest absolute difference, over all disks on the torus with a radius up to r, between the share of
+ * points in the disk and its area.
  *
- * Formula: sup over c and 0 <= s <= r of |#{x_i within s of c}/n - pi s^2|, r < 1/2. An excess is reached at the
- * smallest closed disk about some points, which has one of them as its centre (s = 0), two at the ends of a diameter,
- * or three on its rim. A deficit is reached at an open disk with three points on its rim, or of radius r with two or
- * one. For each pair the centre runs along the bisector; every other point is inside on a half-line of it.
+ * Formula: sup over c and 0 <= s <= r of |#{x_i within s of c}/n - pi s^2|, r < 1/2. The largest excess of points is
+ * reached at the smallest closed disk about some of the points: a disk of radius 0 about a point, a disk with two
+ * points at the ends of a diameter, or one with three points on its rim. The largest deficit is reached at an open
+ * disk with three points on its rim, or of radius r with one or two points on its rim. The centres of all disks with
+ * two given points on their rim lie on the bisector of these points; every other point is inside the disk while the
+ * centre is on one half-line of the bisector.
  * Source: derived; the critical disks are those of smallest enclosing circles (Megiddo 1983) and of an arrangement of
- * circles of equal radius. Known exactly: one point 1; the m x m lattice with r < 1/(2m): 1/n.
- * Limits: a point closer than 4e-15 (as a squared distance) to a rim counts as on it, so that cocircular points count
- * together in spite of rounding; the value is good to 1e-14. All pairs are tried up to 64 points, above by branch and
- * bound (shared/disk_cover.c): when that is cut short, by a time limit or after 2^28 looks at points where there is
- * none, the value is a lower bound, with an upper one beside it, and is not exact: so it
- * is for lattices of a few hundred points, and for the first 4,096 of sobol.
+ * circles of equal radius.
+ * Known exactly: one point 1; the m x m lattice with r < 1/(2m): 1/n.
+ * Limits: a point whose squared distance from the centre is within 4e-15 of the squared radius counts as on the rim,
+ * so that cocircular points count together in spite of rounding; the error of the value is up to 1e-14. Up to 64
+ * points all pairs are tried, above by branch and bound (shared/disk_cover.c), which stops at the time limit or,
+ * without one, after 2^28 point tests. The value is then a lower bound and comes with an upper bound; this happens
+ * for lattices of a few hundred points and for the first 4,096 points of sobol.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -28,10 +31,10 @@ enum { PAIRS_TO = 64 };
 
 typedef struct search {
     koksma__disk_set set;
-    koksma__disk_best start, *blocks; /* what is known before; by first point of the pair */
+    koksma__disk_best start, *blocks; /* best disk before the pairs are tried; best disk by first point */
 } search;
 
-/* Points as disks of radius 0. */
+/* Tries the disks of radius 0 about each point. */
 static void try_points(search *s)
 {
     for (size_t i = 0; i < s->set.m; i++) {
@@ -39,7 +42,7 @@ static void try_points(search *s)
     }
 }
 
-/* Disks of the largest radius with one point on the rim. */
+/* Tries open disks of the largest radius with one point on the rim. */
 static void try_singles(search *s)
 {
     const koksma__disk_set *set = &s->set;
@@ -69,7 +72,8 @@ static int compare_points(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* The points without repeats, 1 written as 0, and so is what is too near to 0 for squares of differences. */
+/* Fills the set with the distinct points and their multiplicities. The coordinate 1 becomes 0, and so do coordinates
+   up to 2^-400, which are too small for squares of differences. */
 static koksma_status fill_set(koksma__disk_set *set, const koksma_points *points)
 {
     const size_t n = points->n;
@@ -102,7 +106,8 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
     s->blocks = malloc(s->set.m * sizeof *s->blocks);
     KOKSMA__REQUIRE_MEMORY(s->blocks, s->set.m * sizeof *s->blocks);
     try_singles(s);
-    /* A lower bound with which all blocks prune; it is computed first, so that results do not depend on threads. */
+    /* All blocks prune with this lower bound; it is computed before them, so that results do not depend on the number
+       of threads. */
     koksma_status status = koksma__disk_pencils(&s->set, s->set.m / 2, &s->start);
     status = status ? status : koksma__parallel(run, s->set.m, block, s);
     for (size_t i = 0; !status && i < s->set.m; i++) {
@@ -112,10 +117,9 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
     return status;
 }
 
-/* A point of the rim is off it by up to KOKSMA__DISK_RIM. Adjusts the radius so that a comparison in doubles (as
-   koksma.h defines it) counts the same points: increases it until a closed disk contains its points, decreases it
-   until an open disk excludes the others.
- */
+/* The squared distance of a point on the rim may differ from the squared radius by up to KOKSMA__DISK_RIM. Adjusts
+   the radius of the witness so that comparisons in doubles, as koksma.h defines them, count the same points:
+   increases it until a closed disk contains all its points, decreases it until an open disk excludes all others. */
 static void settle_radius(const koksma_points *points, koksma_witness *w)
 {
     for (;;) {

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * disk-sampled: l2-disk from random disks, as the second paper samples its measures.
+ * disk-sampled: an estimate of l2-disk from random disks, as Mitchell 1992 estimates such measures.
  *
  * Formula: the root of the mean, over `disks` random disks on the torus, of (#{x_i in the disk}/n - area)^2; its
- * standard error is that of the mean of the squares over twice the value. Source: Mitchell 1992, section 4. Known
- * exactly: E(square) is the square of l2-disk. Limits: a sampled value; equal seeds give equal bits.
- * In 3 dimensions balls.
+ * standard error is the standard error of the mean of the squares, divided by twice the value.
+ * Source: Mitchell 1992, section 4.
+ * Known exactly: E(square) is the square of l2-disk.
+ * Limits: the value is random; equal seeds give equal bits.
+ * In 3 dimensions balls replace the disks.
  */
 #include <math.h>
 #include <stdlib.h>

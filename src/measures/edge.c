@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * edge: the largest difference, over all half-planes, between the share of points in the half-plane and its area of
- * the unit square. The quantity that the second paper announces as David Dobkin's: how badly an edge through a pixel
- * can come out.
+ * edge: the largest absolute difference, over all half-planes, between the share of points in the half-plane and the
+ * area of the unit square in it. It is the largest error of the estimated coverage of a pixel by an edge; Mitchell
+ * 1992 announces it as work of David Dobkin.
  *
  * Formula: sup over half-planes H of |#{x_i in H}/n - area of H in the square|. Turning a line about a point changes
- * the area on a side by (r1^2 - r2^2)/2 per radian, r1 and r2 being its lengths to either side. So the supremum is
- * reached on a line through two points, on the line through a point that this point bisects (it cuts the triangle of
- * area 2uv off a corner at distances u and v), or on a side. Closed half-planes for excess, open ones for deficit.
- * Source: Mitchell 1992, section 5; Dobkin and Eppstein 1993; Dobkin, Eppstein and Mitchell 1996. Here each point is
- * a pivot, about which a line turns past the others in order of angle: O(n^2 log n). Known exactly: one point
- * (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m). Limits: order and ties of angles are exact,
- * also of clusters down to the smallest doubles; areas are rounded: errors of a few 1e-16. A time limit leaves half
- * of it to the pivots and what remains to bounds for intervals of directions (shared/edge_cover.c): the value is then
- * a lower bound, with an upper one beside it.
- * In 3 dimensions the same of half-spaces and the cube: planes through up to three points (shared/edge_space.c),
- * O(n^4) and up to 1024 points. Known exactly: one point (u,v,w), all at most 1/3, 1 - 9uvw/2; at most 1/2, and w at
- * least 1/3, while 2u(1 + 6h) <= 1 + 12h^2 and the same of v, h = 1/2 - w: 1 - 2uv/(1 + 12h^2).
+ * the area on one side of the line by (r1^2 - r2^2)/2 per radian, where r1 and r2 are the lengths of the line from
+ * the point to the border of the square. So the supremum is reached on a line through two points, on a line whose
+ * chord a point bisects (for a point at distances u and v from two sides the chord cuts off a triangle of area 2uv),
+ * or on a side of the square. An excess is reached by a closed half-plane, a deficit by an open one.
+ * Source: Mitchell 1992, section 5; Dobkin and Eppstein 1993; Dobkin, Eppstein and Mitchell 1996. Here a line turns
+ * about each point in turn (the pivot) past all others in order of angle: O(n^2 log n).
+ * Known exactly: one point (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m).
+ * Limits: the order of angles and their ties are exact, also in clusters as small as the smallest doubles; areas are
+ * rounded, with errors of a few 1e-16. Under a time limit half of the time goes to the pivots and the rest to bounds
+ * for intervals of directions (shared/edge_cover.c); if it does not suffice, the value is a lower bound and comes
+ * with an upper bound.
+ * In 3 dimensions half-spaces and the unit cube take the place of half-planes and the square: the planes go through
+ * up to three points (shared/edge_space.c), in O(n^4) and for up to 1024 points.
+ * Known exactly for one point (u,v,w): 1 - 9uvw/2 if u, v and w are at most 1/3; 1 - 2uv/(1 + 12h^2) with h = 1/2 - w
+ * if u, v and w are at most 1/2, w is at least 1/3, 2u(1 + 6h) <= 1 + 12h^2 and 2v(1 + 6h) <= 1 + 12h^2.
  */
 #include <math.h>
 
@@ -25,13 +28,14 @@
 #include "measures/shared/lines.h"
 #include "measures/shared/planes.h"
 
-/* From (2x - ex, ey) to (ex, 2y - ey), e the corner next to p. */
+/* The chord with midpoint p = (x, y), from (2x - ex, ey) to (ex, 2y - ey), where e is the corner of the square
+   nearest to p. */
 static void chords_of_square(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
     chords[0] = (koksma__chord){{p[0] < 0.5 ? 0 : 1, p[0]}, {p[1], p[1] < 0.5 ? 0 : 1}};
 }
 
-/* Lines along the sides: the points on a side in no area. */
+/* Tries the lines along the sides, whose half-planes hold the points on a side but no area. */
 static void try_sides(const koksma_points *points, koksma_value *out)
 {
     static const double sides[4][3] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, -1}, {0, -1, -1}};

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * edge-sampled: l2-edge as the second paper estimates it, from random lines.
+ * edge-sampled: an estimate of l2-edge from random lines, as in Mitchell 1992.
  *
  * Formula: the root of the mean, over `lines` random lines, of (#{x_i above the line}/n - area above)^2; its standard
- * error is that of the mean of the squares over twice the value.
- * Source: Mitchell 1992, section 5, where lines=10000. With skip=1 the first point is never counted, though n stays:
- * that procedure gives the paper's table 4 to within its noise (a loop from 1, presumably). Known exactly: nothing;
- * E(square) is the square of l2-edge (skip=0). Limits: a sampled value; equal seeds give equal bits.
- * In 3 dimensions random planes through the cube instead, isotropic only.
+ * error is the standard error of the mean of the squares, divided by twice the value.
+ * Source: Mitchell 1992, section 5, where lines=10000. With skip=1 the first point is never counted while n is
+ * unchanged: this reproduces the paper's table 4 to within its noise (presumably its loop began at 1).
+ * Known exactly: E(square) is the square of l2-edge (skip=0).
+ * Limits: the value is random; equal seeds give equal bits.
+ * In 3 dimensions random planes through the cube replace the lines, with the isotropic distribution only.
  */
 #include <stdlib.h>
 
@@ -25,7 +26,7 @@ typedef struct job {
     koksma__line_law law;
     size_t lines, n, skip;
     uint64_t seed;
-    const double *points; /* in 3 dimensions */
+    const double *points; /* used in 3 dimensions only */
     double *x, *y;
     double *squares;
 } job;
@@ -41,7 +42,8 @@ static koksma_status sample_block(void *context, size_t block)
         }
         koksma__kernels()->count_below(j->n - j->skip, j->x + j->skip, j->y + j->skip, a, b, c, counts);
         for (size_t l = 0; l < LANES && first + l < end; l++) {
-            /* #above/n - area above, with its sign turned: points that are skipped are never above. */
+            /* #below/n - area below is minus the deviation above the line; skipped points, never above, count as
+               below. */
             const double below = counts[l] + (double)j->skip;
             const double deviation = below / (double)j->n - koksma__area_below(a[l], b[l], c[l]);
             j->squares[first + l] = deviation * deviation;
@@ -97,7 +99,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 
 static const koksma_param params[] = {
     {"lines", "random lines, or planes", 10000, 1, 1e8, NULL, true},
-    {"law", "distribution of the lines: isotropic, or that of the second paper", 0, 0, 1, koksma__line_laws, true},
+    {"law", "distribution of the lines: isotropic, or that of Mitchell 1992", 0, 0, 1, koksma__line_laws, true},
     {"seed", "seed of the lines", 1, 0, 9007199254740992.0, NULL, true},
     {"skip", "points at the start that are not counted", 0, 0, 1e9, NULL, true},
     {0},

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * extreme: the largest difference, over all axis-parallel boxes, between the share of points in the box and its
- * volume. The first paper's T ("Stroud's discrepancy"), which turning the points by 90 degrees does not change.
+ * extreme: the largest absolute difference, over all axis-parallel boxes, between the share of points in the box and
+ * its volume. It is T ("Stroud's discrepancy") in Shirley 1991. Turning the points by 90 degrees does not change it.
  *
- * Formula: T = sup over boxes of |#{x_i in box}/n - volume|. An excess is reached at a closed box whose sides are
- * at coordinates of points, a deficit at an open box whose sides are at coordinates of points, 0 or 1. Points at
- * exactly 0 are outside an open box that starts at 0.
- * Source: Stroud 1971; Shirley 1991, section 5.5.7. With grid=20 it is the procedure behind his table 5.7: sides at
- * multiples of 1/20 only, half-open boxes. Inferred from his value for the regular grid, 0.3600 where the supremum
- * is 0.4375.
+ * Formula: T = sup over boxes of |#{x_i in box}/n - volume|. The largest excess is reached at a closed box whose
+ * sides are at coordinates of points, the largest deficit at an open box whose sides are at coordinates of points, 0
+ * or 1. A point with a coordinate of exactly 0 is outside an open box that starts at 0.
+ * Source: Stroud 1971; Shirley 1991, section 5.5.7. With grid=20 only half-open boxes with sides at multiples of 1/20
+ * are tried; this is the procedure behind Shirley's table 5.7, as inferred from its value for the regular grid,
+ * 0.3600, where the supremum is 0.4375.
  * Known exactly: 4 x 4 cell centres T = 7/16, with grid=20 0.36; a single point T = 1; Hammersley 1024 0.006079674.
- * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16. A time limit leaves bounds; in 3D
- * the upper one is 1.
+ * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16. If a time limit ends the search, the
+ * result is a lower and an upper bound; in 3D the upper bound is 1.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -21,10 +21,12 @@
 #include "measures/measures.h"
 #include "measures/shared/extreme.h"
 
-/* For each pair of columns, one pass along the rows keeps the lowest and the highest of
-   #points so far / n - area so far; the best box that ends here is the difference to them. */
+/* With `grid`, one pass along the rows of the grid for each pair of columns keeps the lowest and the highest value so
+   far of #points below the row / n - area below the row; the best box that ends at a row has the value of that row
+   less one of these two. */
 
-/* The cell of x: the largest c with c/grid <= x, as doubles; `grid` for x = 1, which no half-open box holds. */
+/* The cell of x: the largest c with c/grid <= x, compared as doubles. For x = 1, which no half-open box contains, it
+   is `grid`. */
 static int cell_of(double x, int grid)
 {
     int c = (int)(x * grid);
@@ -51,7 +53,7 @@ static void keep(koksma_value *out, double value, size_t count, const int box[4]
     out->witness.volume = (double)(box[2] - box[0]) * (box[3] - box[1]) / ((double)grid * grid);
 }
 
-/* The best box between columns a and b. */
+/* Finds the best box with its left side at a/grid and its right side at b/grid. */
 static void best_of_columns(const size_t *counts, int grid, double n, int a, int b, koksma_value *out)
 {
     const size_t m = (size_t)grid;
@@ -84,8 +86,7 @@ static koksma_status extreme_grid(const koksma_points *points, int grid, const k
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "extreme:grid: it has no %d-dimensional form, only dim = 2",
                     points->dim);
     const size_t m = (size_t)grid;
-    size_t *counts =
-        calloc((m + 1) * (m + 1), sizeof *counts); /* column by column: points with x below, in each row */
+    size_t *counts = calloc((m + 1) * (m + 1), sizeof *counts); /* by column line and row: points left of the line */
     KOKSMA__REQUIRE_MEMORY(counts, (m + 1) * (m + 1) * sizeof *counts);
     for (size_t i = 0; i < points->n; i++) {
         const int cx = cell_of(points->xs[2 * i], grid), cy = cell_of(points->xs[2 * i + 1], grid);
@@ -118,7 +119,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"grid", "sides at multiples of 1/grid only, half-open boxes (2D); 0: everywhere, exactly", 0, 0, 4096, NULL,
+    {"grid", "half-open boxes with sides at multiples of 1/grid only (2D); 0: all boxes, exactly", 0, 0, 4096, NULL,
      true},
     {0},
 };

@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The L2 discrepancies, one row each: the root of the squared norm of (points - volume) under a kernel K,
+ * The L2 discrepancies of boxes, one table row for each. Each is the norm of the signed measure (points - volume)
+ * under a kernel K; its square is
  *
  *     c^d - (2/n) sum_i prod_k a(x_ik) + (1/n^2) sum_ij prod_k K(x_ik, x_jk),
  *     a(u) = int_0^1 K(u, v) dv,  c = int_0^1 a(u) du.
  *
- * They differ in K alone, which a row holds as numbers (measures/shared/l2.h); shared/l2.c chooses the method by n
- * and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or of 106 bits, and the value
- * is good to 1e-11 of itself at 10^6 points; in more the square is good to about 1e-16 of its terms (l2-star: 1e-17).
+ * They differ in K alone, whose coefficients are in the row (see measures/shared/l2.h); shared/l2.c chooses the
+ * method by n and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or have 106 bits,
+ * and the relative error of the value is 1e-11 at 10^6 points; in more dimensions the error of the square is about
+ * 1e-16 of its terms (l2-star: 1e-17).
  */
 #include "measures/l2_boxes.h"
 
 #include "measures/measures.h"
 #include "measures/shared/l2_gradient.h"
 
-/* koksma__measure_l2_KIND: whether it is on the torus, c12, a24, g, q and r of its kernel, and what is listed. */
+/* Defines koksma__measure_l2_KIND: its title and citations, whether it is a measure on the torus, and c12, a24, g, q
+   and r of its kernel. */
 #define L2(kind, title_, cite_, torus_, c12_, ...)                                                                   \
     const koksma__l2_row koksma__l2_##kind = {.name = "l2-" #kind, .c12 = (c12_), __VA_ARGS__};                      \
     static koksma_status eval_##kind(const koksma_points *points, const koksma_args *args, koksma_value *out)        \
@@ -42,12 +45,12 @@
 
 /*
  * l2-star: the root mean square, over all boxes [0,y) with a corner at the origin, of the difference between the
- * share of points in the box and its volume. The first paper's S, the second's T with L2.
+ * share of points in the box and its volume. It is S in Shirley 1991, and T with the L2 norm in Mitchell 1992.
  *
  * Formula: S^2 = 3^-d - (2/n) sum_i prod_k (1 - x_ik^2)/2 + (1/n^2) sum_ij prod_k (1 - max(x_ik, x_jk)).
  * Source: Warnock 1972; Shirley 1991, section 5.5.7; Mitchell 1992, section 2; in O(n log n) after Heinrich 1996.
- * Known exactly: one point at the centre of the square, S^2 = 23/288; random points, E(S^2) = (2^-d - 3^-d)/n;
- * m x m jittered, E(S^2) = ((m-1)/6 + 5/36)/m^4; 4 x 4 centres, S^2 = 1/9 - 2 (43/128)^2 + (11/32)^2.
+ * Known exactly: one point at the centre of the square, S^2 = 23/288; random points, E(S^2) = (2^-d - 3^-d)/n; m x m
+ * jittered, E(S^2) = ((m-1)/6 + 5/36)/m^4; 4 x 4 centres, S^2 = 1/9 - 2 (43/128)^2 + (11/32)^2.
  */
 L2(star, "L2 star discrepancy (root mean square over anchored boxes)",
    "warnock1972 zaremba1968 heinrich1996 shirley1991 mitchell1992", false, 4, .a24 = {9, -12, -12, 0},
@@ -55,18 +58,21 @@ L2(star, "L2 star discrepancy (root mean square over anchored boxes)",
 
 /*
  * l2-extreme: the root of the integral, over all boxes [lo, hi) with lo < hi in every coordinate, of the squared
- * difference between the share of points in the box and its volume. Times 2^(d/2) it is the root mean square.
+ * difference between the share of points in the box and its volume. Multiplied by 2^(d/2) it is the root mean square
+ * over these boxes.
  *
- * Formula: 12^-d - (2/n) sum_i prod_k x(1-x)/2 + (1/n^2) sum_ij prod_k (1 - max) min, with x, max and min of
- * coordinate k. Source: Morokoff and Caflisch 1994, whose T_N it is.
+ * Formula: 12^-d - (2/n) sum_i prod_k x(1-x)/2 + (1/n^2) sum_ij prod_k (1 - max) min, where x, max and min are taken
+ * in coordinate k.
+ * Source: Morokoff and Caflisch 1994, who call it T_N.
  * Known exactly: one point at the centre of the square, square = 11/288; random points, E = (6^-d - 12^-d)/n.
  */
 L2(extreme, "L2 discrepancy over all boxes lo < hi, not divided by their measure", "morokoff1994 hickernell1998",
    false, 1, .a24 = {3, 0, -12, 0}, .g = {0.125, 0, -0.5, 0}, .q = -0.5, .r = 0.5);
 
 /*
- * l2-periodic: the root mean square, over boxes on the torus whose starts and lengths are uniform, of the difference
- * between the share of points in the box and its volume. Shifting all points on the torus does not change it.
+ * l2-periodic: the root mean square, over boxes on the torus whose start and length in each coordinate are uniform,
+ * of the difference between the share of points in the box and its volume. Shifting all points on the torus does not
+ * change it.
  *
  * Formula: -(3^-d) + (1/n^2) sum_ij prod_k (1/2 - t + t^2), t = |x_ik - x_jk|.
  * Source: Lev 1995; Hinrichs, Kritzinger and Pillichshammer 2020, who call it periodic.
@@ -76,7 +82,7 @@ L2(periodic, "L2 discrepancy over boxes on the torus (root mean square)", "lev19
    .a24 = {8, 0, 0, 0}, .g = {0.25, 0, 0, 0}, .q = -1, .r = 1);
 
 /*
- * l2-wraparound: l2-periodic summed over all projections: the square is the sum, over the non-empty sets of
+ * l2-wraparound: the sum of l2-periodic over all projections: its square is the sum, over the non-empty sets of
  * coordinates, of the square of l2-periodic of the points in these coordinates.
  *
  * Formula: -(4/3)^d + (1/n^2) sum_ij prod_k (3/2 - t + t^2), t = |x_ik - x_jk|.
@@ -87,30 +93,32 @@ L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", true, 16, .a24 = 
    .q = -1, .r = 1);
 
 /*
- * l2-modified: l2-star summed over all projections: the square is the sum, over the non-empty sets of coordinates,
- * of the square of l2-star of the points in these coordinates. It is the worst error of integration of functions
- * with mixed first derivatives of norm 1, anchored at 1.
+ * l2-modified: the sum of l2-star over all projections: its square is the sum, over the non-empty sets of
+ * coordinates, of the square of l2-star of the points in these coordinates. It is the worst-case integration error
+ * over functions whose mixed first derivatives, anchored at 1, have norm 1.
  *
  * Formula: (4/3)^d - (2/n) sum_i prod_k (3 - x_ik^2)/2 + (1/n^2) sum_ij prod_k (2 - max(x_ik, x_jk)).
- * Source: Hickernell 1998. Known exactly: one point at the centre of the line, square = 1/12.
+ * Source: Hickernell 1998.
+ * Known exactly: one point at the centre of the line, square = 1/12.
  */
 L2(modified, "modified L2 discrepancy (L2 star over all projections)", "hickernell1998", false, 16,
    .a24 = {33, -12, -12, 0}, .g = {0.75, -0.5, 0, 0}, .q = -0.5, .r = 0);
 
 /*
- * l2-centered: as l2-modified, with boxes between a point and the corner of the cube next to it: reflecting the
- * points about any plane x_k = 1/2 does not change it.
+ * l2-centered: l2-modified with boxes that extend from a point to the nearest corner of the cube in place of the
+ * origin. Reflecting the points about any plane x_k = 1/2 does not change it.
  *
- * Formula: (13/12)^d - (2/n) sum_i prod_k (1 + h/2 - h^2/2) + (1/n^2) sum_ij prod_k (1 + (h_i + h_j - t)/2), with
- * h = |x_ik - 1/2|, t = |x_ik - x_jk|. Source: Hickernell 1998. SciPy's method='CD' is the square.
+ * Formula: (13/12)^d - (2/n) sum_i prod_k (1 + h/2 - h^2/2) + (1/n^2) sum_ij prod_k (1 + (h_i + h_j - t)/2), with h =
+ * |x_ik - 1/2|, t = |x_ik - x_jk|.
+ * Source: Hickernell 1998. SciPy's method='CD' is the square.
  * Known exactly: one point at the centre of the square, square = 25/144.
  */
 L2(centered, "centered L2 discrepancy", "hickernell1998", false, 13, .a24 = {24, 0, -12, 12}, .g = {0.5, 0, 0, 0.5},
    .q = -0.5, .r = 0);
 
 /*
- * l2-mixture: between l2-centered and l2-wraparound: boxes that grow from the corner next to a point and boxes that
- * wrap around, in equal parts.
+ * l2-mixture: a mixture of l2-centered and l2-wraparound, with equal parts of boxes that extend from a point to the
+ * nearest corner and of boxes that wrap around.
  *
  * Formula: (19/12)^d - (2/n) sum_i prod_k (5/3 - h/4 - h^2/4)
  *          + (1/n^2) sum_ij prod_k (15/8 - (h_i + h_j)/4 - 3t/4 + t^2/2), h = |x_ik - 1/2|, t = |x_ik - x_jk|.
@@ -121,11 +129,12 @@ L2(mixture, "mixture L2 discrepancy", "zhou2013", false, 19, .a24 = {40, 0, -6, 
    .q = -0.75, .r = 0.5);
 
 /*
- * l2-symmetric: l2-star with every corner of the cube as the anchor: the square is 4^d times the mean, over the 2^d
- * corners, of the square of l2-star.
+ * l2-symmetric: l2-star averaged over all corners of the cube as anchors: its square is 4^d times the mean, over the
+ * 2^d corners, of the square of l2-star with this corner as the anchor.
  *
  * Formula: (4/3)^d - (2/n) sum_i prod_k (1 + 2x - 2x^2) + (1/n^2) sum_ij prod_k 2 (1 - t), t = |x_ik - x_jk|.
- * Source: Hickernell 1998. Known exactly: one point at the centre of the square, square = 23/18.
+ * Source: Hickernell 1998.
+ * Known exactly: one point at the centre of the square, square = 23/18.
  */
 L2(symmetric, "symmetric L2 discrepancy (mean over all corners as anchors)", "hickernell1998", false, 16,
    .a24 = {36, 0, -48, 0}, .g = {1, 0, 0, 0}, .q = -2, .r = 0);

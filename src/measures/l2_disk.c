@@ -1,27 +1,28 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * l2-disk: the root mean square, over disks on the torus with a random centre, of the difference between the share
- * of points in the disk and its area. The radius is fixed, or random with a uniform radius or a uniform area up to
- * that of r. The second paper's section 4.
+ * l2-disk: the root mean square, over disks on the torus with a random centre, of the difference between the share of
+ * points in the disk and its area. The radius is fixed at r, or random up to r: uniform in the radius or in the area.
  *
- * Formula: square = n^-2 sum_ij sum_k W(|x_i - x_j + k|) - c, k over the shifts of the torus; W(d) is the area that
- * two disks d apart share, or its mean over the radius; with h = d/2 < r, s = sqrt((r - h) (r + h)):
+ * Formula: square = n^-2 sum_ij sum_k W(|x_i - x_j + k|) - c, where k runs over the integer shifts of the torus and
+ * W(d) is the area of the overlap of two disks whose centres are d apart, or its mean over the radius. For the three
+ * laws of the radius, with h = d/2 < r and s = sqrt((r - h) (r + h)), W(d) and c are
  *   fixed   2 r^2 acos(h/r) - 2 h s,                                           c = pi^2 r^4
  *   radius  ((2/3) r^3 acos(h/r) - (4/3) h r s + (2/3) h^3 ln((r+s)/h)) / r,   c = pi^2 r^4 / 5
  *   area    (r^4 acos(h/r) - (5/3) h s^3 - h^3 s) / r^2,                       c = pi^2 r^4 / 3
- * In 3 dimensions balls and the volume that two share, with t = r - h:
+ * In 3 dimensions, for balls and the volume of their overlap, with t = r - h:
  *   fixed   (2 pi/3) (2 t + 3 h) t^2,                                          c = (16/9) pi^2 r^6
  *   radius  pi t^3 (r + h) / (3 r),                                            c = (16/63) pi^2 r^6
  *   area    (2 pi/r^3) t^3 (t^3/3 + 7 h t^2/5 + 2 h^2 t + h^3),                c = (16/27) pi^2 r^6
- * where area makes the volume uniform.
- * Source: Mitchell 1992, section 4, which samples disks; the closed forms are derived from the lens of two
- * disks.
+ * where law=area makes the volume uniform.
+ * Source: Mitchell 1992, section 4, which samples disks; the closed forms are derived from the area of the lens in
+ * which two disks overlap.
  * Known exactly: random points, the mean of the square is pi r^2 (1 - pi r^2)/n for a fixed radius, and at r = 1/2
- * (pi/12 - pi^2/80)/n for radius and (pi/8 - pi^2/48)/n for area. One point: pi r^2 (1 - pi r^2). Balls
- * likewise: with v the volume of the largest v (1 - v)/n, (v/4 - v^2/7)/n and (v/2 - v^2/3)/n.
- * Limits: the two terms are near c and cancel; sums are compensated over rows and good to about 1e-15 of c, so that
- * the value keeps 9 digits at 10^5 well-spread points. Up to r = 1/8 a grid of cells skips pairs that are too far
- * apart to overlap.
+ * (pi/12 - pi^2/80)/n for radius and (pi/8 - pi^2/48)/n for area. One point and a fixed radius: the square is pi r^2
+ * (1 - pi r^2). For balls and random points, with v the volume of the largest ball, the mean of the square is v (1 -
+ * v)/n for fixed, (v/4 - v^2/7)/n for radius and (v/2 - v^2/3)/n for area.
+ * Limits: the two terms are near c and cancel; sums are compensated over rows and have errors of about 1e-15 of c, so
+ * that the value has 9 correct digits at 10^5 well-spread points. For r <= 1/8 a grid of cells skips pairs of points
+ * that are too far apart to overlap.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -37,23 +38,23 @@
 enum { BLOCK = 64, MIN_COLUMNS = 4 };
 
 typedef struct pairs {
-    koksma__torus_cells cells; /* in the plane */
-    const double *points;      /* in 3 dimensions, else NULL */
+    koksma__torus_cells cells; /* used in the plane */
+    const double *points;      /* used in 3 dimensions, else NULL */
     size_t n;
     int law;
     double r;
     koksma__sum *blocks;
 } pairs;
 
-/* The overlaps of a point with points first .. last-1 of the cells' order. */
+/* The sum of the overlaps of disk i with disks first .. last-1, in the order of the cells. */
 static double span(const pairs *p, size_t i, size_t first, size_t last)
 {
     const double *xs = p->cells.xs, *ys = p->cells.ys;
     return koksma__kernels()->disk_overlaps(p->law, p->r, xs[i], ys[i], last - first, xs + first, ys + first);
 }
 
-/* The overlaps of ball i with balls 0 .. i - 1 and their periodic copies. Along each axis only the two nearest
-   copies can lie within distance 1. */
+/* The sum of the overlaps of ball i with balls 0 .. i - 1 and their periodic copies. Along each axis only the two
+   nearest copies can be less than 1 away. */
 static double balls_before(const pairs *p, size_t i)
 {
     koksma__sum sum = {0};
@@ -75,8 +76,8 @@ static double balls_before(const pairs *p, size_t i)
     return koksma__sum_value(&sum);
 }
 
-/* Each pair of near points once: the cell itself before the point, the next cell of the row, three of the next row.
- */
+/* Adds the overlaps of disk i with those nearby, so that each pair is counted once: with the disks before it in its
+   own cell, with the next cell of the row, and with three cells of the next row. */
 static void add_near(const pairs *p, size_t i, size_t cell, koksma__sum *sum)
 {
     const size_t *start = p->cells.start, columns = p->cells.columns;
@@ -128,7 +129,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     if (cube) {
         p.points = points->xs;
     } else {
-        /* Cells no smaller than a disk, with about one point each at the least. */
+        /* The cells are no narrower than a disk and have one point or more on average. */
         const double columns = fmin(floor(1 / (2 * p.r)), floor(sqrt((double)points->n)));
         status = koksma__torus_cells_init(&p.cells, points, columns, true);
     }
@@ -157,7 +158,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     return status;
 }
 
-/* Of a pair all copies within 1 along each axis: the two nearest. */
+/* Sums over all pairs of points and, along each axis, over the two nearest periodic copies, which alone are less than
+   1 away. */
 static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
 {
     const koksma__disk_law law = (koksma__disk_law)(int)args->params[1];

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * l2-edge: the root mean square, over random lines through the unit square, of the difference between the share of
- * points on a side of the line and the area on that side. The second paper's table 4, for all lines instead of
- * 10,000.
+ * points on one side of the line and the area on that side. Table 4 of Mitchell 1992 estimates it from 10,000 lines.
  *
- * Formula: points minus area is a signed measure of mass 0, so that with sigma(x, y), the probability that a line
- * separates x and y,  L^2 = (1/n) sum_i P(x_i) - (1/2n^2) sum_ij sigma(x_i, x_j) - C/2,
- * P(x) = int sigma(x, y) dy over the square, C = int P. For isotropic lines sigma = |x - y|/2 and
- * C = (2 + sqrt 2 + 5 asinh 1)/30; for the paper's lines, with a >= b the larger and smaller of |dx| and |dy|,
- * sigma = ((a + b) ln(1 + b/a) + a - b)/2 and C = (8/15) ln 2 - 1/9. P is in closed form (measures/shared/lines.c).
+ * Formula: points minus area is a signed measure of mass 0. With sigma(x, y) the probability that a line separates x
+ * and y, L^2 = (1/n) sum_i P(x_i) - (1/2n^2) sum_ij sigma(x_i, x_j) - C/2, where P(x) = int sigma(x, y) dy over the
+ * square, C = int P. For isotropic lines sigma = |x - y|/2 and C = (2 + sqrt 2 + 5 asinh 1)/30; for law=mitchell,
+ * with a >= b the larger and smaller of |dx| and |dy|, sigma = ((a + b) ln(1 + b/a) + a - b)/2 and C = (8/15) ln 2 -
+ * 1/9. P has a closed form (measures/shared/lines.c).
  * Source: Mitchell 1992, section 5; the pairwise form as in Alexander 1990.
- * In 3 dimensions the same of planes through the unit cube, isotropic only: sigma = |x - y|/3, and C is a third of
- * the mean distance of two points of the cube (Robbins 1978), .6617... (measures/shared/planes.c). Known exactly:
- * random points, E(L^2) = C/(2n). It is the same whichever side is counted. Limits: the terms are near 0.26 and
- * cancel; with compensated sums the square is good to about 1e-16.
+ * In 3 dimensions planes through the unit cube take the place of lines, with the isotropic distribution only:
+ * sigma = |x - y|/3, and C is a third of the mean distance of two points of the cube (Robbins 1978), which is
+ * .6617... (measures/shared/planes.c).
+ * Known exactly: random points, E(L^2) = C/(2n). L does not depend on which side of the line is counted.
+ * Limits: the terms are near 0.26 and cancel; with compensated sums the error of the square is about 1e-16.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ enum { ROWS_PER_BLOCK = 64 };
 typedef struct job {
     koksma__line_law law;
     size_t n;
-    const double *points; /* in 3 dimensions */
+    const double *points; /* used in 3 dimensions only */
     double *x, *y;
     koksma__sum *pairs, *potentials;
 } job;
@@ -122,7 +122,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     return status;
 }
 
-/* The slope of the probability that a line or plane separates two points; the sum goes over pairs twice. */
+/* By the derivatives of sigma and P. In the sum over all i and j each pair occurs twice, which cancels the factor
+   1/2. */
 static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
 {
     const size_t dim = (size_t)points->dim;
@@ -159,7 +160,7 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
 }
 
 static const koksma_param params[] = {
-    {"law", "the law of the lines: isotropic, or the second paper's", 0, 0, 1, koksma__line_laws, true},
+    {"law", "distribution of the lines: isotropic, or that of Mitchell 1992", 0, 0, 1, koksma__line_laws, true},
     {0},
 };
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * min-distance: the smallest distance between two points. Larger is more even, unlike the discrepancies.
+ * min-distance: the smallest distance between two points. Unlike for the discrepancies, a larger value means more
+ * even points.
  *
  * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in the plane.
  * Source: Lagae and Dutre 2008, who compare Poisson disk patterns by it; see relative-radius.
  * Known exactly: two points at (0,0) and (1/2,1/2): 1/sqrt 2; m x m centres 1/m.
- * Limits: one point has no distance: the error KOKSMA_N, in every interface. Exact to rounding.
+ * Limits: for a single point the measure fails with KOKSMA_N. The value is exact to rounding.
  */
 #include <math.h>
 
@@ -26,7 +27,7 @@ const koksma_measure koksma__measure_min_distance = {
     .name = "min-distance",
     .title = "smallest distance between two points (larger is better)",
     .cite = "lagae2008",
-    .cost = "n, n log n where points crowd",
+    .cost = "n, or n log n for clustered points",
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * relative-radius: the smallest distance between two points over that of the densest packing of n points. Larger is
- * more even; good Poisson disk patterns have 0.65 to 0.85, 1 is the hexagonal lattice.
+ * relative-radius: the smallest distance between two points, divided by the smallest distance in the densest packing
+ * of n points. A larger value means more even points; good Poisson disk patterns have 0.65 to 0.85, the hexagonal
+ * lattice has 1.
  *
  * Formula: min-distance / sqrt(2/(sqrt(3) n)), on the unit torus or (torus=0) in the plane.
- * Source: Lagae and Dutre 2008. Known exactly: m x m centres sqrt(sqrt(3)/2) = 0.9306.
- * Limits: as min-distance.
+ * Source: Lagae and Dutre 2008.
+ * Known exactly: m x m centres sqrt(sqrt(3)/2) = 0.9306.
+ * Limits: as for min-distance.
  */
 #include <math.h>
 
@@ -29,7 +31,7 @@ const koksma_measure koksma__measure_relative_radius = {
     .name = "relative-radius",
     .title = "smallest distance over that of the densest packing (larger is better)",
     .cite = "lagae2008",
-    .cost = "n, n log n where points crowd",
+    .cost = "n, or n log n for clustered points",
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

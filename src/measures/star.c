@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * star: the largest difference, over all boxes with a corner at the origin, between the share of points in the box
- * and its volume. The first paper's D; the L-infinity star discrepancy.
+ * star: the L-infinity star discrepancy, the largest absolute difference, over all boxes with a corner at the origin,
+ * between the share of points in the box and its volume. It is D in Shirley 1991.
  *
- * Formula: D = sup over y in [0,1]^d of |#{x_i in [0,y)}/n - prod_k y_k|. It is reached at a corner whose
- * coordinates are coordinates of points, or 1 (Niederreiter 1972): an excess at a closed box, a deficit at an open
- * one. Source: Zaremba 1968; Shirley 1991, section 5.5.7; in more than two dimensions Dobkin, Eppstein and Mitchell
- * 1996; bounds Thiemard 2001. Known exactly: one point at (g,g), g = (sqrt 5 - 1)/2, has D = g; 4 x 4 cell centres
- * 15/64; one point at the centre of the cube 7/8; Hammersley 2^m, m >= 2: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) (De
- * Clerck 1986; n D is 1 for m = 0, 3/2 for m = 1). Limits: counts are exact, volumes are rounded products: errors of
- * a few 1e-16 at any n. With a time limit, in 3D and more, the value may be a lower bound; the upper bound beside it
- * holds as well.
+ * Formula: D = sup over y in [0,1]^d of |#{x_i in [0,y)}/n - prod_k y_k|. The supremum is reached at a corner whose
+ * coordinates are coordinates of points, or 1 (Niederreiter 1972): an excess by a closed box, a deficit by an open
+ * one.
+ * Source: Zaremba 1968; Shirley 1991, section 5.5.7; in more than two dimensions Dobkin, Eppstein and Mitchell 1996;
+ * bounds Thiemard 2001.
+ * Known exactly: one point at (g,g), g = (sqrt 5 - 1)/2, has D = g; 4 x 4 cell centres 15/64; one point at the centre
+ * of the cube 7/8; Hammersley 2^m, m >= 2: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) (De Clerck 1986; n D is 1 for m = 0,
+ * 3/2 for m = 1).
+ * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16 at any n. With a time limit, in 3
+ * dimensions and more, the value may be a lower bound; it then comes with a proven upper bound.
  */
 #include <math.h>
 
@@ -23,11 +25,12 @@ enum { FIRST_STEPS = 200, FIRST_RESTARTS = 1 };
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    KOKSMA__FAIL_IF(points->n >= (size_t)1 << 28, KOKSMA_N, "star: n = %zu: fewer than 2^28 points", points->n);
+    KOKSMA__FAIL_IF(points->n >= (size_t)1 << 28, KOKSMA_N, "star: n = %zu: it takes fewer than 2^28 points",
+                    points->n);
     if (points->dim <= 2) {
         return koksma__star_2d(points, args->run, out);
     }
-    /* A good value to begin with lets most of the partition be skipped. */
+    /* Starting from a good value allows most of the partition to be skipped. */
     const double half_s = koksma__deadline_s(args->run, 0.5), end_s = koksma__deadline_s(args->run, 0.95);
     bool complete = false;
     const size_t steps = points->n / 5 < FIRST_STEPS ? points->n / 5 : FIRST_STEPS;

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * t-value: the quality parameter of the points as a (t,m,s)-net in a base: the least t such that every elementary
- * interval of volume base^(t-m) holds base^t points. 0 is best, m the worst, which all points have.
+ * interval of volume base^(t-m) holds base^t points. The best value is 0; the worst is m, as every set of points is
+ * an (m,m,s)-net.
  *
- * Formula: n = base^m; elementary intervals are products of [a/base^d, (a+1)/base^d), the d of the coordinates adding
- * up to m - t. Source: Niederreiter 1987. Known exactly: Hammersley's points in base 2: 0; n equal points: m. Limits:
- * n must be a power of the base. A coordinate that is the double nearest to a/base^d counts as this fraction
- * (core/net.c); one that was rounded to fewer digits on its way here, as in a text with six, may lie below it. A
+ * Formula: n = base^m; elementary intervals are products of [a/base^d, (a+1)/base^d), where the d of all coordinates
+ * add up to m - t.
+ * Source: Niederreiter 1987.
+ * Known exactly: Hammersley's points in base 2: 0; n equal points: m.
+ * Limits: n must be a power of the base. A coordinate that is the double nearest to a/base^d counts as this fraction
+ * (core/net.c); one that was rounded to fewer digits, as in a text file with six, may fall into the interval below. A
  * coordinate of 1 counts as in the last interval.
  */
 #include "core/net.h"

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* exp(-2 pi i k.x) is a product over the coordinates: with C, S the cosine and sine of 2 pi kx x and c, s those of
-   2 pi ky y, the four sums over points of Cc, Cs, Sc and Ss serve kx and -kx. They are one matrix product, done in
-   tiles of 8 x 16 numbers: rows 2k, 2k+1 are the cosine and the sine at frequency k. Columns are filled for a chunk
-   of the points at a time, which serves a band of rows: memory does not grow with the number of points. */
+/* The power spectrum by direct sums. exp(-2 pi i k.x) is a product over the coordinates: with C, S the cosine and
+   sine of 2 pi kx x and c, s those of 2 pi ky y, the sums over the points of Cc, Cs, Sc and Ss give the power at (kx,
+   ky) and at (-kx, ky). These sums for all frequencies are one matrix product, computed in tiles of 8 x 16 numbers;
+   rows 2k, 2k+1 (columns likewise) are the cosine and the sine at frequency k. The columns are filled for a chunk of
+   the points at a time and used for a band of rows, so that memory does not grow with the number of points. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,14 +18,14 @@ enum { ROWS = 8, COLUMNS = 16, GROUP = 8, POINTS_PER_PANEL = 128, BLOCKS_PER_BAN
 typedef struct job {
     const koksma_points *points;
     int half;
-    size_t n_columns;              /* tiles */
-    size_t room, from, count;      /* points that a chunk has room for; of this chunk the first, and how many */
-    size_t first_block;            /* of this band */
-    double *y_panels;              /* by tile of columns and point of the chunk: [j][16] */
-    double (*sums)[ROWS][COLUMNS]; /* by tile of the band's rows and tile of columns */
+    size_t n_columns;              /* counted in tiles */
+    size_t room, from, count;      /* capacity of a chunk in points; first point and size of this chunk */
+    size_t first_block;            /* the first block of this band */
+    double *y_panels;              /* for each tile of columns, [j][16] for point j of the chunk */
+    double (*sums)[ROWS][COLUMNS]; /* for each tile of the band's rows and tile of columns */
     double *power;
     const koksma_run *run;
-    double done, share; /* of the whole before this step, and of this step */
+    double done, share; /* share of all work done before this step; share of this step */
 } job;
 
 static bool keep_going(void *context, double fraction)
@@ -33,7 +34,8 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(j->run, j->done + j->share * fraction);
 }
 
-/* out[width j + r] for r < width: cosine and sine at frequencies first/2 + r/2 of points from .. from + count - 1. */
+/* out[width j + r], r < width, for point from + j, j < count: the cosine (even r) or sine (odd r) at frequency
+   first/2 + r/2 of coordinate k. */
 static void fill_panel(const koksma_points *p, int k, size_t first, int width, size_t from, size_t count, double *out)
 {
     for (size_t j = 0; j < count; j++) {
@@ -75,7 +77,8 @@ static koksma_status fill_columns(void *context, size_t column)
     return KOKSMA_OK;
 }
 
-/* Block: GROUP tiles of rows times all columns; a panel of columns in the cache serves all rows. */
+/* Adds the chunk's sums for one block, which is GROUP tiles of rows by all columns. A panel of columns stays in the
+   cache while it is used for all rows of the block. */
 static koksma_status row_block(void *context, size_t block)
 {
     const job *j = context;
@@ -105,7 +108,7 @@ static koksma_status row_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* All chunks of points for the blocks of a band; steps: bands times chunks. */
+/* Sums over all chunks of points for the blocks of a band; steps is the number of bands times chunks. */
 static koksma_status add_band(job *j, size_t n_blocks, double steps)
 {
     const size_t n = j->points->n;

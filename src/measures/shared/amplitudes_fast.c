@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A nonuniform transform of type 1 (Dutt and Rokhlin 1993; the kernel of Barnett, Magland and af Klinteberg 2019):
- * each point is spread over WIDTH x WIDTH cells of a grid of m x m, m >= 1.5 (2 half + 1) a power of two, by the
- * kernel exp(beta (sqrt(1 - z^2) - 1)); the grid's transform, divided by the kernel's, is that of the points. First
- * all columns along y, two real ones as one complex; then, for the ky that are wanted, along x.
+ * The power spectrum by a nonuniform fast Fourier transform of type 1 (Dutt and Rokhlin 1993; with the kernel of
+ * Barnett, Magland and af Klinteberg 2019). Each point is spread over WIDTH x WIDTH cells of a grid of m x m cells,
+ * where m >= 1.5 (2 half + 1) is a power of two, by the kernel exp(beta (sqrt(1 - z^2) - 1)). The Fourier transform
+ * of the grid, divided by that of the kernel, is the transform of the points. All columns are transformed along y
+ * first, two real columns as one complex column, then the rows with 0 <= ky <= half along x.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +23,7 @@ typedef struct job {
     double *grid; /* [y][x] */
     double *twiddles;
     double *re, *im;     /* real and imaginary parts after the transform along y: [ky][x], ky <= half */
-    double *corrections; /* one over the kernel's transform, by |k| */
+    double *corrections; /* 1 / (the kernel's transform at |k|) */
     double *power;
 } job;
 
@@ -32,7 +33,7 @@ static double beta(const job *j)
     return 0.98 * M_PI * WIDTH * (1 - 1 / (2 * over));
 }
 
-/* The kernel's transform by the midpoint rule in the angle, which converges geometrically. */
+/* Computes the kernel's transform by the midpoint rule in the angle, which converges geometrically. */
 static void find_corrections(job *j)
 {
     const double b = beta(j);
@@ -67,12 +68,12 @@ static void spread(job *j, const double *point)
     }
 }
 
-/* 32 columns along y: 16 as real parts, the next 16 as imaginary parts. */
+/* Transforms 32 columns along y: 16 of them as real parts, the next 16 as imaginary parts. */
 static koksma_status transform_columns(void *context, size_t block)
 {
     job *j = context;
     const size_t m = j->m, room = LANES * m;
-    double *memory = aligned_alloc(64, 4 * room * sizeof *memory); /* a vector in one line of the cache */
+    double *memory = aligned_alloc(64, 4 * room * sizeof *memory); /* so that no vector crosses a cache line */
     KOKSMA__REQUIRE_MEMORY(memory, 4 * room * sizeof *memory);
     double *re = memory, *im = re + room;
     for (size_t y = 0; y < m; y++) {
@@ -87,7 +88,8 @@ static koksma_status transform_columns(void *context, size_t block)
         const double *x = re + LANES * k, *y = im + LANES * k;
         const double *other_x = re + LANES * ((m - k) & (m - 1)), *other_y = im + LANES * ((m - k) & (m - 1));
         double *to_re = j->re + k * m + 2 * LANES * block, *to_im = j->im + k * m + 2 * LANES * block;
-        for (size_t l = 0; l < LANES; l++) { /* (Z(k) + conj Z(-k))/2 and (Z(k) - conj Z(-k))/2i */
+        for (size_t l = 0; l < LANES;
+             l++) { /* the two real columns: (Z(k) + conj Z(-k))/2 and (Z(k) - conj Z(-k))/2i */
             to_re[l] = (x[l] + other_x[l]) / 2;
             to_im[l] = (y[l] - other_y[l]) / 2;
             to_re[LANES + l] = (y[l] + other_y[l]) / 2;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Time limits of long measures. */
+/* Deadlines for measures that run for a share of the time limit. */
 #ifndef KOKSMA_MEASURES_SHARED_DEADLINE_H
 #define KOKSMA_MEASURES_SHARED_DEADLINE_H
 
@@ -9,7 +9,8 @@
 
 #include "core/clock.h"
 
-/* The moment at which `share` of run's time limit will have passed; infinite without a limit. */
+/* The time, in seconds of koksma__now_s, at which `share` of run's time limit will have passed from now; infinite
+   without a limit. */
 static inline double koksma__deadline_s(const koksma_run *run, double share)
 {
     return run && run->time_limit_s > 0 ? koksma__now_s() + share * run->time_limit_s : (double)INFINITY;

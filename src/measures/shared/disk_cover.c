@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The discrepancy of disks, or bounds of it, by branch and bound over their centres. About the centre c of a square
- * cell whose corners are rho away, let d_1 <= d_2 <= .. be the distances of the points. A disk about any centre of
- * the cell, of radius s, holds at most the points within s + rho of c and at least those within s - rho, so that
+ * The discrepancy of disks, or bounds for it, by branch and bound over square cells of centres. Let c be the centre
+ * of a cell, rho the distance of its corners from c, and d_1 <= d_2 <= .. the distances of the points from c. A disk
+ * of radius s about any centre in the cell contains at most the points within s + rho of c and at least those within
+ * s - rho, so that
  *
  *     excess  <= max_i i/n - pi max(0, d_i - rho)^2          over d_i <= r + rho,
  *     deficit <= max_i pi min(r, d_i + rho)^2 - (i - 1)/n    over d_i - rho <= r, and d_(n+1) = infinity;
  *
- * with rho = 0 these are the best disks about c itself. Cells that may hold a better disk than the best so far are
- * cut in four, level by level, so that the result is the same on any number of threads. The points on the rim of a
- * disk about the cell are between s - rho and s + rho away: those near the d_i whose bound is too large. When they
- * are few, the disks through all pairs of them are tried, and the cell is done with.
+ * with rho = 0 these are the values of the best disks about c itself. Cells that may contain the centre of a better
+ * disk than the best so far are cut in four, level by level, so that the result is the same on any number of threads.
+ * The points on the rim of a disk of radius s about a centre in the cell are between s - rho and s + rho away from c.
+ * For a better disk they are near a d_i whose bound exceeds the best value. When these points are few, the disks
+ * through all pairs of them are tried, and the cell is finished.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,8 +32,8 @@ enum {
     LOOKS_A_PAIR = 16
 };
 
-static const double max_work = 0x1p28; /* the most point tests without a time limit, some seconds of work */
-static const double slack = 1e-12;     /* more than rounding can do to a bound */
+static const double max_work = 0x1p28; /* limit of point tests when there is no time limit: some seconds of work */
+static const double slack = 1e-12;     /* larger than the rounding errors of a bound */
 
 typedef struct cell {
     double x, y, upper;
@@ -40,13 +42,13 @@ typedef struct cell {
 typedef struct cover {
     const koksma__disk_set *set;
     double rho, deadline_s, work;
-    koksma__disk_best start, *best; /* of the levels before; of each block */
-    size_t *pairs;                  /* tried in each block */
+    koksma__disk_best start, *best; /* best of the levels before; best of each block */
+    size_t *pairs;                  /* number of pairs tried in each block */
     cell *cells;
     size_t n_cells;
 } cover;
 
-/* A point as seen from a centre: its distance, and the bounds that belong to it. */
+/* A point near a cell: its distance from the cell's centre, and the bounds for disks with their rim near it. */
 typedef struct neighbour {
     double square, distance, excess, deficit;
     size_t index;
@@ -55,10 +57,11 @@ typedef struct neighbour {
 /* The scratch memory of a block: the neighbours, and space to sort them. */
 typedef struct desk {
     neighbour *found, *sorted;
-    size_t *starts, n_pairs; /* n_pairs: tried so far */
+    size_t *starts, n_pairs; /* n_pairs: number of pairs tried so far */
 } desk;
 
-/* Those up to `reach` away, in order: by bins of equal area, and by insertion within. Returns how many. */
+/* Finds the points up to `reach` away from (x, y), sorted by distance: into bins of equal area, and by insertion
+   within them. Returns the number of points. */
 static size_t find_neighbours(const koksma__disk_set *set, double x, double y, double reach, desk *d)
 {
     const double limit = reach * reach, scale = (double)set->m / limit;
@@ -92,7 +95,7 @@ static size_t find_neighbours(const koksma__disk_set *set, double x, double y, d
     return count;
 }
 
-/* Tries the disks through each pair of the neighbours first .. last, with positions relative to the cell's centre. */
+/* Tries the disks through each pair of the neighbours first .. last. */
 static koksma_status try_pairs(const cover *c, const cell *at, const desk *d, size_t first, size_t last,
                                koksma__disk_best *best)
 {
@@ -110,7 +113,8 @@ static koksma_status try_pairs(const cover *c, const cell *at, const desk *d, si
     return status;
 }
 
-/* Tries the pairs on rims that may be better than the best, if they are few. */
+/* Tries the pairs of points that may be on the rim of a better disk than the best so far, if they are few, and then
+   marks the cell as finished. */
 static koksma_status settle(const cover *c, cell *at, desk *d, size_t count, koksma__disk_best *best)
 {
     const double margin = 2 * c->rho + 1e-9;
@@ -140,7 +144,8 @@ static koksma_status settle(const cover *c, cell *at, desk *d, size_t count, kok
     return KOKSMA_OK;
 }
 
-/* The bound of a cell, and the disks about its centre. Points as far as a rim are in where that is better. */
+/* Computes the bound of a cell and tries the disks about its centre, closed ones with and open ones without the
+   points on their rim. */
 static koksma_status look(const cover *c, cell *at, desk *d, koksma__disk_best *best)
 {
     const koksma__disk_set *set = c->set;
@@ -164,12 +169,11 @@ static koksma_status look(const cover *c, cell *at, desk *d, koksma__disk_best *
         }
         upper = fmax(upper, fmax(p->deficit, p->excess));
     }
-    /* All that a disk of the largest radius about this cell can hold is in that about the centre, or on other rims.
-     */
+    /* Then the open disk of the largest radius about the centre, and the deficit bound for d_(n+1) = infinity. */
     koksma__disk_try(set, best, false, at_r, centre, r * r);
     upper = fmax(upper, M_PI * r * r - (double)up_to / n + slack);
     at->upper = fmin(at->upper, upper);
-    /* Farther away, another image of a point may be the one on the rim. */
+    /* For r + rho >= 1/2 another periodic image of a point may be the one on the rim. */
     return at->upper > c->start.value && r + rho < 0.5 ? settle(c, at, d, count, best) : KOKSMA_OK;
 }
 
@@ -210,7 +214,7 @@ static koksma_status look_at_level(cover *c, const koksma_run *run)
     return status;
 }
 
-/* Leaves out the cells that can't be better than the best. */
+/* Removes the cells whose bound does not exceed the best value. */
 static void drop_cells(cover *c)
 {
     size_t kept = 0;
@@ -222,7 +226,7 @@ static void drop_cells(cover *c)
     c->n_cells = kept;
 }
 
-/* Each cell in four. */
+/* Cuts each cell in four. */
 static koksma_status cut_cells(cover *c, double half)
 {
     cell *quarters = malloc(4 * c->n_cells * sizeof *quarters);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Integrals over the laws of random disks and balls: the mean area that two disks of one random radius share when
- * their centres are a distance apart, and the mean square of the area. Closed forms by h = distance / 2 and s =
- * sqrt(r^2 - h^2): the lens of two circles is 2 r^2 atan2(s, h) - 2 h s, integrated over the law of r.
+ * Integrals over the distributions ("laws") of the radius of random disks and balls: the mean overlap of two disks of
+ * the same random radius whose centres are a given distance apart, and the mean of the squared area. They have closed
+ * forms in h = distance / 2 and s = sqrt(r^2 - h^2): two disks overlap in a lens of area 2 r^2 atan2(s, h) - 2 h s,
+ * which is integrated over the distribution of r.
  */
 #include "measures/shared/disk_laws.h"
 
@@ -40,7 +41,8 @@ double koksma__disk_square(koksma__disk_law law, double r)
     return M_PI * M_PI * r * r * r * r / divisors[law];
 }
 
-/* With h half of the distance and t = r - h, two balls of radius h + s share (2 pi / 3) (2 s + 3 h) s^2. */
+/* With h half of the distance and t = r - h. Two balls of radius h + s overlap in a volume of (2 pi / 3) (2 s + 3 h)
+   s^2. */
 double koksma__ball_overlap(koksma__disk_law law, double r, double distance2)
 {
     const double h = sqrt(distance2) / 2, t = r - h;
@@ -57,7 +59,8 @@ double koksma__ball_overlap(koksma__disk_law law, double r, double distance2)
     return M_PI * t * t * t * (r + h) / (3 * r);
 }
 
-/* Two disks of one radius lose overlap by their common chord, two balls by the disk between them; its mean over the law. */
+/* Minus the mean, over the law, of the length of the common chord of two disks, or of the area of the common disk of
+   two balls, which is the rate at which the overlap falls with the distance. */
 double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double distance)
 {
     const double h = distance / 2;

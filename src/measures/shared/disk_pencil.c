@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * All disks with two given points on their rim, a pencil of circles: their centres are middle + t normal, |t| <=
- * top, where 2h is the points' distance and the squared radius is h^2 + t^2 <= r^2.
+ * Searches all disks with two given points on their rim, whose circles form a pencil. With 2h the distance of the two
+ * points, the centres are middle + t normal, |t| <= top, and the squared radius is h^2 + t^2 <= r^2.
  *
- * A third point at q from the middle is inside where |q|^2 - h^2 - 2 t q.n <= 0, a half-line of t: so each point
- * enters or leaves the disk at one t, an event. Sorted by t, events are walked with a running count. Between events
- * the count is constant and the area is monotonic on either side of t = 0, so that a supremum is at an event, at t
- * = 0 (closed disks, whose excess wants the least area) or at |t| = top (open ones, whose deficit wants the
- * largest).
+ * A third point at q from the middle is inside where |q|^2 - h^2 - 2 t q.n <= 0, which is a half-line of t. So each
+ * point enters or leaves the disk at one value of t, an event. The events are sorted by t and visited with a running
+ * count. Between events the count is constant and the area is monotonic on either side of t = 0, so that the supremum
+ * is at an event, at t = 0 (for the excess of closed disks, which is largest for the least area) or at |t| = top (for
+ * the deficit of open disks, which is largest for the largest area).
  *
- * Before sorting, events are counted in BINS equal intervals of t, with the counts at their best and the areas at
- * theirs: when no bin can beat the best disk so far the pencil is skipped, in O(n) instead of O(n log n). On the
- * torus a point may have several images near enough. The rim is KOKSMA__DISK_RIM wide, above the rounding of
- * squared distances.
+ * Before sorting, the events are counted in BINS equal intervals of t, and each bin is bounded by its most favourable
+ * count and its most favourable area. When no bin can exceed the best disk so far, the pencil is skipped, in O(n)
+ * instead of O(n log n). On the torus several periodic images of a point may be near enough. Points whose squared
+ * distance is within KOKSMA__DISK_RIM of the squared radius count as on the rim; this is more than the rounding
+ * errors of squared distances.
  */
 #include "measures/shared/disk_pencil.h"
 
@@ -36,7 +37,7 @@ typedef struct pencil {
     double middle[2], normal[2];
     double h2, top;
     bool closed;
-    long count; /* at t = -top */
+    long count; /* number of points inside at t = -top */
     event *events;
     size_t n_events;
 } pencil;
@@ -62,8 +63,8 @@ static void add_event(pencil *p, double t, long delta)
     p->events[p->n_events++] = (event){t, delta};
 }
 
-/* A point at q from the middle is inside where |q|^2 - h^2 - 2 t q.n is not positive; the rim belongs to a closed
-   disk and not to an open one. */
+/* Adds the event of a point at q from the middle, which is inside where |q|^2 - h^2 - 2 t q.n <= 0. Points on the rim
+   are inside a closed disk and outside an open one. */
 static void add_point(pencil *p, double qx, double qy, long weight)
 {
     const double slope = 2 * (qx * p->normal[0] + qy * p->normal[1]);
@@ -78,14 +79,14 @@ static void add_point(pencil *p, double qx, double qy, long weight)
     }
 }
 
-/* Fills count and events; a point may have several images near enough. */
+/* Fills count and events. On the torus a point may have several periodic images near enough. */
 static void fill(pencil *p, size_t i, size_t j)
 {
     const koksma__disk_set *set = p->set;
     const double reach = p->top + set->r + 1e-7, reach2 = reach * reach;
     p->count = p->closed ? (long)(set->weights[i] + set->weights[j]) : 0;
     p->n_events = 0;
-    const int images = reach > 0.5 ? 4 : 1; /* the nearest, or all that can be within 1 */
+    const int images = reach > 0.5 ? 4 : 1; /* the nearest periodic image, or all that can be less than 1 away */
     for (size_t k = 0; k < set->m; k++) {
         const double dx = set->xs[k] - p->middle[0], dy = set->ys[k] - p->middle[1];
         const double x = dx - round(dx), y = dy - round(dy);
@@ -102,7 +103,8 @@ static void fill(pencil *p, size_t i, size_t j)
     }
 }
 
-/* Whether some disk may be better than the best: counts at their best and areas at theirs in each of the bins. */
+/* Whether some disk of the pencil may be better than the best so far, by a bound for each bin from its most
+   favourable count and its most favourable area. */
 static bool promising(const pencil *p)
 {
     long enter[BINS] = {0}, leave[BINS] = {0}, count = p->count;
@@ -127,7 +129,7 @@ static bool promising(const pencil *p)
     return false;
 }
 
-/* By position t; at equal positions the events that increase the deviation come first. */
+/* Orders events by position t; at equal positions the events that increase the deviation come first. */
 static int compare_closed(const void *a, const void *b)
 {
     const event *p = a, *q = b;
@@ -155,7 +157,7 @@ static void walk(pencil *p)
     }
 }
 
-/* The pair i, j where j is seen at (dx, dy) from i. */
+/* Tries the disks through points i and j, where (dx, dy) is the vector from i to the image of j. */
 static void try_pair(pencil *p, size_t i, size_t j, double dx, double dy)
 {
     const double length2 = dx * dx + dy * dy, length = sqrt(length2), r = p->set->r;
@@ -171,7 +173,7 @@ static void try_pair(pencil *p, size_t i, size_t j, double dx, double dy)
     for (int closed = 0; closed < 2; closed++) {
         p->closed = closed;
         fill(p, i, j);
-        if (closed) { /* the diameter; and an open disk of the largest radius on either side */
+        if (closed) { /* also the smallest closed disk, and the two largest open disks */
             add_event(p, 0, 0);
         } else {
             add_event(p, -p->top, 0);

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The disks through two points of the torus, for `disk`. */
+/* Searches among the disks through two points of the torus, for the measure `disk`. */
 #ifndef KOKSMA_MEASURES_SHARED_DISK_PENCIL_H
 #define KOKSMA_MEASURES_SHARED_DISK_PENCIL_H
 
 #include <koksma/koksma.h>
 
-/* A point whose squared distance from the centre is this close to the squared radius is on the rim. */
+/* A point is on the rim of a disk if its squared distance from the centre differs from the squared radius by at most
+   this. */
 #define KOKSMA__DISK_RIM 4e-15
 
 typedef struct koksma__disk_set {
-    size_t n, m; /* points; distinct points */
+    size_t n, m; /* number of points; number of distinct points */
     double r;    /* the largest radius */
     double *xs, *ys;
-    size_t *weights; /* how many points are at each place */
+    size_t *weights; /* multiplicity of each distinct point */
 } koksma__disk_set;
 
 typedef struct koksma__disk_best {
@@ -20,20 +21,21 @@ typedef struct koksma__disk_best {
     koksma_witness witness;
 } koksma__disk_best;
 
-/* Keeps the disk if it is better than the best. */
+/* Sets *best to this disk if its difference is larger. */
 void koksma__disk_try(const koksma__disk_set *set, koksma__disk_best *best, bool closed, size_t count,
                       const double *centre, double square_radius);
 
-/* Tries the critical disks with points i and any j > i on their rim. Errors: MEMORY. */
+/* Tries the critical disks with point i and any point j > i on their rim. Errors: MEMORY. */
 koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma__disk_best *best);
 
-/* Tries the critical disks with points i and j on their rim, j being seen at (dx, dy) from i on the torus. Errors:
-   MEMORY. */
+/* Tries the critical disks with points i and j on their rim, where (dx, dy) is the vector from i to the image of j.
+   Errors: MEMORY. */
 koksma_status koksma__disk_pair(const koksma__disk_set *set, size_t i, size_t j, double dx, double dy,
                                 koksma__disk_best *best);
 
-/* Raises *best to the best of all disks; or stops at the deadline or, without one, when enough work is done, and then
- *upper, a bound of all disks, is larger. Errors: MEMORY, INTERRUPTED. */
+/* Raises *best to the best of all disks by branch and bound. *upper is an upper bound for all disks; it exceeds the
+   value of *best if the search stopped early, at the deadline or, without one, after 2^28 point tests. Errors:
+   MEMORY, INTERRUPTED. */
 koksma_status koksma__disk_cover(const koksma__disk_set *set, const koksma_run *run, double deadline_s,
                                  koksma__disk_best *best, double *upper);
 

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Bounds for the discrepancy of half-planes. Turning a line by up to eta moves it, within rho of a centre, by no
- * more than s = 2 rho sin(eta/2): a half-plane of a turned direction holds no point that the one of the middle
- * direction, moved out by s, does not, and no less mass than the one moved in by s. So over all lines of an interval
- * of directions,
+ * Bounds for the discrepancy of half-planes. Within distance rho of a centre, turning a line about a point by up to
+ * eta moves it by at most s = 2 rho sin(eta/2). So a half-plane whose direction is within eta of the middle one lies,
+ * within the domain, between the half-planes of the middle direction that are moved inward and outward by s, which
+ * bound its count and its mass. Over all lines of an interval of directions this gives
  *
  *     excess <= max_c #{x below c}/n - mass(below c - 2s),    deficit <= max_c mass(below c + 2s) - #{x below c}/n,
  *
- * both computed from the points sorted along one direction. Intervals whose bound exceeds the largest known value
- * are halved.
+ * where both bounds are computed from the points sorted along the middle direction. Intervals whose bound exceeds the
+ * largest known value are halved.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -21,9 +21,10 @@
 
 enum { FIRST_CUTS = 32, MAX_CUTS = 1 << 20 };
 
-static const double finest = 1e-9; /* smooth maxima leave width^-1/2 intervals open */
+static const double finest =
+    1e-9; /* narrowest interval; near a smooth maximum about width^-1/2 intervals cannot be excluded */
 
-/* Directions within half a width of the middle, and the bound of their lines. */
+/* An interval of directions, within half a width of the middle one, and the bound for its lines. */
 typedef struct cut {
     double middle, bound;
     koksma__edge_line line; /* the best one found in the middle direction */
@@ -37,18 +38,19 @@ typedef struct cover {
     cut *cuts;
 } cover;
 
-/* The mass below the line of unit normal (a, b) at distance c of the origin. */
+/* The mass below the line with unit normal (a, b) at signed distance c from the origin. */
 static double mass_below(const cover *v, double a, double b, double c)
 {
     return v->domain->area_below_through(a, b, (double[2]){a * c, b * c});
 }
 
-/* t: the points' distances along (a, b), in order; at: their indices. */
+/* Bounds an interval and finds the best line of its middle direction (a, b). t[i]: the coordinate of point i along
+   (a, b); at: the indices of the points in order of t. */
 static void bound_cut(const cover *v, cut *now, double a, double b, const double *t, const uint32_t *at)
 {
     const double n = (double)v->n, slack = 4 * v->domain->radius * sin(v->width / 4) + 1e-14;
     double bounds[2] = {-1, -1};
-    size_t best[2] = {0, 0}; /* excess, deficit */
+    size_t best[2] = {0, 0}; /* ranks of the largest excess and of the largest deficit */
     for (size_t r = 0; r < v->n; r++) {
         const double c = t[at[r]];
         const double excess = (double)(r + 1) / n - mass_below(v, a, b, c - slack);
@@ -82,7 +84,7 @@ static koksma_status look_along(void *context, size_t block)
     const double a = cos(now->middle), b = sin(now->middle);
     double *t = koksma__now_s() < v->deadline_s ? malloc(bytes) : NULL, low = INFINITY, high = -INFINITY;
     if (!t) {
-        return KOKSMA_OK; /* the bound of the interval that was cut still holds */
+        return KOKSMA_OK; /* the bound of the wider interval that contains this one still holds */
     }
     double *scaled = t + v->n;
     uint32_t *order = (uint32_t *)(scaled + v->n);
@@ -103,7 +105,7 @@ static koksma_status look_along(void *context, size_t block)
     return status;
 }
 
-/* The cuts that may hold more than `lower`, each as its two halves, into `to`; how many there are then. */
+/* Writes to `to` the two halves of each interval whose bound exceeds `lower`. Returns the number of halves. */
 static size_t halve(const cover *v, size_t count, double lower, cut *to)
 {
     size_t kept = 0;
@@ -117,8 +119,8 @@ static size_t halve(const cover *v, size_t count, double lower, cut *to)
     return kept;
 }
 
-/* Halves, in rounds, the intervals of directions that may hold a larger value, until none is left, the deadline has
-   passed, or they are too many or too narrow. */
+/* Halves, in rounds, the intervals of directions that may contain a better line, until none is left, the deadline has
+   passed, or there are too many of them or they are too narrow. */
 static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *best, double *upper)
 {
     size_t count = FIRST_CUTS;

@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * edge in 3 dimensions. A deficit of an open half-space is the excess of the closed one that is left, so the supremum
- * is that of #/n - volume over closed half-spaces, and belongs to the half-space of least volume that holds some
- * subset of the points. Its plane goes through three points; or through two, with the centroid of the plane's section
- * of the cube on their line, for else turning about it makes the volume less; or through one, which is the centroid.
+ * edge in 3 dimensions. The deficit of an open half-space is the excess of its complement, a closed half-space, so
+ * the supremum is that of #/n - volume over closed half-spaces. It belongs to the half-space of least volume that
+ * contains some subset of the points. The plane of this half-space goes through three points; or through two points
+ * whose line contains the centroid of the plane's section of the cube, as otherwise turning the plane about that line
+ * would reduce the volume; or through one point, which is this centroid.
  *
- * The cube has a centre of symmetry. So (Meyer and Reisner 1991) the planes that cut off a volume v < 1/2 touch a
- * convex body each, at the centroid of the section, and the bodies of larger v are inside those of smaller: only one
- * of them touches a given line, or a given point. Hence while a plane turns about a line, the volume has one minimum
- * and one maximum, opposite to each other, and nothing else where it is stationary: golden section finds it. About a
- * point likewise: the least volume of the planes through a horizontal line through it has one minimum over the
- * line's directions.
+ * The cube has a centre of symmetry. So (Meyer and Reisner 1991) for each v < 1/2 there is a convex body that all
+ * planes that cut off the volume v touch, each at the centroid of its section. The body for a larger v is inside that
+ * for a smaller v, so that only one of the bodies touches a given line or a given point. Hence, as a plane turns
+ * about a line, the volume has one minimum and one maximum, opposite to each other, and is stationary nowhere else:
+ * golden section search finds the minimum. For planes through a point, take the least volume over the planes through
+ * each horizontal line through this point; it has one minimum over the directions of that line.
  *
- * Only for points on an axis of the cube are there many sections with one centroid, and volumes that stay while the
- * plane turns: there some plane is also through another point, and a corner of the cube or a third point; or no other
- * point is in the way, and the plane across the axis will do.
+ * Only for points on an axis of the cube do many sections have the same centroid, so that the volume is constant
+ * while the plane turns. Then some optimal plane also goes through another point and through a corner of the cube or
+ * a third point; or the plane can turn without meeting another point, and the plane perpendicular to the axis is
+ * optimal.
  *
- * n^3/6 planes, each with a pass over the points. A point counts as on a plane within 2e-15, which puts errors of a
- * few 1e-15 into values. Normals of triples are computed with 106 bits: triples may be close to a line.
+ * The cost is that of n^3/6 planes, each with a pass over the points. A point within 2e-15 of a plane counts as on
+ * it, which causes errors of a few 1e-15 in the values. Normals of planes through three points are computed with 106
+ * bits, as the points may be almost collinear.
  */
 #include <math.h>
 #include <stdatomic.h>
@@ -42,24 +45,24 @@ typedef struct search {
     size_t n;
     const double *points;
     double *coordinates[3];
-    half_space *best; /* one for each first point */
+    half_space *best; /* the best for each first point of a plane */
     double deadline_s;
     atomic_bool late;
 } search;
 
-/* The planes through p and normal to e cos(angle) + f sin(angle). */
+/* The planes through p with normal e cos(angle) + f sin(angle). */
 typedef struct fan {
     const double *p;
     double e[3], f[3];
 } fan;
 
-/* In the order in which whoever checks a witness computes it. */
+/* a . x, with the order of additions that a reader uses to check a witness. */
 static double project(const double a[3], const double x[3])
 {
     return a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
 }
 
-/* Both sides of the plane through p with normal a. */
+/* Tries the half-spaces on both sides of the plane through p with this normal. */
 static void consider(const search *s, half_space *best, const double normal[3], const double p[3])
 {
     const double size = fmax(fabs(normal[0]), fmax(fabs(normal[1]), fabs(normal[2])));
@@ -92,8 +95,9 @@ static void normal_at(const fan *f, double angle, double normal[3])
     }
 }
 
-/* The volume below a plane of the fan at an angle; of a point's fan the least volume of planes about the horizontal
-   line at that angle. *best gets the normal where that is not NULL. */
+/* A function of an angle: about_line gives the volume below the plane of a fan at this angle, about_point the least
+   volume below the planes through p that contain the horizontal direction at this angle. It writes the normal of the
+   plane to best, unless best is NULL. */
 typedef double (*turned)(const double *p, const void *context, double angle, double best[3]);
 
 static double golden(turned f, const double *p, const void *context, double low, double high)
@@ -126,8 +130,8 @@ static double about_line(const double *p, const void *context, double angle, dou
     return koksma__volume_below_through(best ? best : normal, p);
 }
 
-/* The angle where f is least. f has one minimum and one maximum in a period, so that the minimum is next to the least
-   of a number of samples. */
+/* The angle where f is least. f has one minimum and one maximum in a period, so that the minimum is in one of the two
+   intervals beside the least of equidistant samples. */
 static double least(turned f, const double *p, const void *context, double period, int samples)
 {
     const double step = period / samples;
@@ -164,7 +168,7 @@ static void try_point(const search *s, half_space *best, const double *p)
 {
     static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double normal[3];
-    for (int k = 0; k < 3; k++) { /* also the sides of the cube, if points are on them */
+    for (int k = 0; k < 3; k++) { /* includes the planes of the cube's faces, for points on them */
         consider(s, best, axes[k], p);
     }
     about_point(p, NULL, least(about_point, p, NULL, M_PI, ABOUT_POINT), normal);
@@ -186,7 +190,8 @@ static void normal_through(const double *p, const double *q, const double *r, do
     }
 }
 
-/* Two unit vectors normal to q - p and to each other; false if the points are one. */
+/* Sets f to the fan of planes through p and q, with two unit vectors normal to q - p and to each other. Returns false
+   if p equals q. */
 static bool fan_about(const double *p, const double *q, fan *f)
 {
     double u[3], size = 0;
@@ -230,7 +235,7 @@ static void try_pair(const search *s, half_space *best, const double *p, const d
     }
 }
 
-/* The planes through point i and points after it. */
+/* Tries the planes through point i and up to two points after it. */
 static koksma_status try_first(void *context, size_t i)
 {
     search *s = context;
@@ -276,7 +281,7 @@ static void finish(const search *s, koksma_value *out)
     }
     const bool late = atomic_load(&s->late);
     out->value = out->lower = best.value;
-    out->upper = late ? 1 : best.value; /* of planes that were not looked at nothing is known */
+    out->upper = late ? 1 : best.value; /* a plane that was not tried may reach any value */
     out->exact = !late;
     out->witness = w;
 }

@@ -2,21 +2,21 @@
 /*
  * The discrepancy of half-planes by a rotational sweep about each point, O(n^2 log n).
  *
- * Move a half-plane without passing a point and its count stays while its area changes, until its border touches
- * points: so the supremum is reached by a line through two points, or through one, where the line is the chord
- * that the point bisects (there the area is stationary as the line turns). For each point as the pivot the other
- * points become rays, turned into the upper half-plane and sorted by angle:
+ * While a half-plane moves without its border passing a point, its count is constant and its area changes, until the
+ * border touches points. So the supremum is reached by a line through two points, or through one point that bisects
+ * the chord of the line (where the area is stationary as the line turns). For each point as the pivot, the directions
+ * to the other points are turned into the upper half-plane and sorted by angle; they are called rays:
  *
  *            \   c  /              the line turns counter-clockwise about the pivot o and passes a, b, c; a point of
  *             \    /   b           the upper half-plane leaves the left side as the line passes it, one of the lower,
  *              \  /  .'            which was turned up (flipped), enters: the count is updated in O(1) a ray, and the
  *     ----------o------- a         area of the domain on one side is a closed form of the line.
  *
- * Points at one angle are passed together, and at each stop the closed half-plane (an excess) and the open one (a
- * deficit) are tried, with the points on the line in or out. Sorting uses a key in doubles; nearly equal keys are
- * ordered by the exact sign of the cross product (orientation.c), so that collinear points are found as such.
- * Pivots are blocks of work for threads; a deadline leaves pivots out, and the value is then a lower bound. See
- * measures/edge.c.
+ * Points at the same angle are passed together. At each angle the closed half-plane, with the points on the line, is
+ * tried for the excess, and the open one, without them, for the deficit. Sorting uses a key in doubles; nearly equal
+ * keys are ordered by the exact sign of the cross product (orientation.c), so that collinear points are recognised.
+ * Threads work on blocks of pivots; pivots left when the deadline passes are skipped, and the value is then a lower
+ * bound. See measures/edge.c.
  */
 #include "measures/shared/edge_sweep.h"
 
@@ -32,14 +32,15 @@
 
 enum { PIVOTS_PER_BLOCK = 16, DIGIT = 11 };
 
-/* Another point as the pivot sees it. key grows with the angle of (dx, dy) turned into the upper half-plane. */
+/* The direction from the pivot to another point, turned into the upper half-plane; `key` increases with its angle. */
 typedef struct ray {
     double key, dx, dy;
     uint32_t index;
     bool flipped;
 } ray;
 
-/* The best line so far: through point `pivot` along (dx, dy); other = n + c for the bisected chord c. */
+/* The best line so far, through point `pivot` along (dx, dy). other: the second point on it, or n + c for chord c of
+   the pivot. */
 typedef struct best_line {
     double value;
     size_t pivot, other;
@@ -51,9 +52,9 @@ typedef struct pivots {
     const koksma__domain *domain;
     const double *xs;
     size_t n;
-    best_line *best; /* one a block */
+    best_line *best; /* one for each block */
     double deadline_s;
-    atomic_bool late; /* pivots were left out */
+    atomic_bool late; /* the deadline passed before all pivots were tried */
 } pivots;
 
 /* Turns a direction, given as exact differences, into the upper half-plane. */
@@ -69,8 +70,7 @@ static void turn_up(koksma__chord *c)
     }
 }
 
-/* The exact sign of the cross product of two rays of p, both turned into the upper half-plane: > 0 if a comes first.
- */
+/* The exact sign of the cross product of rays a and b of the pivot p; it is positive if a has the smaller angle. */
 static int turn(const double *xs, const double p[2], const ray *a, const ray *b)
 {
     const double *u = xs + 2 * (size_t)a->index, *v = xs + 2 * (size_t)b->index;
@@ -79,7 +79,7 @@ static int turn(const double *xs, const double p[2], const ray *a, const ray *b)
     return a->flipped == b->flipped ? sign : -sign;
 }
 
-/* A pass of radix sort by DIGIT bits from `shift` on; equal digits keep their order. */
+/* One stable pass of a radix sort, by DIGIT bits from bit `shift` on. */
 static void sort_digit(const uint64_t *from, uint64_t *to, size_t n, int shift)
 {
     uint32_t start[1 << DIGIT] = {0}, total = 0;
@@ -109,8 +109,8 @@ static void merge_sort(ray *rays, ray *spare, size_t n)
     }
 }
 
-/* By key, equal ones in the order that they have: the keys, rounded to 32 bits, by radix, and what these leave by
-   insertion; where they leave much, because points crowd in few directions, by merging. */
+/* Sorts rays by key, stably: by a radix sort of the keys rounded to 32 bits and an insertion sort of the result; by a
+   merge sort if insertion takes more than 4n moves, as when many points lie in almost the same direction. */
 static void sort_rays(ray *rays, ray *spare, uint64_t *items, size_t n)
 {
     size_t moves = 0;
@@ -138,7 +138,7 @@ static void sort_rays(ray *rays, ray *spare, uint64_t *items, size_t n)
     }
 }
 
-/* Keys are good to about 1e-15: neighbours that are closer are put in order exactly. */
+/* Keys have errors of about 1e-15, so rays with keys closer than 4e-15 are put in order by exact arithmetic. */
 static void settle_order(const double *xs, const double p[2], ray *rays, size_t n)
 {
     for (size_t i = 1; i < n; i++) {
@@ -153,7 +153,7 @@ static void settle_order(const double *xs, const double p[2], ray *rays, size_t 
 
 static void consider(const pivots *job, best_line *best, size_t left_open, size_t left_closed, best_line line)
 {
-    /* the left side of (dx, dy): -dy x + dx y >= .. */
+    /* the half-plane is the left side of (dx, dy), where -dy x + dx y >= -dy p[0] + dx p[1] */
     const double *p = job->xs + 2 * line.pivot, n = (double)job->n;
     const double area = job->domain->area_below_through(line.dy, -line.dx, p);
     const double excess = (double)left_closed / n - area, deficit = area - (double)left_open / n;
@@ -164,7 +164,7 @@ static void consider(const pivots *job, best_line *best, size_t left_open, size_
     }
 }
 
-/* How a chord of p lies to a ray: > 0 if the chord comes first. */
+/* The sign of the angle from a chord of the pivot p to a ray: > 0 if the chord comes first. */
 static int chord_turn(const double *xs, const double p[2], const koksma__chord *c, const ray *r)
 {
     const double *v = xs + 2 * (size_t)r->index, vx[2] = {v[0], p[0]}, vy[2] = {v[1], p[1]};
@@ -172,7 +172,8 @@ static int chord_turn(const double *xs, const double p[2], const koksma__chord *
     return r->flipped ? -sign : sign;
 }
 
-/* The chords that come before a ray (all that are left, without a ray). Those along it are seen to with it. */
+/* Tries the chords that come before ray r, or all remaining ones if r is NULL. A chord along r is removed, as the
+   caller tries the line of r. */
 static void try_chords(const pivots *job, size_t pivot, koksma__chord chords[KOKSMA__MAX_CHORDS], const ray *r,
                        size_t left, size_t same, best_line *best)
 {
@@ -192,7 +193,8 @@ static void try_chords(const pivots *job, size_t pivot, koksma__chord chords[KOK
     }
 }
 
-/* Turns the line from angle 0 to pi past all rays; left: points on its left; the rest are at the pivot. */
+/* Turns the line from angle 0 to pi past all `count` rays. left: the number of points on its left at angle 0. The
+   other n - count points coincide with the pivot. */
 static void turn_line(const pivots *job, size_t pivot, const ray *rays, size_t count, size_t left, best_line *best)
 {
     const double *p = job->xs + 2 * pivot;
@@ -250,7 +252,7 @@ static koksma_status try_block(void *context, size_t block)
     const size_t first = block * PIVOTS_PER_BLOCK;
     best_line best = {.value = -1};
     for (size_t pivot = first; pivot < first + PIVOTS_PER_BLOCK && pivot < job->n; pivot++) {
-        if (pivot > 0 && koksma__now_s() > job->deadline_s) { /* the first one always is tried */
+        if (pivot > 0 && koksma__now_s() > job->deadline_s) { /* the first pivot is always tried */
             atomic_store(&job->late, true);
             break;
         }
@@ -261,8 +263,8 @@ static koksma_status try_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* The half-plane a x + b y <= c on the left of the line. c is chosen so that comparisons in doubles put every point
-   on its side. */
+/* Makes the witness, the half-plane a x + b y <= c on the left of the line. c is chosen so that comparisons in
+   doubles put every point on the correct side. */
 static void make_witness(const pivots *job, const best_line *line, koksma_value *out)
 {
     const double size = fmax(fabs(line->dx), fabs(line->dy)), scale = size < 0x1p-400 ? 0x1p600 : 1;
@@ -297,7 +299,8 @@ static void make_witness(const pivots *job, const best_line *line, koksma_value 
     out->witness = w;
 }
 
-/* After the deadline: a better line among those of the cover, and a bound for all. */
+/* After the deadline: computes an upper bound for all lines, and takes the best line found on the way if it is
+   better. */
 static koksma_status find_bound(const pivots *job, const koksma_run *run, double deadline_s, koksma_value *out)
 {
     koksma__edge_line line = {.value = out->value};
@@ -323,7 +326,7 @@ koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const d
 {
     const size_t n_blocks = (n + PIVOTS_PER_BLOCK - 1) / PIVOTS_PER_BLOCK;
     const double end_s = koksma__deadline_s(run, 0.95);
-    KOKSMA__FAIL_IF(n > UINT32_MAX / 2, KOKSMA_N, "edge: n = %zu: fewer than 2^31 points", n);
+    KOKSMA__FAIL_IF(n > UINT32_MAX / 2, KOKSMA_N, "edge: n = %zu: it takes fewer than 2^31 points", n);
     pivots job = {.domain = domain,
                   .xs = xs,
                   .n = n,

@@ -6,35 +6,36 @@
 
 enum { KOKSMA__MAX_CHORDS = 3 };
 
-/* The direction (across[0] - across[1], up[0] - up[1]) of a chord, exactly; 0 if there is none. */
+/* The direction (across[0] - across[1], up[0] - up[1]) of a chord as exact differences; both are 0 if there is no
+   chord. */
 typedef struct koksma__chord {
     double across[2], up[2];
 } koksma__chord;
 
-/* A convex domain of the plane with the uniform measure of mass 1. */
+/* A convex domain in the plane with the uniform measure of total mass 1. */
 typedef struct koksma__domain {
-    /* the mass where a x + b y <= a p[0] + b p[1] */
+    /* the mass of the half-plane a x + b y <= a p[0] + b p[1] */
     double (*area_below_through)(double a, double b, const double p[2]);
-    /* the chords whose midpoint is p: when a line turns about p, the mass on one side of it is stationary there; at
-       least one; at a corner its two sides */
+    /* the chords with midpoint p, at which the mass on one side of a line that turns about p is stationary; there is
+       at least one; for p a corner they are the two sides at it */
     void (*chords)(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS]);
-    double radius; /* of a circle about the domain */
+    double radius; /* of a circle that contains the domain */
 } koksma__domain;
 
-/* The half-plane a x + b y <= c, or < c. */
+/* The half-plane a x + b y <= c if closed, else a x + b y < c. */
 typedef struct koksma__edge_line {
     double value, a, b, c, mass;
     size_t count;
     bool closed;
 } koksma__edge_line;
 
-/* The largest |#/n - mass| over half-planes whose line goes through a point, with its witness. When run's time limit
-   passes, out is not exact: it holds the best that was found and an upper bound. Errors: N, MEMORY, INTERRUPTED. */
+/* The largest |#/n - mass| over half-planes whose border goes through a point, with its witness. If run's time limit
+   passes, out is not exact and has the best value found and an upper bound. Errors: N, MEMORY, INTERRUPTED. */
 koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
                                  koksma_value *out);
 
-/* Cuts the directions into intervals until the deadline: *upper is a bound for all lines, and *best becomes a line of
-   the middle of an interval where that is better. Errors: MEMORY, INTERRUPTED. */
+/* Cuts the directions into intervals until the deadline. Sets *upper to a bound for all lines, and *best to the best
+   line in the middle direction of an interval if it is better. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__edge_cover(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
                                  double deadline_s, koksma__edge_line *best, double *upper);
 

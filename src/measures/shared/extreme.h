@@ -4,15 +4,16 @@
 
 #include <koksma/koksma.h>
 
-/* The largest |#/n - volume| over all boxes, exactly, with its witness. Errors: N, MEMORY, INTERRUPTED.
-   small: 1 to 3 dimensions, O(n^(2d-1)). With a time limit out may hold bounds. */
+/* The largest |#/n - volume| over all boxes, exactly, with its witness, in d = 1 to 3 dimensions in O(n^(2d-1)). If a
+   time limit ends the search, out has a lower and an upper bound. Errors: N, MEMORY, INTERRUPTED. */
 koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out);
 
-/* plane: 2D, by bounds, O(n^2 log^2 n) at worst. With a time limit out may hold bounds. */
+/* The same value in 2 dimensions in O(n^2 log^2 n) at worst, by branch and bound and by a sweep. If a time limit ends
+   the search, out has a lower and an upper bound. */
 koksma_status koksma__extreme_plane(const koksma_points *points, const koksma_run *run, koksma_value *out);
 
-/* The ways to search the plane, which tests compare: branch and bound over strips, a sweep from each left side, or
-   the first where it is quick and the second for the rest. */
+/* The methods to search the plane, which tests compare: BOUND is branch and bound over strips, SWEEP a sweep from
+   each left side; EITHER begins a block with the first and uses the second where the first takes too long. */
 typedef enum koksma__extreme_method {
     KOKSMA__EXTREME_EITHER,
     KOKSMA__EXTREME_BOUND,
@@ -22,7 +23,7 @@ typedef enum koksma__extreme_method {
 koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koksma_points *points,
                                        const koksma_run *run, koksma_value *out);
 
-/* Points in order of y; the best box between x = left and right. */
+/* Finds the best box between x = left and x = right and writes it to out; the points x[i], y[i] are in order of y. */
 void koksma__extreme_of_strip(size_t n, const double *x, const double *y, double left, double right, bool closed,
                               koksma_value *out);
 

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Boxes in the plane by branch and bound over their left and right sides. A tile is a block of left sides (levels a1
- * .. a2 of x) and of right sides (b1 .. b2). For a given strip one pass over its points in order of y finds the best
- * box. A tile is bounded by the same pass: an excess by the points of its widest strip with the width of its
- * narrowest, a deficit the other way round. Tiles that can't beat the best box are dropped, others are cut into 4 x
- * 4, down to single strips. Passes are done for 16 tiles at once. Blocks of left sides are separate work with a best
- * of their own, so that threads change no bit. A block that has taken as long as a sweep from each of its left sides
- * is swept instead: the count of its passes decides, not a clock.
+ * Finds the best box in the plane by branch and bound over the left and right sides of boxes. A strip is the part of
+ * the square between a left and a right side; one pass over its points in order of y finds its best box. A tile is
+ * the set of strips whose left side is one of the levels a1 .. a2 of x and whose right side is one of b1 .. b2. The
+ * same pass gives a bound for a tile: the excess is bounded by the points of the widest strip with the width of the
+ * narrowest, the deficit by the points of the narrowest strip with the width of the widest. Tiles whose bound does
+ * not exceed the best box are dropped, others are cut into 4 x 4 tiles, down to single strips. Passes are done for 16
+ * tiles at once. Each block of left sides is a separate job with its own best box, so that the result does not depend
+ * on the number of threads. A block for which bounding has cost as much as a sweep from each of its left sides would
+ * is swept instead; counted work decides this, not a clock.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -24,12 +26,12 @@ enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48, MAX_RO
 
 #define SWEEP_COST 20.0
 
-/* The side of a tile at each depth; each is cut into the next. */
+/* The number of levels in the side of a tile at each depth of the search. */
 static const size_t tile_sides[DEPTH] = {COARSE, 8, 2, 1};
 
 typedef struct tile {
-    size_t a, b;  /* first levels; the last are a + side - 1, b + side - 1, where there are so many */
-    double bound; /* of the tile that it was cut from; infinite at first */
+    size_t a, b;  /* first levels; the last ones are a + side - 1 and b + side - 1, or the last level of all */
+    double bound; /* bound of the tile from which this one was cut; infinite at first */
 } tile;
 
 typedef struct best_strip {
@@ -41,10 +43,10 @@ typedef struct best_strip {
 typedef struct plane {
     size_t n, n_levels;
     double *x, *y;     /* points in order of y */
-    double *levels;    /* of x: 0, 1 and those of points, without repeats */
-    best_strip *best;  /* one a block of left sides */
-    double *upper;     /* of tiles left when time was up: by block, infinite where some were never bounded */
-    double *row_upper; /* then: of rows of wide tiles, row_side left sides each */
+    double *levels;    /* the distinct values of x, with 0 and 1 */
+    best_strip *best;  /* for each block of left sides */
+    double *upper;     /* for each block, the bound of tiles left at the deadline; infinite if some have none */
+    double *row_upper; /* for each row of wide tiles, of row_side left sides each, its bound after the deadline */
     size_t row_side;
     double deadline_s;
     koksma__extreme_method method;
@@ -53,12 +55,12 @@ typedef struct plane {
 
 typedef struct searcher {
     const plane *p;
-    double *x, *y; /* the points of the present group of tiles */
+    double *x, *y; /* the points of the current group of tiles */
     size_t count;
     tile waiting[DEPTH][LANES];
     int n_waiting[DEPTH];
     best_strip best;
-    double upper, work, budget; /* points passed, of which so many are worth a sweep */
+    double upper, work, budget; /* points passed so far; number of points passed that costs as much as a sweep */
     bool late;
 } searcher;
 
@@ -147,7 +149,7 @@ static void flush_all(searcher *s)
     }
 }
 
-/* The points between two levels, in order of y. */
+/* Collects the points between two levels, in order of y. */
 static void gather(searcher *s, size_t from, size_t to)
 {
     const plane *p = s->p;
@@ -170,8 +172,8 @@ static bool open_searcher(const plane *p, searcher *s)
     return true;
 }
 
-/* The work of bounding that takes as long as sweeping the block: one for a point passed with 16 tiles, against
-   SWEEP_COST for a point on one of the log2 n nodes of its path. */
+/* The work of bounding that costs as much as sweeping the block. The unit is one point passed for 16 tiles; in a
+   sweep a point costs SWEEP_COST units for each of the log2 n nodes on its path. */
 static double budget_of(const plane *p, size_t a)
 {
     const double left = fmin(COARSE, (double)(p->n_levels - a));
@@ -181,7 +183,7 @@ static double budget_of(const plane *p, size_t a)
                                                 : SWEEP_COST * left * points * log2((double)p->n + 2);
 }
 
-/* Finds the exact maximum of a block of strips by a sweep, where bounds would take longer. */
+/* Finds the exact maximum of a block of strips by a sweep; for blocks where bounding would take longer. */
 static koksma_status sweep_block(const plane *p, size_t a, searcher *s)
 {
     koksma__sweep_best best = {s->best.value, s->best.strip.a, s->best.strip.b, s->best.closed};
@@ -228,7 +230,7 @@ static koksma_status search_block(void *context, size_t block)
     return status;
 }
 
-/* Bounds for a row of wide tiles, so that what time did not suffice for has one as well. */
+/* Bounds a row of wide tiles, so that strips that were not searched before the deadline have a bound too. */
 static koksma_status bound_row(void *context, size_t row)
 {
     const plane *p = context;
@@ -254,7 +256,8 @@ static koksma_status bound_row(void *context, size_t row)
     return KOKSMA_OK;
 }
 
-/* Where the deadline left something undone. Few rows for many points: this has no deadline of its own. */
+/* Bounds the blocks that were unfinished at the deadline. The more points, the fewer rows of tiles are used, as this
+   step has no time limit. */
 static koksma_status bound_rest(plane *p, size_t n_blocks, const koksma_run *run)
 {
     bool all = true;
@@ -274,7 +277,7 @@ static koksma_status bound_rest(plane *p, size_t n_blocks, const koksma_run *run
     return status;
 }
 
-/* Some strips, to begin with a good value: what is dropped does not depend on luck then. */
+/* Searches some strips first, so that pruning starts with a good value whatever the order of the search. */
 static koksma_status first_value(plane *p)
 {
     searcher s;
@@ -296,7 +299,8 @@ static koksma_status first_value(plane *p)
     return KOKSMA_OK;
 }
 
-/* Places in order of y, in order of x, and where in these each level begins. */
+/* Fills by_x, the indices of the points in order of x (the points are in order of y), and first, where each level
+   begins in by_x. */
 static koksma_status prepare_sweep(plane *p, const koksma_run *run, uint32_t *by_x, uint32_t *first)
 {
     const koksma_status status = koksma__order(run, p->n, p->x, 1, by_x);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Boxes in one to three dimensions, one pair of sides after the other: O(n^(2d-1)). */
+/* Finds the best box in d = 1 to 3 dimensions by trying all pairs of sides in all coordinates but the first:
+   O(n^(2d-1)). */
 #include "measures/shared/extreme.h"
 
 #include <stdlib.h>
@@ -11,13 +12,13 @@
 
 enum { MAX_N_3D = 128 };
 
-/* Boxes are chosen side by side from the last coordinate to the second; the points that are left at each depth are
-   kept sorted by the first, along which one pass finds the best interval. */
+/* The sides of boxes are chosen from the last coordinate to the second. The points between the chosen sides are kept
+   sorted by the first coordinate, along which one pass finds the best interval. */
 typedef struct search {
     size_t n;
     int dim;
-    double *lists[3];  /* lists[k]: points that are left when coordinates above k are chosen; dim numbers each */
-    double *levels[3]; /* sorted coordinates of all points, without repeats; for deficits with 0 and 1 */
+    double *lists[3];  /* lists[k]: the points between the sides in coordinates above k, dim numbers each */
+    double *levels[3]; /* distinct coordinates of all points in order; for deficits with 0 and 1 */
     size_t n_levels[3];
     double lo[3], hi[3];
     const koksma_run *run;
@@ -45,7 +46,8 @@ static void keep(search *s, double value, bool closed, size_t count, double volu
     memcpy(w->hi, s->hi, sizeof s->hi);
 }
 
-/* The best closed interval of the first coordinate: over i <= j, (j+1-i)/n - width (z_j - z_i). */
+/* Finds the closed interval of the first coordinate with the largest excess, (j+1-i)/n - width (z_j - z_i) over i <=
+   j, where the z's are the sorted first coordinates. */
 static void best_excess(search *s, const double *list, size_t count, double width)
 {
     const double n = (double)s->n;
@@ -69,7 +71,8 @@ static void best_excess(search *s, const double *list, size_t count, double widt
     }
 }
 
-/* The best open interval: over lo < hi among 0, the z's and 1, width (hi - lo) - #{lo < z < hi}/n. */
+/* Finds the open interval of the first coordinate with the largest deficit, width (hi - lo) - #{lo < z < hi}/n over
+   lo < hi among 0, 1 and the sorted first coordinates z. */
 static void best_deficit(search *s, const double *list, size_t count, double width)
 {
     const double n = (double)s->n;
@@ -102,7 +105,7 @@ static void best_deficit(search *s, const double *list, size_t count, double wid
     }
 }
 
-/* Chooses the sides of coordinates k, k-1, .. 1 for boxes of the given width so far. */
+/* Tries all sides in coordinates k, k-1, .. 1. width: the product of the side lengths in the coordinates above k. */
 static void choose(search *s, int k, size_t count, double width, bool closed)
 {
     if (k == 0) {
@@ -177,13 +180,13 @@ koksma_status koksma__extreme_small(const koksma_points *points, const koksma_ru
     for (size_t k = 0; k < dim; k++) {
         s.hi[k] = 1;
     }
-    keep(&s, 0, true, n, 1); /* the whole cube, to have a box in any case */
+    keep(&s, 0, true, n, 1); /* the whole cube, so that there is always a witness */
     for (int closed = 0; closed < 2; closed++) {
         fill_levels(&s, closed);
         choose(&s, points->dim - 1, n, 1, closed);
     }
     free(memory);
-    if (s.late) { /* of what was not looked at nothing is known */
+    if (s.late) { /* a box that was not tried may reach any value */
         out->exact = false;
         out->lower = out->value;
         out->upper = 1;

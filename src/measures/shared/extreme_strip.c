@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The best box of a strip, as the searches of the plane find it, with its sides and the value in its final form. */
+/* Finds the best box of one strip again once the searches of the plane know the strip, with all sides of the box and
+   the value as it is reported. */
 #include "measures/shared/extreme.h"
 
 void koksma__extreme_of_strip(size_t n, const double *x, const double *y, double left, double right, bool closed,

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The best boxes of all strips with one left side, the right side moving on. Of the strip's points in order of y,
- * with w its width, let
+ * Finds the best boxes of all strips with a given left side while the right side moves to the right. For the points
+ * of the strip in order of y, with w the width of the strip, let
  *
  *     F_j = #{points up to j} - n w y_j,   G_i = #{points before i} - n w y_i.
  *
- * An excess is the largest F_j - G_i, i <= j, over closed strips; a deficit the largest F_i - G_j, i < j, over open
- * ones, the sides of the square being ends as well. All are lines in w. A tree over the points in order of y keeps,
- * for each of its nodes, the largest F, the smallest G and the best difference, and up to which w these are right (a
- * kinetic segment tree: Basch, Guibas and Hershberger 1999). A new point changes one path; counts
- * below a node are shifts of all its lines, and change no order within.
- * Ties in y: among equal ones the first has the smallest G and the last the largest F; others are only weaker.
+ * The largest excess is the largest F_j - G_i, i <= j, for closed strips. The largest deficit is the largest F_i -
+ * G_j, i < j, for open strips, where the lower and the upper side of the square count as points too. F, G and the
+ * differences are lines in w. A tree over the points in order of y keeps for each node the largest F, the smallest G
+ * and the best difference below it, and the w up to which these are valid (a kinetic segment tree: Basch, Guibas and
+ * Hershberger 1999). A new point changes the nodes on one path; the points in a left subtree shift all lines of the
+ * right one equally and do not change their order. Among points with equal y the first has the smallest G and the
+ * last the largest F; the others give smaller values only.
  */
 #include "measures/shared/extreme_sweep.h"
 
@@ -26,7 +27,7 @@ typedef struct line {
 
 typedef struct node {
     line f, g, best;
-    double points, until; /* how many are in the strip; the lines are right for widths below */
+    double points, until; /* number of points in the strip; width up to which the lines are valid */
 } node;
 
 typedef struct tree {
@@ -45,7 +46,8 @@ static inline line shifted(line l, double count)
     return (line){l.count + count, l.slope};
 }
 
-/* The larger line at w, the one that falls less when they are equal; until when it stays so. */
+/* Returns the line that is larger at w, or if they are equal the one that falls less. Lowers *until to the width at
+   which the other line overtakes it. */
 static inline line larger(line a, line b, double w, double *until)
 {
     const double ahead = a.count - b.count - w * (a.slope - b.slope);
@@ -100,7 +102,7 @@ static void put_leaf(tree *t, size_t leaf, node value)
     }
 }
 
-/* Without points; the sides of the square are ends of open strips. */
+/* Empties the tree. For open strips the lower and the upper side of the square are its first and last entries. */
 static void clear(tree *t, size_t n, double height)
 {
     const node empty = {none, {INFINITY, 0}, none, 0, INFINITY};
@@ -131,7 +133,7 @@ static void consider(tree *t, size_t left, size_t right, koksma__sweep_best *bes
     }
 }
 
-/* True if the deadline came before the end. */
+/* Moves the right side over all levels. Returns true if the deadline passed before the end. */
 static bool sweep_right(const koksma__sweep_plane *p, size_t left, double deadline_s, tree *closed, tree *open,
                         koksma__sweep_best *best)
 {

@@ -4,12 +4,12 @@
 
 #include <koksma/koksma.h>
 
-/* Points in order of y, and the levels of x: 0, 1 and those of points, without repeats. */
+/* The points in order of y, and the levels of x: the distinct x of the points, with 0 and 1. */
 typedef struct koksma__sweep_plane {
     size_t n, n_levels;
     const double *y, *levels;
-    const uint32_t *by_x;  /* places in order of y, in order of x */
-    const uint32_t *first; /* points of level l: by_x[first[l]] .. by_x[first[l + 1] - 1] */
+    const uint32_t *by_x;  /* indices of the points in order of x */
+    const uint32_t *first; /* the points of level l are by_x[first[l]] .. by_x[first[l + 1] - 1] */
 } koksma__sweep_plane;
 
 /* A strip between two levels, and n times the value of its best box. */
@@ -19,8 +19,8 @@ typedef struct koksma__sweep_best {
     bool closed;
 } koksma__sweep_best;
 
-/* Looks for boxes better than *best whose left sides are levels from .. end - 1; O((end - from) n log^2 n). Sets
-   late, and ends, when it is later than deadline_s. Errors: MEMORY. */
+/* Searches for boxes better than *best whose left side is at one of the levels from .. end - 1, in O((end - from) n
+   log^2 n). Stops and sets *late when the time deadline_s has passed. Errors: MEMORY. */
 koksma_status koksma__extreme_sweep(const koksma__sweep_plane *plane, size_t from, size_t end, double deadline_s,
                                     koksma__sweep_best *best, bool *late);
 

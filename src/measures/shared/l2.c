@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The L2 discrepancies by sums over all pairs, O(n^2 d), and the choice between the methods: sorting in one and two
- * dimensions (l2_sort.c), divide and conquer in three and four (l2_divide.c), pairs elsewhere. Pairs are summed in
- * blocks of rows by a kernel, blocks in order; the three terms of the square, which cancel, are brought together in
- * double-double arithmetic.
+ * dimensions (l2_sort.c), divide and conquer in three and four (l2_divide.c), pairs otherwise. A kernel sums the
+ * pairs in blocks of rows, and the blocks are added in order. The three terms of the square, which cancel, are added
+ * in double-double arithmetic.
  */
 #include "measures/shared/l2.h"
 
@@ -39,7 +39,7 @@ koksma__dd koksma__l2_polynomial_dd(const double f[4], double z)
     return sum;
 }
 
-/* prod_k a(x_k): rounded products would all err the same way for points on a grid. */
+/* prod_k a(x_k). In doubles the rounding errors of the products would all have the same sign for points on a grid. */
 koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim)
 {
     koksma__dd product = {1, 0};
@@ -54,8 +54,8 @@ typedef struct pairs {
     const koksma__l2_row *row;
     size_t n;
     int dim;
-    double *u, *g;     /* coordinate by coordinate */
-    koksma__sum *sums; /* one a block of rows */
+    double *u, *g;     /* coordinate k of point j at k n + j; g of it */
+    koksma__sum *sums; /* one for each block of rows */
 } pairs;
 
 static koksma_status sum_block(void *context, size_t block)
@@ -69,7 +69,7 @@ static koksma_status sum_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* sum_i prod a(x_i) and sum_i prod K(x_i, x_i). */
+/* Computes sum_i prod_k a(x_ik) and sum_i prod_k K(x_ik, x_ik), and fills u and g. */
 static void sum_points(const pairs *p, const koksma_points *points, koksma__dd *linear, koksma__sum *self)
 {
     for (size_t i = 0; i < p->n; i++) {
@@ -85,7 +85,7 @@ static void sum_points(const pairs *p, const koksma_points *points, koksma__dd *
     }
 }
 
-/* The three terms cancel: they are brought together in 106 bits. */
+/* Adds the three terms of the square, which cancel, in 106 bits. */
 double koksma__l2_combine(const koksma__l2_row *row, int dim, size_t n, koksma__dd linear,
                           const koksma__sum *over_pairs)
 {
@@ -123,8 +123,9 @@ koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points
     return status;
 }
 
-/* Dividing wins from these n on, by dimension and by the number of products of the kernel (measured with AVX-512
-   against the pairs' kernels); above the last its lists would take gigabytes. */
+/* True if divide and conquer is used. It is faster than summing pairs (measured with AVX-512) from the n in this
+   table on, by dimension and by the number of products of the kernel; above n = 2^24 its lists would take
+   gigabytes. */
 static bool divides(const koksma__l2_row *row, const koksma_points *points)
 {
     static const size_t from[][3] = {{3072, 6144, 16384}, {8192, 49152, 131072}};

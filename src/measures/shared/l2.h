@@ -10,7 +10,7 @@
  *     K(u, v) = g(z_u) + g(z_v) + q |u - v| + r (u - v)^2,
  *
  * with g and a polynomials in z, z^2 and |z|, so that a few coefficients describe each measure: measures/l2_boxes.c
- * has one row of them for each.
+ * has one row of coefficients for each.
  */
 #ifndef KOKSMA_MEASURES_SHARED_L2_H
 #define KOKSMA_MEASURES_SHARED_L2_H
@@ -23,44 +23,45 @@
 typedef struct koksma__l2_row {
     double c12;    /* 12 c */
     double a24[4]; /* 24 a(u) = a24[0] + a24[1] z + a24[2] z^2 + a24[3] |z| */
-    double g[4];   /* g(z) likewise */
+    double g[4];   /* g(z) = g[0] + g[1] z + g[2] z^2 + g[3] |z| */
     double q, r;
-    const char *name; /* for errors */
+    const char *name; /* for error messages */
 } koksma__l2_row;
 
 enum { KOKSMA__L2_DIVIDE_DIM = 4 };
 
 /* f[0] + f[1] z + f[2] z^2 + f[3] |z|, z = u - 1/2. */
 double koksma__l2_polynomial(const double f[4], double u);
-koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* of z, in 106 bits */
+koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* as a function of z, in 106 bits */
 
 /* prod_k a(x_k) in 106 bits. */
 koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim);
 
-/* The value and its square into out: O(n log n) for d <= 2 and n not small, O(n log^(d-1) n)
-   for d = 3 and 4 and n large, else O(n^2 d). Errors: DIM, MEMORY, INTERRUPTED. */
+/* Writes the value and its square to out, in O(n log n) for d <= 2 unless n is small, in O(n log^(d-1) n) for d = 3
+   and 4 and large n, else in O(n^2 d). Errors: DIM, MEMORY, INTERRUPTED. */
 koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                          koksma_value *out);
 
-/* The value by pairs, right also where terms of the square, or the square (which then is NaN), are beyond the range
-   of doubles. DIM: so is the value, or a product over the first coordinates of a point. */
+/* The value by sums over pairs. It is correct even where terms of the square are beyond the range of doubles, or the
+   square itself, which is NaN then. The error DIM means that the value, or a product over the first coordinates of a
+   point, is beyond this range. */
 koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                         koksma_value *out);
 
-/* Each of the algorithms alone, for tests that compare them. Sorting: one or two dimensions, n < 2^28, and in multiples of 1/16 the
-   coefficients of a24 and g but the first, and r; it is summing pairs where the compiler has no integers of 128 bits.
- */
+/* The algorithms one by one, for tests that compare them. koksma__l2_by_sorting requires one or two dimensions, n <
+   2^28, and that r and all coefficients of a24 and g except the first are multiples of 1/16; where the compiler has
+   no 128-bit integers it sums over pairs instead. */
 koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                   double *square);
 koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                     double *square);
-/* The number of products that make up the kernel where the order of its arguments is known: 1 to 3. */
+/* The number of products, 1 to 3, into which the kernel K(a, b) separates for a <= b. */
 int koksma__l2_ranks(const koksma__l2_row *row);
-/* In 3 to KOKSMA__L2_DIVIDE_DIM dimensions. */
+/* For 3 to KOKSMA__L2_DIVIDE_DIM dimensions. */
 koksma_status koksma__l2_by_dividing(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                      double *square);
 
-/* c^d - 2 linear / n + over_pairs / n^2. */
+/* Returns c^d - 2 linear / n + over_pairs / n^2. */
 double koksma__l2_combine(const koksma__l2_row *row, int dim, size_t n, koksma__dd linear,
                           const koksma__sum *over_pairs);
 

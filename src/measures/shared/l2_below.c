@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which points are below which in both coordinates, without comparing: points in y order are dealt to the 2^k parts
- * of their x order, and a binary tree over the parts holds for each node how many points have gone to its left half,
- * and the sum of their y. A point adds itself where its way down turns left, and where it turns right meets all that
- * were before it in y and are in a lower part. Within the parts the same is done again: a radix sort that counts
- * inversions.
+ * Sums over all pairs of points of which one is below the other in both coordinates, by a radix sort that counts
+ * inversions. The points, in y order, are distributed to the 2^k parts of their x order. A binary tree over the parts
+ * holds for each node the number of points that have gone to its left half, and the sum of their y. On its path from
+ * the root to its part a point is added to the nodes where the path turns left; where the path turns right, the node
+ * holds the points that precede it in y and are in lower parts of this node. The same is done within each part.
  *
- * Exact: y is cut in two so that sums of either half stay below 2^63, and products are added up in 128 bits.
+ * The sums are exact: y is split into two halves so that sums of either half stay below 2^63, and products are summed
+ * in 128 bits.
  */
 #include "measures/shared/l2_below.h"
 
@@ -23,24 +24,24 @@ enum { MAX_BITS = 8, PARTS = 1 << MAX_BITS, LOW_BITS = 26, CHUNK = 1 << 15 };
 typedef koksma__int128 wide;
 typedef koksma__l2_point point;
 
-/* The sums of the lower bits of some points' y and of the rest, and how many they are. */
+/* For a set of points: the sum of the low LOW_BITS bits of y, the sum of the bits above, and the number of points. */
 typedef int64_t halves __attribute__((vector_size(16)));
 typedef struct node {
     halves y;
     int64_t count;
 } node;
 
-/* high 2^LOW_BITS + low */
+/* A sum: high 2^LOW_BITS + low. */
 typedef struct total {
     wide high, low;
 } total;
 
 typedef struct job {
     size_t n, n_chunks;
-    int bits, rest; /* bits of the first digit, and of those below it */
+    int bits, rest; /* number of bits of the first digit, and of the digits below it */
     point *points, *spare;
-    node (*starts)[PARTS]; /* by chunk: what has gone to each part; then what had gone before */
-    total *totals;         /* by chunk, then by part */
+    node (*starts)[PARTS]; /* for each chunk, the points in each part; later those of all chunks before it */
+    total *totals;         /* the result of each chunk, later of each part */
 } job;
 
 static void add(node *sum, const node *other)
@@ -54,8 +55,9 @@ static node node_of(const point *p)
     return (node){{p->y & ((1 << LOW_BITS) - 1), p->y >> LOW_BITS}, 1};
 }
 
-/* Points to their parts by the digit at `rest`, from tree, one node after the other in each level from 1 on, and
-   `places` on. */
+/* Distributes points to their parts by the digit at bit `rest`, and returns the sum over the pairs that this digit
+   separates. tree: the nodes level by level, with the root at index 1; places: where the next point of each part
+   goes. */
 static total deal(const point *points, size_t n, int bits, int rest, node *tree, uint32_t *places, point *to)
 {
     static const halves masks[2] = {{0, 0}, {-1, -1}}; /* a table: loading a mask is faster than computing it */
@@ -82,7 +84,8 @@ static total deal(const point *points, size_t n, int bits, int rest, node *tree,
     return sum;
 }
 
-/* All pairs of n points in y order that share all but `bits` of their places in x order. */
+/* Returns the sum over all pairs of n points in y order whose ranks in x order agree in all but the lowest `bits`
+   bits. */
 static total solve(point *points, point *spare, size_t n, int bits)
 {
     if (bits == 0) {

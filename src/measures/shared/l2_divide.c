@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The L2 discrepancies in three and more dimensions by divide and conquer, O(n log^(d-1) n) (Heinrich 1996). For
- * a <= b every kernel of the family is a sum of few products, sum_m A_m(a) B_m(b): with z = u - 1/2 and
- * G = g + r z^2,
+ * The L2 discrepancies in three and more dimensions by divide and conquer, O(n log^(d-1) n) (Heinrich 1996). For a <=
+ * b every kernel of the family is a sum of a few products, sum_m A_m(a) B_m(b). With z = u - 1/2 and G = g + r z^2,
  *
  *     K(a, b) = (G(a) - q a) 1 + 1 (G(b) + q b) - 2 r a b,
  *
- * one product where G - q z is constant (star, modified) or where all of it is (a + s) (b - s) (extreme), two where
- * r = 0, else three. Points are halved in order of a coordinate; pairs within a half are a smaller problem, and of
- * pairs across the order is known: the products go into weights, and the next coordinate is dealt with likewise. At
- * the last but one the halves come back sorted by the last one, and one pass with prefix sums does all pairs across.
+ * which is one product if G - q z is constant (star, modified) or if K is a multiple of (a + s) (b - s) (extreme),
+ * two if r = 0, else three. The points are halved in order of a coordinate. Pairs within a half are a smaller problem
+ * of the same kind. For pairs across the halves the order in this coordinate is known, so that the factors A_m and
+ * B_m go into weights of the points, and the next coordinate is treated likewise. At the last coordinate but one the
+ * halves are returned sorted by the last coordinate, and one pass with prefix sums handles all pairs across.
  *
  *     problem on coordinate k:  [ lower half | upper half ]   in order of coordinate k
  *       within the halves:          solve      solve          the same problem, half as large
@@ -17,12 +17,12 @@
  *                                   multiply the weights by A_m and B_m, and solve a problem
  *                                   between two sets on coordinate k + 1, once for each m
  *
- * T_d(n) = 2 T_d(n/2) + M T_(d-1)(n) with M <= 3 products gives n log n for each coordinate but the last two,
- * which one merge serves: n log^(d-1) n in all, with a constant that grows as M^(d-1). Below FEW points pairs are
+ * T_d(n) = 2 T_d(n/2) + M T_(d-1)(n) with M <= 3 products gives n log n for each coordinate but the last two, which
+ * share one merge: n log^(d-1) n in total, with a constant that grows as M^(d-1). For at most FEW points pairs are
  * summed directly.
  *
- * All sums are compensated. The weights are rounded products: independent errors of 1e-16 a point, which average out.
- * The halves are the same on any number of threads, and their sums are added in a fixed order.
+ * All sums are compensated. The weights are rounded products, with independent errors of 1e-16 for each point that
+ * average out. The halves do not depend on the number of threads, and their sums are added in a fixed order.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -40,9 +40,9 @@ typedef koksma__dd dd;
 enum { MAX_DIM = KOKSMA__L2_DIVIDE_DIM, RANKS = 3, FEW = 24, PIECE = 1 << 13 };
 
 typedef struct item {
-    double z[MAX_DIM], g[MAX_DIM]; /* u - 1/2, and G */
+    double z[MAX_DIM], g[MAX_DIM]; /* u - 1/2 and G for each coordinate */
     double weight;
-    uint32_t left; /* the sides of a problem between two sets */
+    uint32_t left; /* 1 in the left of two sets; below: 1 in the upper half */
     uint32_t upper;
 } item;
 
@@ -50,11 +50,11 @@ typedef struct divider {
     const koksma__l2_row *row;
     int dim, ranks;
     size_t n, width;
-    item *items, *spare; /* in order of the first coordinate, later of the second */
-    koksma__sum *sums;   /* one a block */
+    item *items, *spare; /* items are in order of the first coordinate, later of the second */
+    koksma__sum *sums;   /* one for each block */
 } divider;
 
-/* What one thread works with: lists for problems that start at coordinate k, with as much room again to merge. */
+/* The memory of one thread. lists[k]: the items of a problem on coordinate k, followed by equal space for merging. */
 typedef struct worker {
     const divider *d;
     item *lists[MAX_DIM];
@@ -64,10 +64,10 @@ typedef struct worker {
 static void find_factors(const divider *d, double z, double g, double a[RANKS], double b[RANKS])
 {
     const double q = d->row->q, r = d->row->r;
-    if (d->ranks == 1 && r == 0) { /* G - q z is d->row->g[0] everywhere */
+    if (d->ranks == 1 && r == 0) { /* here G - q z is the constant d->row->g[0] */
         a[0] = 1;
         b[0] = d->row->g[0] + g + q * z;
-    } else if (d->ranks == 1) { /* -2 r (a - q/2r) (b + q/2r) */
+    } else if (d->ranks == 1) { /* here K = -2 r (a - q/2r) (b + q/2r) */
         a[0] = -2 * r * z + q;
         b[0] = z + q / (2 * r);
     } else {
@@ -89,7 +89,7 @@ int koksma__l2_ranks(const koksma__l2_row *row)
     return linear || product ? 1 : row->r == 0 ? 2 : 3;
 }
 
-/* prod over coordinates k and up of K. */
+/* The product of K over the coordinates from k on. */
 static double kernel_from(const divider *d, int k, const item *u, const item *v)
 {
     double product = 1;
@@ -111,7 +111,7 @@ static void sort_few(item *items, size_t n, int k)
     }
 }
 
-/* Merges two lists by coordinate k into `to`. */
+/* Merges two lists that are sorted by coordinate k into `to`. */
 static void merge(const item *l, size_t n_l, const item *r, size_t n_r, int k, item *to)
 {
     const item *const l_end = l + n_l, *const r_end = r + n_r;
@@ -129,12 +129,13 @@ static void add(koksma__sum *sum, double x)
     sum->lost += s.lo;
 }
 
-/* All pairs of left and right across the halves of coordinate k, items being in order of the last one, k + 1. */
+/* Adds all pairs of a left and a right item across the halves of coordinate k. The items are in order of the last
+   coordinate, k + 1. */
 static void pass(worker *w, const item *items, size_t n, int k)
 {
     const divider *d = w->d;
     const int ranks = d->ranks;
-    koksma__sum before[4][RANKS][RANKS]; /* of left or right, lower or upper; by the ranks of k and of k + 1 */
+    koksma__sum before[4][RANKS][RANKS]; /* by kind (left, upper) and by product of k and of k + 1 */
     memset(before, 0, sizeof before);
     for (size_t i = 0; i < n; i++) {
         double a[2][RANKS], b[2][RANKS], sum = 0;
@@ -156,8 +157,9 @@ static void pass(worker *w, const item *items, size_t n, int k)
 
 static void between(worker *w, item *items, item *spare, size_t n, int k);
 
-/* The pairs across for one of the two known orders: left in the lower half and right in the upper, or the other way
-   round. Items are in order of coordinate k + 1, the next to be halved. */
+/* Adds the pairs across the halves of coordinate k with the left item in the lower half and the right item in the
+   upper half (left_is_lower), or the other way round. The items are in order of coordinate k + 1, the next to be
+   halved. */
 static void next_coordinate(worker *w, const item *items, size_t n, int k, bool left_is_lower)
 {
     const divider *d = w->d;
@@ -176,8 +178,8 @@ static void next_coordinate(worker *w, const item *items, size_t n, int k, bool 
     }
 }
 
-/* sum over left and right of the weights times the kernels of coordinates k and up. Items are in order of coordinate
-   k, and in that of k + 1 afterwards. */
+/* Adds, over all pairs of a left and a right item, the product of their weights and of the kernels of the coordinates
+   from k on. The items are in order of coordinate k on entry, of coordinate k + 1 on return. */
 static void between(worker *w, item *items, item *spare, size_t n, int k)
 {
     const divider *d = w->d;
@@ -210,7 +212,8 @@ static void between(worker *w, item *items, item *spare, size_t n, int k)
     }
 }
 
-/* The pairs across two halves of the first coordinate, which are in order of the second; afterwards all are. */
+/* Adds the pairs across two halves of the first coordinate. Each half is in order of the second coordinate; on return
+   all items are. */
 static void across(worker *w, item *items, size_t half, size_t n, item *to)
 {
     for (size_t i = 0; i < n; i++) {
@@ -242,7 +245,8 @@ static void within(worker *w, item *items, item *spare, size_t n)
     memcpy(items, spare, n * sizeof *items);
 }
 
-/* Lists for n items. Problems from coordinate k on need a list of their own, and room to merge. */
+/* Allocates the lists for n items: one list, and space for merging, for each coordinate but the first and the
+   last. */
 static bool open_worker(const divider *d, size_t n, worker *w)
 {
     const size_t lists = (size_t)d->dim - 2, bytes = 2 * lists * n * sizeof(item);
@@ -301,7 +305,7 @@ static koksma_status divide(divider *d, const koksma_run *run)
     return status;
 }
 
-/* Fills the items in order of the first coordinate; the sums over points alone. */
+/* Fills the items in order of the first coordinate, and computes the sums over single points. */
 static koksma_status prepare(divider *d, const koksma_points *points, const koksma_run *run, uint32_t *order,
                              koksma__dd *linear, koksma__sum *self)
 {

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The square of an L2 discrepancy with its gradient, by pairs. With K = prod_k K_k,
+ * The square of an L2 discrepancy and its gradient, by sums over pairs. With K = prod_k K_k,
  *
  *     d square / d x_ik = (2/n^2) sum_(j != i) K_k'(x_ik, x_jk) prod_(l != k) K_l + (1/n^2) d K(x_i, x_i) / d x_ik
  *                         - (2/n) a'(x_ik) prod_(l != k) a(x_il),
  *     K_k'(u, v) = g'(u) + sign(u - v) (q + 2 r |u - v|).
  *
- * Products without one factor are those of the factors before it and behind it. For point i all others are in rows, one a
- * coordinate, that the compiler works on in lanes; sums are in index order.
+ * A product without one factor is the product of the factors before it times that of the factors after it. For point
+ * i the factors with all other points are stored in one row for each coordinate, so that the compiler can vectorise
+ * over points; sums are in index order.
  */
 #include "measures/shared/l2_gradient.h"
 
@@ -27,10 +28,11 @@ typedef struct job {
     const koksma__l2_row *row;
     size_t n, dim;
     double *u, *g;            /* coordinate k of point j at k n + j */
-    double *factors, *behind; /* K_k of point i and all others; the product of those behind k */
+    double *factors, *behind; /* K_k of point i with each point; the product of the factors after k */
 } job;
 
-/* What point i adds to its own derivatives by pairs, 2 sum_j K' / n^2 without the factor, and the sum of K over j. */
+/* Adds to gradient, for each coordinate k of point i, the sum over j != i of K_k' times the other factors, without
+   the factor 2 / n^2. Returns the sum of K over all j. */
 static double pairs_of(const job *p, size_t i, double *gradient)
 {
     const size_t n = p->n, dim = p->dim;
@@ -65,7 +67,7 @@ static double pairs_of(const job *p, size_t i, double *gradient)
     return sum;
 }
 
-/* Adds scale times the derivatives of prod_k f(x_k), and returns the product. */
+/* Adds scale times the derivatives of prod_k f(x_k) to gradient. Returns the product. */
 static double add_product(const double f[4], const double *x, size_t dim, double scale, double *gradient)
 {
     double all = 1;

@@ -1,26 +1,27 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * L2 discrepancies of hundreds of dimensions. With M the larger of c^d and max_i prod_k K(x_ik, x_ik), no term is
- * above M: |K(x, y)|^2 <= K(x, x) K(y, y) and a(x)^2 <= K(x, x) c, K being positive definite (Cauchy and Schwarz).
- * Where M is far from 1 the kernel of one dimension is multiplied by a factor f near M^(-1/d) of 5 bits, so that the
- * table's coefficients stay exact. The result is f^d times the square. Its root is divided by f^(d/2), and has half
- * the exponent: it stays a double in more dimensions than the square.
+ * L2 discrepancies in hundreds of dimensions, where terms may be beyond the range of doubles. With M the larger of
+ * c^d and max_i prod_k K(x_ik, x_ik), no term exceeds M: as K is positive definite, |K(x, y)|^2 <= K(x, x) K(y, y)
+ * and a(x)^2 <= K(x, x) c (Cauchy and Schwarz). If M is far from 1, the one-dimensional kernel is multiplied by a
+ * factor f near M^(-1/d) that has 5 bits, so that the coefficients in the table stay exact. The result is f^d times
+ * the square, and its root is divided by f^(d/2). The root has half the exponent of the square, so it is in the range
+ * of doubles in more dimensions.
  */
 #include <math.h>
 
 #include "core/status.h"
 #include "measures/shared/l2.h"
 
-/* Up to PLAIN_DIM dimensions every term of every kind is a double. */
+/* Up to PLAIN_DIM dimensions every term of every L2 discrepancy is in the range of doubles. */
 enum { PLAIN_DIM = 200, FAR_BITS = 900, GUARD_BITS = 1000 };
 
-/* log2 of K(x, x) f in one dimension. */
+/* log2(f K(x, x)) for the one-dimensional kernel K. */
 static double bits_of(const koksma__l2_row *row, double x, double f)
 {
     return log2(2 * koksma__l2_polynomial(row->g, x) * f);
 }
 
-/* log2 M */
+/* log2 of the M that the head of this file defines. */
 static double bits_of_largest(const koksma__l2_row *row, const koksma_points *points)
 {
     const size_t dim = (size_t)points->dim;
@@ -35,7 +36,8 @@ static double bits_of_largest(const koksma__l2_row *row, const koksma_points *po
     return most;
 }
 
-/* Whether the products are doubles also over the first coordinates alone, where they matter. */
+/* Whether the products over the first k coordinates of each point are in the range of doubles for all k, except where
+   the whole product is negligible. */
 static bool stays_in_range(const koksma__l2_row *row, const koksma_points *points, double f)
 {
     const size_t dim = (size_t)points->dim;
@@ -58,16 +60,16 @@ static koksma_status fail_range(const koksma__l2_row *row, int dim)
     return koksma__fail(KOKSMA_DIM, "%s: in %d dimensions it is beyond the range of doubles", row->name, dim);
 }
 
-/* The value may be a double all the same. */
+/* Fails for an intermediate product, although the value itself may be in the range of doubles. */
 static koksma_status fail_product(const koksma__l2_row *row, int dim)
 {
     return koksma__fail(KOKSMA_DIM,
                         "%s: in %d dimensions a product over the first coordinates of a point is beyond the range of "
-                        "doubles; coordinates in another order may serve",
+                        "doubles; another order of the coordinates may work",
                         row->name, dim);
 }
 
-/* The value is that of `square` times 2^bits. */
+/* Writes to out the value whose square is `square` times 2^bits. */
 static koksma_status unscale(const koksma__l2_row *row, double square, double bits, int dim, koksma_value *out)
 {
     const double half = floor(bits / 2);

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The L2 discrepancies of the line and the plane in O(n log n) and more than 100 bits, by splitting the kernels: with
- * G(z) = g(z) + r z^2, K = G(z_u) + G(z_v) - 2 r z_u z_v + q t. All of a product of two kernels separates but the t:
- * sums with one t need the points in order of one coordinate, and sum_ij t_x t_y, the same for every kernel, needs to
- * know which points are below which in both (l2_below.c). With t_x,i = sum_j |x_i - x_j|, and the points in x order,
+ * G(z) = g(z) + r z^2, K = G(z_u) + G(z_v) - 2 r z_u z_v + q t and t = |u - v|. In a product of two kernels all
+ * factors but t separate. Sums with one factor t need the points in order of one coordinate. sum_ij t_x t_y, which is
+ * the same for every kernel, needs the pairs of points of which one is below the other in both coordinates
+ * (l2_below.c). With t_x,i = sum_j |x_i - x_j|, and the points in x order,
  *
- *     sum_ij t_x t_y = 4 sum_i x_i (sum over j < i with y_j < y_i of (y_i - y_j)) + 2 sum_i x_i sum_{j < i} (y_j -
- * y_i)
- *                      - 2 sum_i x_i t_y,i.
+ *     sum_ij t_x t_y = 4 sum_i x_i (sum over j < i with y_j < y_i of (y_i - y_j))
+ *                      + 2 sum_i x_i sum_{j < i} (y_j - y_i) - 2 sum_i x_i t_y,i.
  *
- * Coordinates are z in units of 2^-bits, and all sums over points are of whole numbers, without rounding but for the
- * product of the lower halves of two factors of 112 bits. For n < 2^22 the unit is 2^-53, as coarse as doubles near
- * 1; moving a point by so little changes the square by less than 1e-16/n.
+ * Coordinates are z in units of 2^-bits, and all sums over points are sums of whole numbers. The only rounding is
+ * that the product of the low halves of two 112-bit factors is dropped. For n < 2^22 the unit is 2^-53, as coarse as
+ * doubles near 1; moving a point by so little changes the square by less than 1e-16/n.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@
 #include "measures/shared/order.h"
 
 #ifndef __SIZEOF_INT128__
-/* Without integers of 128 bits, which a compiler for 32 bits lacks, the pairs are summed, in O(n^2). */
+/* Compilers for 32-bit processors have no 128-bit integers. With them the pairs are summed, in O(n^2). */
 koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                     double *square)
 {
@@ -40,7 +40,7 @@ typedef koksma__int128 wide;
 typedef koksma__dd dd;
 typedef koksma__l2_point point;
 
-/* A factor: high 2^LOW_BITS + low, 0 <= low < 2^LOW_BITS, below 2^(FACTOR_BITS + 1). */
+/* A factor of a product: high 2^LOW_BITS + low, with 0 <= low < 2^LOW_BITS; it is below 2^(FACTOR_BITS + 1). */
 typedef struct factor {
     int64_t high, low;
 } factor;
@@ -50,13 +50,13 @@ typedef struct products {
     wide high, low;
 } products;
 
-/* constant + linear x + absolute |x| + square x^2, in units of 2^-2bits / scale */
+/* The polynomial constant + linear x + absolute |x| + square x^2, in units of 2^-2bits / scale. */
 typedef struct polynomial {
     wide constant;
     int64_t linear, absolute, square;
 } polynomial;
 
-/* Over the points of a block, and once added up over those before it. */
+/* Sums of x, y and x y over the points of a block; after add_up over all points before the block. */
 typedef struct partial {
     wide x, y, xy;
 } partial;
@@ -70,11 +70,11 @@ typedef struct plane {
     polynomial a, g;
     const double *xs;
     uint32_t *order;
-    double *ys; /* in x order, for sorting */
+    double *ys; /* the y coordinates in x order, for sorting */
     point *by_x, *by_y;
-    partial *before_x, *before_y; /* one a block, in either order */
+    partial *before_x, *before_y; /* one for each block, in x order and in y order */
     partial all;
-    dd (*sums)[SUMS]; /* one a block */
+    dd (*sums)[SUMS]; /* for each block */
 } plane;
 
 static factor factor_of(wide v)
@@ -82,7 +82,8 @@ static factor factor_of(wide v)
     return (factor){(int64_t)(v >> LOW_BITS), (int64_t)(v & (((wide)1 << LOW_BITS) - 1))};
 }
 
-/* In units of 2^LOW_BITS times those of the product; what is left out is below 2^(2 LOW_BITS). */
+/* Adds a b to s, whose unit is 2^LOW_BITS times that of the product. The dropped product of the low halves is below
+   2^(2 LOW_BITS). */
 static void add_product(products *s, factor a, factor b)
 {
     s->high += (wide)a.high * b.high;
@@ -95,7 +96,7 @@ static void add_multiple(products *s, factor a, int64_t b)
     s->low += (wide)a.low * b;
 }
 
-/* In units of 2^exponent. */
+/* v 2^exponent as a double-double. */
 static dd dd_of_wide(wide v, int exponent)
 {
     const dd whole = koksma__dd_of_int(v);
@@ -159,7 +160,7 @@ static koksma_status load_by_y(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Sums over blocks become sums over all before; the sum of all. */
+/* Replaces the sums over blocks by the sums over all blocks before each. Returns the sum over all blocks. */
 static partial add_up(partial *sums, size_t n_blocks)
 {
     partial total = {0, 0, 0};
@@ -171,13 +172,15 @@ static partial add_up(partial *sums, size_t n_blocks)
     return total;
 }
 
-/* sum_j |u - u_j| of the i-th in order of u, the sum of those before and that of all. */
+/* sum_j |u - u_j| for the number u of rank i, from `before`, the sum of the numbers before it in order, and `all`,
+   the sum of all. */
 static wide sum_of_distances(const plane *p, size_t i, int64_t u, wide before, wide all)
 {
     return u * ((wide)2 * (wide)i + 1 - (wide)p->n) - 2 * before + all - u;
 }
 
-/* Sums over points, and those that need the points before in x order. */
+/* Computes the sums that need no order, and those that need for each point the sums over the points before it in x
+   order. */
 static koksma_status sum_by_x(void *context, size_t block)
 {
     const plane *p = context;
@@ -215,7 +218,7 @@ static koksma_status sum_by_x(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Sums that need the points before in y order. */
+/* Computes the sums that need for each point the sums over the points before it in y order. */
 static koksma_status sum_by_y(void *context, size_t block)
 {
     const plane *p = context;
@@ -258,7 +261,8 @@ static koksma_status sum_line(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* sum_ij K K in the plane; below: what l2_below.c gives. */
+/* The sum over all i and j of the products of the two kernels in the plane. below: the result of
+   koksma__l2_sum_below. */
 static dd pair_sum_plane(const plane *p, const dd s[SUMS], dd below)
 {
     const double n = (double)p->n, q = p->row->q, r = p->row->r;
@@ -269,7 +273,7 @@ static dd pair_sum_plane(const plane *p, const dd s[SUMS], dd below)
     dd mixed = koksma__dd_add(koksma__dd_mul(s[GW], w), koksma__dd_mul(s[HZ], z));
     sum = koksma__dd_add(sum, koksma__dd_scale(mixed, -4 * r));
     sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_scale(koksma__dd_mul(zw, zw), 4 * r), r));
-    /* q sum_ij (G_i + G_j - 2 r z_i z_j) t_y and the same with the coordinates exchanged */
+    /* q sum_ij (G_i + G_j - 2 r z_i z_j) t_y, plus this term with the coordinates exchanged */
     dd single = koksma__dd_scale(koksma__dd_add(s[G_TY], s[H_TX]), 2);
     const dd moments = koksma__dd_scale(koksma__dd_add(s[MOMENT_X], s[MOMENT_Y]), -4 * r);
     sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_add(single, moments), q));
@@ -306,7 +310,7 @@ static double finish(const plane *p, size_t n_blocks, dd below)
     return koksma__dd_add(square, koksma__dd_divide(koksma__dd_divide(pair_sum, n), n)).hi;
 }
 
-/* The points in both orders, as whole numbers, and what the sums over blocks begin with. */
+/* Fills the points in both orders, with coordinates as whole numbers, and the sums before each block. */
 static koksma_status prepare(plane *p, const koksma_run *run, size_t n_blocks)
 {
     koksma_status status = koksma__order(run, p->n, p->xs, (size_t)p->dim, p->order);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Lines and the unit square: the area on one side of a line, by corners that are triangles; the probability that a
- * random line separates two points, under each law of lines; and that probability's integrals over the square
- * (potential and constant), by closed forms or the double exponential rule. Formulas are at measures/l2_edge.c.
+ * Lines and the unit square: the area on one side of a line, from the triangles at corners that the line cuts off;
+ * the probability sigma that a random line separates two points, for each distribution ("law") of lines; and the
+ * integrals of sigma over the square (potential and constant), by closed forms or by the double exponential rule. The
+ * formulas are in measures/l2_edge.c.
  */
 #include "measures/shared/lines.h"
 
@@ -16,16 +17,17 @@ const char *const koksma__line_laws[] = {"isotropic", "mitchell", NULL};
 koksma_status koksma__fail_law_of_plane(const char *measure)
 {
     return koksma__fail(KOKSMA_ARGUMENT,
-                        "%s: law=mitchell is of lines in the plane; law=isotropic takes 3 dimensions", measure);
+                        "%s: law=mitchell is only for lines in the plane; use law=isotropic in 3 dimensions",
+                        measure);
 }
 
-/* The triangle that a line cuts off at c/a and c/b from a corner. */
+/* The area of the triangle that a line cuts off from a corner at distances c/a and c/b. */
 static double triangle(double a, double b, double c)
 {
     return a * b > 0x1p-900 ? c * c / (2 * a * b) : c / a * (c / b) / 2;
 }
 
-/* a, b >= 0 with a >= b, 0 <= c <= a + b */
+/* The area of the square where a x + b y <= c, for a >= b >= 0. */
 static double corner_area(double a, double b, double c)
 {
     if (c <= 0) {
@@ -67,7 +69,7 @@ double koksma__line_separates(koksma__line_law law, double dx, double dy)
     return a > 0 ? ((a + b) * log1p(b / a) + a - b) / 2 : 0;
 }
 
-/* F(T) = the integral of sigma(1, t) over 0 < t < T */
+/* The integral of sigma(1, s) over 0 < s < t. */
 static double integral(koksma__line_law law, double t)
 {
     if (law == KOKSMA__LINES_ISOTROPIC) {
@@ -112,7 +114,8 @@ void koksma__line_separates_slope(koksma__line_law law, double dx, double dy, do
     }
 }
 
-/* The integral of sigma over the side at distance a, of length b: the derivative of that over the rectangle by a. */
+/* The integral of sigma over a side of length b at distance a, which is the derivative of rectangle(law, a, b) by
+   a. */
 static double side(koksma__line_law law, double a, double b)
 {
     return a < 1e-90 ? 0 : a * a * integral(law, b / a);
@@ -137,7 +140,7 @@ void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, do
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 0, r);
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 1, s);
     if (law == KOKSMA__LINES_ISOTROPIC) {
-        /* the normal's angle has density cos + sin, the width of the square */
+        /* the angle of the normal has a density proportional to the width of the square, cos + sin */
         const double angle = M_PI_4 + asin((2 * r[0] - 1) / M_SQRT2);
         *a = cos(angle);
         *b = r[1] < 0.5 ? sin(angle) : -sin(angle);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Half-planes and the unit square, and the two laws of random lines. */
+/* Half-planes and the unit square, and the two distributions ("laws") of random lines. */
 #ifndef KOKSMA_MEASURES_SHARED_LINES_H
 #define KOKSMA_MEASURES_SHARED_LINES_H
 
@@ -7,34 +7,37 @@
 
 #include "core/visibility.h"
 
-/* The law of a random line that hits the square. ISOTROPIC: the measure that moving and turning does not change.
-   MITCHELL: the second paper's recipe, y = m x + b with m = (r1 - 1/2)/(r2 - 1/2) and b uniform over the square's
-   range, which its text takes for the same; its angles are not (up to 1.84 to 1 at 45 degrees, where it should
-   be 1.36). */
+/* The distribution of a random line that meets the square. ISOTROPIC: the measure that is invariant under translation
+   and rotation. MITCHELL: the recipe of Mitchell 1992, y = m x + b with m = (r1 - 1/2)/(r2 - 1/2) and b uniform over
+   the values for which the line meets the square. The paper takes it to be isotropic, but lines at 45 degrees are up
+   to 1.84 times as frequent as lines along an axis, while isotropic ones are 1.36 times as frequent. */
 typedef enum koksma__line_law { KOKSMA__LINES_ISOTROPIC, KOKSMA__LINES_MITCHELL } koksma__line_law;
 
-extern const char *const koksma__line_laws[]; /* the words for a parameter */
+extern const char *const koksma__line_laws[]; /* the values of the parameter `law` */
 
-/* The error of MITCHELL in 3 dimensions: it is a law of lines only. */
+/* Fails because of MITCHELL in 3 dimensions, where only ISOTROPIC has a form for planes. */
 koksma_status koksma__fail_law_of_plane(const char *measure);
 
 /* The area of the square where a x + b y <= c. */
 double koksma__area_below(double a, double b, double c);
 
-/* The area of the square where a x + b y <= a p[0] + b p[1]: computed from p, so that no rounded sum enters. */
+/* The area of the square where a x + b y <= a p[0] + b p[1]: computed from p, without rounding a p[0] + b p[1]
+   first. */
 double koksma__area_below_through(double a, double b, const double p[2]);
 
-/* sigma(|dx|, |dy|): the probability that a line separates two points at that distance; symmetric, homogeneous. */
+/* sigma(|dx|, |dy|): the probability that a random line separates two points that differ by (dx, dy). It is symmetric
+   in |dx| and |dy| and homogeneous of degree 1. */
 double koksma__line_separates(koksma__line_law law, double dx, double dy);
 
-/* P(x) = the integral of sigma over the square from p, and C = the integral of P. */
+/* The potential P(p), which is the integral of sigma(p - x) over x in the square, and the constant C, the integral of
+   P over the square. */
 double koksma__line_potential(koksma__line_law law, const double p[2]);
-/* The derivatives of sigma by dx and dy, and of P by p; 0 where dx and dy are. */
+/* The derivatives of sigma by dx and dy, which are 0 for dx = dy = 0, and of P by p. */
 void koksma__line_separates_slope(koksma__line_law law, double dx, double dy, double slope[2]);
 void koksma__line_potential_slope(koksma__line_law law, const double p[2], double slope[2]);
 double koksma__line_constant(koksma__line_law law);
 
-/* Line `index` of a seed: a x + b y = c. */
+/* Random line `index` of a seed, a x + b y = c. */
 KOKSMA__LAB void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, double *a, double *b,
                                      double *c);
 

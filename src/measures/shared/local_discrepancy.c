@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The local discrepancy of points at x: D(x) = #{i : p_i in [0, x)} / n - x_1 ... x_d, signed; the star discrepancy
- * is the supremum of |D|, the L2 star discrepancy its root mean square (Mitchell 1992, first equation; Niederreiter
- * 1992, section 2.1). The grid counts each point in the cell from which on it is inside, and sums along both axes:
- * O(n + side^2).
+ * The local discrepancy of points at x: D(x) = #{i : p_i in [0, x)} / n - x_1 ... x_d, with its sign. The star
+ * discrepancy is the supremum of |D|, the L2 star discrepancy the root mean square of D (Mitchell 1992, first
+ * equation; Niederreiter 1992, section 2.1). For a grid of x, each point is counted at the first grid corner whose
+ * box contains it, and the counts are summed along both axes: O(n + side^2).
  */
 #include <stdlib.h>
 
@@ -16,7 +16,7 @@ koksma_status koksma_local_discrepancy(const koksma_points *points, const double
     double volume = 1;
     size_t inside = 0;
     KOKSMA__FAIL_IF(!points || !x || !out, KOKSMA_ARGUMENT,
-                    "koksma_local_discrepancy takes points, a corner and room for the result");
+                    "koksma_local_discrepancy: points, x and out must not be NULL");
     KOKSMA__TRY(koksma__points_check(points));
     for (int k = 0; k < points->dim; k++) {
         KOKSMA__FAIL_IF(!(x[k] >= 0 && x[k] <= 1), KOKSMA_ARGUMENT, "the corner has a coordinate outside [0,1]");
@@ -34,7 +34,7 @@ koksma_status koksma_local_discrepancy(const koksma_points *points, const double
     return KOKSMA_OK;
 }
 
-/* The first of the corners (k + 1/2) / side that lies above the coordinate; side: none does. */
+/* The first k for which the corner coordinate (k + 1/2) / side is above the coordinate; `side` if there is none. */
 static size_t first_corner(double coordinate, size_t side)
 {
     const double at = coordinate * (double)side - 0.5;
@@ -62,7 +62,7 @@ koksma_status koksma_local_discrepancy_grid(const koksma_points *points, size_t 
             out[row * side + column] += 1;
         }
     }
-    for (size_t row = 0; row < side; row++) { /* counts of whole numbers: exact */
+    for (size_t row = 0; row < side; row++) { /* sums of whole numbers, which are exact */
         for (size_t column = 1; column < side; column++) {
             out[row * side + column] += out[row * side + column - 1];
         }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Lower bounds of discrepancies. The power is that of the family, in any dimension: boxes 1 (Roth 1954; Schmidt
- * 1972), edges and disks 1/2 + 1/(2 dim) (Schmidt 1969; Beck and Chen 1987; Alexander 1990). The power of log n and
- * whose theorem it is are known for the measures and dimensions of the table.
+ * Lower bounds of discrepancies, n^-power (log n)^logs. The power depends on the family of the measure, in any
+ * dimension: 1 for boxes (Roth 1954; Schmidt 1972), 1/2 + 1/(2 dim) for edges and disks (Schmidt 1969; Beck and Chen
+ * 1987; Alexander 1990). The table has `logs` and the author of the theorem for the measures and dimensions where
+ * they are known.
  */
 #include "measures/shared/lower_bounds.h"
 
@@ -15,7 +16,7 @@
 
 static const struct {
     const char *measure, *source;
-    int max_dim; /* from 2 on */
+    int max_dim; /* the bound holds for dimensions 2 to max_dim */
     double logs;
 } bounds[] = {
     {"star", "Schmidt 1972", 2, 1},   {"l2-star", "Roth 1954", 2, 0.5},    {"extreme", "Schmidt 1972", 2, 1},

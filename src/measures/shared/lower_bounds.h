@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What no points can do better than: the one table of theoretical lower bounds. */
+/* Theoretical lower bounds of discrepancies, which no set of points can beat. */
 #ifndef KOKSMA_MEASURES_SHARED_LOWER_BOUNDS_H
 #define KOKSMA_MEASURES_SHARED_LOWER_BOUNDS_H
 
@@ -7,13 +7,13 @@
 
 #include "core/visibility.h"
 
-/* No points have a measure that falls faster than n^-power (log n)^logs. */
+/* For no sets of n points does the measure fall faster than n^-power (log n)^logs. */
 typedef struct koksma__bound {
     double power, logs;
-    const char *source; /* as "Schmidt 1972" */
+    const char *source; /* for example "Schmidt 1972" */
 } koksma__bound;
 
-/* The bound of a measure in dim dimensions; false where none is known. */
+/* Writes the bound of a measure in dim dimensions; returns false if none is known. */
 KOKSMA__LAB bool koksma__lower_bound(const koksma_measure *measure, int dim, koksma__bound *bound);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pairs of points nearer than r, by cells at least r wide: a point's partners are in its cell and the eight around
-   it. O(n + pairs) for spread points; where points crowd in few cells the smallest distance is found by halving
-   (core/closest_pair.c), O(n log n). Both ways square the same differences, so that their bits are equal. */
+/* Visits the pairs of points nearer than r with a grid of cells at least r wide: the partners of a point are in its
+   cell and the eight cells around it. This takes O(n + pairs) for evenly spread points. If many points share few
+   cells, the smallest distance is found by divide and conquer (core/closest_pair.c) in O(n log n). Both methods
+   square the same differences, so that they give the same bits. */
 #include "measures/shared/neighbours.h"
 
 #include <math.h>
@@ -17,7 +18,8 @@
 #include "kernels/kernels.h"
 #include "measures/shared/torus_cells.h"
 
-/* Cells at least r wide, and about one point a cell at the least; 1 or 2 columns: every cell is a neighbour. */
+/* Makes cells at least r wide with about one point or more on average. With 1 or 2 columns every cell is a neighbour
+   of every other. */
 static koksma_status open_grid(const koksma_points *p, double r, koksma__torus_cells *g)
 {
     const size_t most = (size_t)sqrt((double)p->n) + 1, wanted = r > 0 ? (size_t)fmin(1 / r, 1e6) : most;
@@ -42,15 +44,15 @@ typedef struct visit {
     double r2;
     bool torus;
     const koksma_run *run;
-    double least; /* of all squares of distances below r2, unless there are counts */
-    double scale; /* of the bins */
+    double least; /* the smallest squared distance below r2; unused if counts is not NULL */
+    double scale; /* number of bins per unit of distance */
     size_t bins;
-    uint64_t *counts; /* of pairs by distance, and eight more of no meaning; or NULL */
-    size_t unasked;   /* pairs since run was asked whether to go on */
-    bool stopped;     /* by run */
+    uint64_t *counts; /* numbers of pairs by distance, then eight spare entries; or NULL */
+    size_t unasked;   /* pairs since the last call of koksma__keep_going */
+    bool stopped;     /* true when the caller asked to stop */
 } visit;
 
-/* Point i with points first .. end - 1. */
+/* Visits the pairs of point i with points first .. end - 1. */
 static void pairs_of_point(visit *v, size_t i, size_t first, size_t end)
 {
     const koksma__torus_cells *g = v->g;
@@ -65,13 +67,13 @@ static void pairs_of_point(visit *v, size_t i, size_t first, size_t end)
     }
 }
 
-/* Points of cell c with those of cells d .. last that come later; false: no more are wanted. */
+/* Visits the pairs of a point of cell c and a later point of cells d .. last. Returns false to end the search. */
 static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
 {
     const koksma__torus_cells *g = v->g;
     for (size_t i = g->start[c]; i < g->start[c + 1]; i++) {
         pairs_of_point(v, i, d == c ? i + 1 : g->start[d], g->start[last + 1]);
-        if (!v->counts && v->least == 0) { /* no distance is below 0 */
+        if (!v->counts && v->least == 0) { /* no distance can be smaller */
             return false;
         }
         v->unasked += 1 + g->start[last + 1] - g->start[d];
@@ -86,8 +88,8 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
     return true;
 }
 
-/* Points of cell c with those of the neighbours, each once, that do not come before. Cells that follow each other are
-   one run of points. */
+/* Visits the pairs of cell c with itself and with its later neighbour cells, each neighbour once. Adjacent neighbours
+   are visited together, as their points are contiguous in memory. */
 static bool pairs_of_cell(visit *v, size_t c)
 {
     const size_t m = v->g->columns;
@@ -125,7 +127,7 @@ static koksma_status visit_pairs(visit *v)
 
 enum { CROWD = 64 };
 
-/* Whether the pairs within cells are few; those with the neighbours are then no more than nine times as many. */
+/* True if there are few pairs within cells; pairs with neighbour cells are then at most nine times as many. */
 static bool is_spread(const koksma__torus_cells *g, size_t n)
 {
     double pairs = 0;
@@ -136,7 +138,8 @@ static bool is_spread(const koksma__torus_cells *g, size_t n)
     return pairs <= CROWD * (double)n;
 }
 
-/* Of crowded points the cells are of no help. Both ways square the same differences, so that the bits are equal. */
+/* The smallest distance, by cells of width r or, for crowded points, by divide and conquer. Both square the same
+   differences, so that they give the same bits. */
 static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                    double *distance)
 {
@@ -157,7 +160,8 @@ koksma_status koksma__min_distance(const char *name, const koksma_points *points
                                    double *distance)
 {
     KOKSMA__FAIL_IF(points->n < 2, KOKSMA_N, "%s: n = 1: one point has no distance; two points or more have", name);
-    double least = HUGE_VAL, r = fmin(1.1 / sqrt((double)points->n), 0.5); /* no n points are further apart */
+    double least = HUGE_VAL,
+           r = fmin(1.1 / sqrt((double)points->n), 0.5); /* n points cannot all be farther apart than this */
     if (points->n < 16) {
         for (size_t i = 0; i < points->n; i++) {
             for (size_t j = 0; j < i; j++) {
@@ -181,7 +185,7 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2",
                     points->dim);
     KOKSMA__FAIL_IF(!(r_max > 0 && r_max <= 0.5) || bins == 0, KOKSMA_ARGUMENT,
-                    "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2, and bins", r_max);
+                    "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2 and at least one bin", r_max);
     koksma_status checked = koksma__points_check(points);
     checked = checked ? checked : koksma__array_check("bins", values, bins, sizeof *values);
     if (checked) {

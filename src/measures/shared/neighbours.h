@@ -5,8 +5,8 @@
 
 #include <koksma/koksma.h>
 
-/* The smallest distance between two points: n for spread points, else n log n. name: the measure's, for the error of
-   one point. Errors: N, MEMORY, INTERRUPTED. */
+/* The smallest distance between two points, in O(n) for evenly spread points, else in O(n log n). name: the name of
+   the measure, for the error message for a single point. Errors: N, MEMORY, INTERRUPTED. */
 koksma_status koksma__min_distance(const char *name, const koksma_points *points, bool torus, const koksma_run *run,
                                    double *distance);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* By the first 32 bits behind the point, in passes over digits; what these leave in doubt, by the numbers themselves.
- */
+/* Sorts doubles by a radix sort of their first 32 bits after the binary point; numbers that agree in these bits are
+   then sorted by comparison. */
 #include "measures/shared/order.h"
 
 #include <stdlib.h>
@@ -15,18 +15,19 @@ typedef struct item {
     uint32_t key, index;
 } item;
 
-/* Blocks of items are counted and moved side by side: where each begins in `to` follows from the counts of all. */
+/* Blocks of items are counted and moved in parallel; the counts of all blocks give the position in `to` at which the
+   items of a block with a given digit begin. */
 typedef struct sorter {
     size_t n, stride, n_blocks;
     const double *xs;
     uint32_t *order;
     item *from, *to;
-    uint32_t (*starts)[MAX_VALUES]; /* by block */
+    uint32_t (*starts)[MAX_VALUES]; /* for each block, by digit */
     int shift;
     uint32_t mask; /* one less than the number of values of a digit */
 } sorter;
 
-/* What is sorted when keys are equal. */
+/* An item to be compared exactly, when keys are equal. */
 typedef struct exact {
     double x;
     uint32_t index;
@@ -64,7 +65,8 @@ static koksma_status count(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Counts become starts; false if all items have the same digit. */
+/* Replaces the counts by the positions where items begin. Returns false if all items have the same digit, so that
+   none must move. */
 static bool find_starts(sorter *s)
 {
     uint32_t total = 0;
@@ -115,7 +117,7 @@ static int compare(const void *a, const void *b)
     return precedes(*y, *x) - precedes(*x, *y);
 }
 
-/* Puts `count` items of one key in order. */
+/* Sorts items with equal keys by their numbers and writes their indices to `order`. */
 static koksma_status settle(const sorter *s, const item *items, size_t n_items, uint32_t *order)
 {
     exact few[FEW], *list = n_items <= FEW ? few : malloc(n_items * sizeof *list);
@@ -145,7 +147,7 @@ static koksma_status settle(const sorter *s, const item *items, size_t n_items, 
     return KOKSMA_OK;
 }
 
-/* The items whose keys begin in this block. */
+/* Writes the indices of the items whose key first occurs in this block. */
 static koksma_status store(void *context, size_t block)
 {
     const sorter *s = context;

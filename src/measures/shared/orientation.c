@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* After Shewchuk 1997: in doubles with an error bound first; where that does not decide, the 16 exact products of the
-   exact differences are summed as an expansion, whose largest part has the sign. That is done with the numbers times
-   a power of two, so that no part of a product is below the range of doubles. */
+/* The sign of a cross product after Shewchuk 1997. It is computed in doubles with an error bound first. Where this
+   does not decide, the 16 exact products of the exact differences are summed as an expansion, whose largest part has
+   the sign. The numbers are multiplied by a power of two before, so that no part of a product underflows. */
 #include "measures/shared/orientation.h"
 
 #include <math.h>

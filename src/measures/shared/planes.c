@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Half-spaces and the unit cube.
+ * Half-spaces and the unit cube: volumes, and the potential P and the constant C of measures/l2_edge.c for random
+ * planes.
  *
- * Volumes: turned so that 0 <= a <= b <= d and c is at most half of the way across, the half-space cuts off
- * [c^3 - (c-a)^3 - (c-b)^3 - (c-d)^3 + (c-a-b)^3] / (6 a b d), each term where its base is positive. The terms cancel
- * where a is small, so the first two are one polynomial, and each of the others has a base of at most a.
- * The potential: r is homogeneous, so its integral over a box at the origin is a quarter of that of r times the
- * distance of the plane over the three far faces; over a face it has a closed form. The mean distance of two points
- * of the cube is that of Robbins 1978.
+ * Volumes: the axes are exchanged and reflected so that 0 <= a <= b <= d and c <= (a + b + d) / 2. The half-space
+ * a x + b y + d z <= c then cuts off the volume
+ *
+ *     [c^3 - (c-a)^3 - (c-b)^3 - (c-d)^3 + (c-a-b)^3] / (6 a b d),
+ *
+ * where a term counts only if its base is positive. The terms cancel for small a, so the first two are combined into
+ * one polynomial; each of the others has a base of at most a.
+ *
+ * Potential: the distance r from the origin is homogeneous of degree 1. So its integral over a box with a corner at
+ * the origin is the sum over the three far faces of a quarter of the distance of the face times the integral of r
+ * over it, which has a closed form. The mean distance of two points of the cube is from Robbins 1978.
  */
 #include "measures/shared/planes.h"
 
@@ -15,7 +21,7 @@
 
 #include "core/random.h"
 
-/* 0 <= a <= b <= d, 0 <= c <= (a + b + d) / 2 */
+/* The volume of the cube where a x + b y + d z <= c, for 0 <= a <= b <= d and c <= (a + b + d) / 2. */
 static double small_part(double a, double b, double d, double c)
 {
     if (c <= a) {
@@ -34,7 +40,7 @@ static double small_part(double a, double b, double d, double c)
     return part;
 }
 
-/* a >= 0 */
+/* The volume of the cube where a x + b y + d z <= c, for a, b, d >= 0. */
 static double positive_volume(double a, double b, double d, double c)
 {
     double swap;
@@ -95,7 +101,7 @@ double koksma__plane_potential(const double p[3])
     return sum / 3;
 }
 
-/* The derivative of the integral over a box by a side is that over the face. */
+/* The derivative of the integral over a box by the length of a side is the integral over the face at its end. */
 void koksma__plane_potential_slope(const double p[3], double slope[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -114,7 +120,8 @@ double koksma__plane_constant(void)
     return ((4 + 17 * M_SQRT2 - 6 * root3) / 105 + log(1 + M_SQRT2) / 5 + 2 * log(2 + root3) / 5 - M_PI / 15) / 3;
 }
 
-/* The normal's density is the width of the cube, |a1| + |a2| + |a3|: a mixture of three, one an axis. */
+/* The density of the normal is proportional to the width of the cube, |a1| + |a2| + |a3|. It is a mixture of three
+   densities, |a_k| for each axis k, of which one is chosen at random. */
 void koksma__random_plane(uint64_t seed, uint64_t index, double a[3], double *c)
 {
     double r[2], s[2];

@@ -10,21 +10,22 @@
 /* The volume of the cube where a . x <= c; a is not 0. */
 KOKSMA__LAB double koksma__volume_below(const double a[3], double c);
 
-/* The volume of the cube where a . x <= a . p: computed from p, so that no rounded product a . p enters. */
+/* The volume of the cube where a . x <= a . p: computed from p, without rounding the product a . p first. */
 KOKSMA__LAB double koksma__volume_below_through(const double a[3], const double p[3]);
 
-/* A random plane that hits the cube, by the measure that moving and turning does not change, separates two points
-   with the probability distance / 3. P(x) = the integral of that over the cube from p, and C = the integral of P. */
+/* The potential P(p), the integral over x in the cube of sigma = |p - x| / 3, the probability that a random plane
+   that meets the cube separates p and x. The measure of planes is the one that is invariant under translation and
+   rotation. */
 KOKSMA__LAB double koksma__plane_potential(const double p[3]);
-/* The derivatives of P by p. */
+/* The derivatives of P by p, and (koksma__plane_constant) the constant C, the integral of P over the cube. */
 void koksma__plane_potential_slope(const double p[3], double slope[3]);
 KOKSMA__LAB double koksma__plane_constant(void);
 
-/* Plane `index` of a seed by that measure: a . x = c. */
+/* Random plane `index` of a seed, a . x = c, by the invariant measure of planes that meet the cube. */
 KOKSMA__LAB void koksma__random_plane(uint64_t seed, uint64_t index, double a[3], double *c);
 
 /* edge in 3 dimensions: the largest |#/n - volume| over all half-spaces with its witness. When run's time limit
-   passes, out is not exact: the best that was found, and 1. Errors: N, MEMORY, INTERRUPTED. */
+   passes, out is not exact and has the best value found and the upper bound 1. Errors: N, MEMORY, INTERRUPTED. */
 koksma_status koksma__edge_space(const koksma_points *points, const koksma_run *run, koksma_value *out);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The double exponential rule (Takahasi & Mori 1974): x = tanh((pi/2) sinh t) and the trapezoid rule in t with step
- * 1/16. And complete elliptic integrals by the arithmetic-geometric mean, which converges quadratically: 16 steps
+ * 1/16. Complete elliptic integrals by the arithmetic-geometric mean, which converges quadratically, so that 16 steps
  * are more than enough.
  */
 #include "measures/shared/quadrature.h"
@@ -18,7 +18,8 @@ double koksma__integral(double (*f)(double x, const void *context), const void *
     double sum = M_PI / 2 * f(a + half, context);
     for (int k = 1; k <= STEPS; k++) {
         const double t = k * step, e = exp(M_PI * sinh(t)); /* tanh((pi/2) sinh t) = (e - 1) / (e + 1) */
-        const double gap = 2 * half / (1 + e);              /* from the end, without cancellation */
+        const double gap =
+            2 * half / (1 + e); /* distance from the end of the interval, computed without cancellation */
         const double weight = M_PI / 2 * cosh(t) * 4 * e / ((1 + e) * (1 + e));
         sum += weight * (f(a + gap, context) + f(b - gap, context));
     }

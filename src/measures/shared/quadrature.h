@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Integrals and elliptic functions for the constants and potentials of the energy measures. */
+/* Integrals and complete elliptic integrals for the constants and potentials of measures that are sums over pairs. */
 #ifndef KOKSMA_MEASURES_SHARED_QUADRATURE_H
 #define KOKSMA_MEASURES_SHARED_QUADRATURE_H
 
-/* The integral of f from a to b by the double exponential rule (Takahasi & Mori 1974): to about 1e-15 of its size for
-   an f that is analytic inside, whatever roots or logarithms it has at the ends. 0 unless a < b. */
+/* The integral of f from a to b by the double exponential rule (Takahasi & Mori 1974), with a relative error of
+   about 1e-15 if f is analytic between a and b; f may have roots or logarithms at the ends. The result is 0 unless
+   a < b. */
 double koksma__integral(double (*f)(double x, const void *context), const void *context, double a, double b);
 
 /* The complete elliptic integrals K (first) and E (second) for the complementary modulus k' = sqrt(1 - k^2) in [0,1],
-   by the arithmetic-geometric mean. At k' = 0 E is 1 and K, which is infinite, is given as 0. */
+   by the arithmetic-geometric mean. For k' = 0 it sets E = 1 and, although K is infinite, K = 0. */
 void koksma__elliptic(double complement, double *first, double *second);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The root mean square of samples and its standard error: of the mean square, divided by twice the root (delta
- * method).
+ * The root mean square of samples and its standard error, which is the standard error of the mean square divided by
+ * twice the root (delta method).
  */
 #include "measures/shared/sampled.h"
 
@@ -9,7 +9,7 @@
 
 #include "core/sum.h"
 
-/* Two passes, the mean first: the sum of squared differences from it loses no digits. */
+/* In two passes: the mean first, then the sum of squared differences from the mean, which loses no digits. */
 void koksma__sampled_root(const double *squares, size_t count, koksma_value *out)
 {
     koksma__sum sum = {0}, spread = {0};

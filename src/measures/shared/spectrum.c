@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Power spectra and what is read from them. Definitions: Ulichney 1987 for the radial mean and the anisotropy; Heck,
-   Schlomer and Deussen 2013 for the effective Nyquist frequency and the oscillation, as koksma/spectrum.h words them.
-   Means over sets and their errors are updated set by set (Welford 1962), so that equal sets have no error. */
+/* Power spectra and the quality numbers derived from them, defined in koksma/spectrum.h: the radial mean and the
+   anisotropy after Ulichney 1987; the effective Nyquist frequency and the oscillation after Heck, Schlomer and
+   Deussen 2013. Means over sets of points and their standard errors are updated set by set (Welford 1962), so that
+   equal sets give an error of exactly 0. */
 #include "measures/shared/spectrum.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #include "core/status.h"
 #include "measures/shared/amplitudes.h"
 
-/* What the quality numbers are made with: see koksma/spectrum.h. */
+/* Constants of the quality numbers; see koksma/spectrum.h. */
 #define NYQUIST_SHARE 0.1
 #define SIGNAL_SHARE 0.5
 #define RISEN 0.98
@@ -45,7 +46,7 @@ void koksma_spectrum_fini(koksma_spectrum *spectrum)
     }
 }
 
-/* Calls of f for each frequency of the rings 1 .. half once, of k and -k only one. */
+/* A loop over the frequencies (kx, ky) of the rings 1 .. half, with one of k and -k. */
 #define FOR_EACH_FREQUENCY(half, kx, ky, ring)                                                                       \
     for (int ky = 0; ky <= (half); ky++)                                                                             \
         for (int kx = ky ? -(half) : 1; kx <= (half); kx++)                                                          \
@@ -56,7 +57,7 @@ static double power_at(int half, const double *power, int kx, int ky)
     return power[(size_t)ky * side_of(half) + (size_t)(half + kx)];
 }
 
-/* Ring means, and counts. */
+/* Computes the mean power of each ring and its number of frequencies. */
 static void find_means(int half, const double *power, double *means, double *counts)
 {
     FOR_EACH_FREQUENCY(half, kx, ky, ring)
@@ -73,7 +74,7 @@ koksma_status koksma__spectrum_check(const koksma_spectrum *spectrum)
 {
     return spectrum->power && spectrum->rings && spectrum->half >= 1 && spectrum->half <= KOKSMA_SPECTRUM_MAX_HALF
                ? KOKSMA_OK
-               : koksma__fail(KOKSMA_ARGUMENT, "spectrum: koksma_spectrum_init comes first");
+               : koksma__fail(KOKSMA_ARGUMENT, "spectrum: call koksma_spectrum_init first");
 }
 
 koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
@@ -86,7 +87,7 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
     KOKSMA__TRY(koksma__spectrum_check(spectrum));
     KOKSMA__TRY(koksma__points_check(points));
     KOKSMA__FAIL_IF(method != KOKSMA_SPECTRUM_EXACT && method != KOKSMA_SPECTRUM_FAST, KOKSMA_ARGUMENT,
-                    "spectrum: %d is no method", (int)method);
+                    "spectrum: there is no method %d", (int)method);
     const size_t rows = (size_t)spectrum->half + 1, count = rows * side_of(spectrum->half);
     double *power = calloc(count + 2 * rows, sizeof *power), *means = power + count;
     KOKSMA__REQUIRE_MEMORY(power, (count + 2 * rows) * sizeof *power);
@@ -138,7 +139,8 @@ koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spe
     return written;
 }
 
-/* What FAST can tell from no power and from equal powers: amplitudes are good to AMPLITUDE n. */
+/* Amplitudes from the method FAST have errors up to AMPLITUDE n, below which power cannot be distinguished from 0,
+   nor powers from equal ones. */
 #define AMPLITUDE 1e-9
 
 static double anisotropy_db(double points, double power, double variance)
@@ -174,8 +176,8 @@ koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring
     return KOKSMA_OK;
 }
 
-/* Of rings from the first that has risen to 1, up to BAND sqrt(n) beyond: a band that the size of the spectrum
-   doesn't change. */
+/* The oscillation over the rings from the first whose mean has risen to RISEN, about 1, up to BAND sqrt(n) beyond.
+   This band does not depend on the size of the spectrum. NaN if the spectrum ends before it does. */
 static double oscillation(const koksma_spectrum *s)
 {
     int from = 1;

@@ -6,7 +6,7 @@
 
 #include "core/visibility.h"
 
-/* Whether koksma_spectrum_init has made this. Errors: ARGUMENT. */
+/* Fails unless koksma_spectrum_init has initialised the spectrum. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__spectrum_check(const koksma_spectrum *spectrum);
 
 #endif

@@ -1,27 +1,30 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: the excess (k = -n y_j, b counts points) or
- * the deficit (k = n y_j, b minus that) of the box to (x, y_j), times n. Inserting a point adds to the lines of a range of
- * ranks; x only grows. `lazy` has not been added to a node's children yet. The lowest levels are blocks of leaves that are
- * scanned. The star discrepancy of the plane is the largest leaf over all x, and x takes n values from left to right.
+ * A segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: the excess (k = -n y_j, b counts
+ * points) or the deficit (k = n y_j, b minus that) of the box to (x, y_j), times n. Inserting a point adds a constant
+ * to the lines of a range of ranks; x only grows. The amount `lazy` of a node remains to be added to its children.
+ * The lowest levels of the tree are replaced by blocks of leaves, which are scanned. The star discrepancy of the
+ * plane is the largest value of a leaf over all x, and x takes n values from left to right.
  *
- * Bounds first. A node holds a line with the steepest slope below it that is above all its leaves now, and so later: a
- * subtree is looked into only when this is above the best value so far. An insertion scans one block and takes the
- * larger bound of two on its way back to the root, O(log n); a subtree of w ranks loses at most w/n by each step to the
- * right, so that it is looked into once in about n/w steps for each unit by which its leaves are below the best.
+ * At first the nodes hold bounds. The bound of a node is a line with the largest slope of its leaves that is above
+ * all of them at the current x, and so at every later x. A subtree is searched only when its bound is above the best
+ * value so far. An insertion scans one block and takes the larger of two bounds on its way back to the root, in O(log
+ * n). The bound of a subtree of w ranks rises by at most w/n relative to its leaves in each step to the right, so
+ * that it is searched once in about n/w steps for each unit by which its leaves are below the best value.
  *
- * Where the best value is nearly reached everywhere, as Hammersley points do, bounds are looked into too often, which is
- * counted; the rest of the walk then is a kinetic tournament (Basch, Guibas & Hershberger 1999) with x as the time. A
- * node holds the winning line of its leaves, and until when it is known to win:
+ * For some points, such as Hammersley's, values near the best occur everywhere, and subtrees are searched too often.
+ * These searches are counted, and when there are too many, the rest of the walk is a kinetic tournament (Basch,
+ * Guibas & Hershberger 1999) with x as the time. A node then holds the line of its leaves with the largest value (the
+ * winner), and the x until which this line is known to win:
  *
  *     value |        ____.--  line 2 overtakes at `until`    asking a subtree at x: below `until` the stored winner
  *           |  __.--'  .--'                                  answers in O(1); past it the children are asked, and the
  *           |-'    .--'  line 1 wins                         node's winner and `until` are computed again.
  *           +----------|--------- x
  *
- * An insertion adds one to the counts of a range of ranks: O(log n) nodes take it in `lazy`, and only winners on
- * the paths to the range's ends are compared again. Each recomputation is paid for by an overtaking. Wins are decided in
- * doubles: at a near tie either line has the value to the last bits.
+ * An insertion adds one to the counts of a range of ranks: this changes `lazy` of O(log n) nodes, and only the
+ * winners on the paths to the ends of the range are compared again. Each other recomputation follows an overtaking.
+ * Winners are decided in doubles: at a near tie either line has the largest value up to rounding.
  */
 #include <math.h>
 #include <pthread.h>
@@ -35,18 +38,18 @@
 enum { BLOCK = 16, CHECK_EVERY = 1 << 14, PARTS = 4, MANY = 1 << 12 };
 
 typedef struct node {
-    double k, b;  /* the winner; or a bound of all leaves, k being the largest of theirs */
-    double until; /* no other line overtakes up to here; unused with bounds */
+    double k, b;  /* b + k x: the winner; or a bound of all leaves, with their largest k */
+    double until; /* x up to which the winner is known to win; unused with bounds */
     double lazy;
 } node;
 
 typedef struct tree {
-    size_t n_blocks; /* a power of two */
+    size_t n_blocks; /* number of blocks of leaves, a power of two */
     node *nodes;     /* 1 .. 2 n_blocks - 1; block i is node n_blocks + i */
-    double *k, *b;   /* leaves */
+    double *k, *b;   /* the lines of the leaves */
     double x;
-    bool exact;   /* nodes hold winners, not bounds */
-    size_t looks; /* at bounds */
+    bool exact;   /* true if nodes hold winners, false if bounds */
+    size_t looks; /* number of bounds that were tested */
 } tree;
 
 typedef struct best_box {
@@ -54,7 +57,8 @@ typedef struct best_box {
     size_t at;
 } best_box;
 
-/* The excesses and the deficits are walked side by side, and large sets in parts, each with a tree of its own. */
+/* Excesses and deficits are computed in parallel, and large sets also in parts of the range of x; each of these walks
+   has its own tree. */
 typedef struct walks {
     size_t n, n_blocks, parts;
     const double *x, *y;
@@ -70,7 +74,7 @@ static inline double at(double k, double b, double x)
     return b + k * x;
 }
 
-/* The largest leaf of a block, which becomes its bound. */
+/* Returns the largest value of the leaves of a block at the current x, and makes it the bound of the block. */
 static double scan(tree *t, size_t v)
 {
     const double *k = t->k + (v - t->n_blocks) * BLOCK, *b = t->b + (v - t->n_blocks) * BLOCK;
@@ -150,7 +154,7 @@ static void push(tree *t, size_t v)
     }
 }
 
-/* Brings node v to the present x. */
+/* Updates the winner of node v for the current x. */
 static void advance(tree *t, size_t v)
 {
     if (!t->exact || t->nodes[v].until > t->x) {
@@ -167,7 +171,7 @@ static void advance(tree *t, size_t v)
     pull(t, v);
 }
 
-/* Looks for leaves above *best below node v, whose bound may be too low by the slack. */
+/* Raises *best to the largest leaf below node v if it is larger. Bounds may be too low by `slack`. */
 static void look(tree *t, size_t v, double slack, double *best)
 {
     t->looks++;
@@ -186,7 +190,7 @@ static void look(tree *t, size_t v, double slack, double *best)
     pull(t, v);
 }
 
-/* Adds to all leaves from `from` on, and brings the nodes on the way to the present x. */
+/* Adds the amount to all leaves from `from` on, and updates the nodes on the path for the current x. */
 static void add_from(tree *t, size_t from, double amount)
 {
     size_t v = 1, half = t->n_blocks * BLOCK / 2, path[64], depth = 0;
@@ -213,7 +217,7 @@ static void add_from(tree *t, size_t from, double amount)
     }
 }
 
-/* The lines after the first `from` points. */
+/* Sets the tree to its state after the first `from` points. */
 static void start(tree *t, const walks *w, size_t from, double sign)
 {
     const size_t deficit = sign < 0, n_lines = w->n + deficit;
@@ -248,13 +252,14 @@ static bool keeps_going(walks *w, double fraction_done)
     return !atomic_load(&w->stopped);
 }
 
-/* From point `from` to `end`. sign 1: excess, evaluated after each insertion; -1: deficit, before. */
+/* Finds the best value from point `from` to point `end`. sign 1: the excess, evaluated after each insertion; -1: the
+   deficit, evaluated before each. */
 static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sign, best_box *best)
 {
     const size_t n = w->n;
     const double slack =
-        0x1p-51 * (double)n * (double)n; /* bounds are sums of at most n terms up to 2n, each rounded */
-    const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks); /* looks: about what a tournament costs */
+        0x1p-51 * (double)n * (double)n; /* rounding error of bounds, which are sums of at most n terms up to 2n */
+    const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks); /* as costly as a tournament */
     *best = (best_box){-INFINITY, from};
     start(t, w, from, sign);
     for (size_t i = from; i < end; i++) {

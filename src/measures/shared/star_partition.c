@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Dobkin, Eppstein and Mitchell's partition of the space of corners, after Overmars and Yap. Coordinates are cut into
- * slabs one after the other; in a slab (a, b] of coordinate k a point with x_k <= a is inside, one with x_k >= b
- * can't be counted any more, and one between becomes undecided in k, if it is not yet undecided in another coordinate
- * (then the cuts go through it). In a leaf every point is undecided in one coordinate at most, so that the number of
- * points and the volume are, coordinate by coordinate, a count c and the largest (smallest) side that an open
- * (closed) box with c of these points has.
- * The slabs of the first coordinate are blocks of work, each with its own best, so that threads change no bit.
+ * The partition of the space of box corners by Dobkin, Eppstein and Mitchell, after Overmars and Yap. One coordinate
+ * after the other is cut into slabs. For corners in a slab (a, b] of coordinate k, a point with x_k <= a is inside in
+ * this coordinate, a point with x_k >= b is outside the box, and a point between becomes undecided in k. A point that
+ * is already undecided in an earlier coordinate cannot become undecided again, as cuts are made through it. In a leaf
+ * every point is therefore undecided in at most one coordinate. So for each coordinate and each count c it suffices
+ * to know the largest (smallest) side of an open (closed) box that contains c of the points undecided in this
+ * coordinate. The slabs of the first coordinate are separate blocks of work, each with its own best box, so that the
+ * result does not depend on the number of threads.
  */
 #include <math.h>
 #include <pthread.h>
@@ -26,36 +27,36 @@ enum { LEAVES_PER_CHECK = 256 };
 typedef struct problem {
     const koksma_points *points;
     size_t n, dim, spacing;
-    uint32_t *orders; /* by coordinate: the points in its order */
-    double *cuts;     /* of the first coordinate */
+    uint32_t *orders; /* for each coordinate, the points in its order */
+    double *cuts;     /* the cuts of the first coordinate */
     size_t n_cuts;
     double deadline_s;
     const koksma_run *run;
-    pthread_t caller; /* the one thread that may ask run */
+    pthread_t caller; /* the only thread that may call run->keep_going */
     atomic_bool interrupted;
     atomic_size_t blocks_done;
-    koksma_value *values; /* one a block */
+    koksma_value *values; /* for each block */
     bool *cut_short;
 } problem;
 
-/* The points of a region, in arrays of one level of the recursion. */
+/* The points of a region of corners. There is one region for each level of the recursion. */
 typedef struct region {
-    uint32_t *inside;    /* decided in all coordinates so far, in no order */
-    uint32_t *undecided; /* those of coordinate k from first[k] to first[k+1], in its order */
+    uint32_t *inside;    /* points inside in all coordinates so far, unordered */
+    uint32_t *undecided; /* first[k] .. first[k+1] - 1: those of coordinate k, in its order */
     size_t n_inside, *first;
 } region;
 
 typedef struct searcher {
     problem *p;
     region *levels;       /* dim + 1 */
-    double *lo, *hi;      /* the region's slabs */
+    double *lo, *hi;      /* the slabs of the region, for each coordinate */
     double *cuts;         /* dim rows of n + 2 */
     uint32_t *sorted;     /* dim rows of n: `inside` in order of the next coordinate */
-    double *sorted_at;    /* dim rows of n: that coordinate of these points */
-    double *undecided_at; /* dim rows of n: that of the child's undecided points */
+    double *sorted_at;    /* dim rows of n: the next coordinate of the points in sorted */
+    double *undecided_at; /* dim rows of n: the same coordinate of the child's undecided points */
     bool *flags;          /* n */
-    double *sides;        /* the leaf's sides: 2 rows of n + dim */
-    double **products;    /* dim pairs of rows of n + 2 dim + 8: of the coordinates up to k */
+    double *sides;        /* the sides of boxes in a leaf: 2 rows of n + dim */
+    double **products;    /* dim pairs of rows of n + 2 dim + 8: products of sides up to coordinate k */
     size_t leaves;
     bool stop;
     koksma_value *best;
@@ -67,7 +68,7 @@ static double coordinate(const searcher *s, uint32_t i, size_t k)
     return s->p->points->xs[(size_t)i * s->p->dim + k];
 }
 
-/* Finds the corner whose sides made the best value of a leaf, from the last coordinate to the first. */
+/* Finds the corner that has the best value of a leaf, from the last coordinate to the first. */
 static void trace(searcher *s, const double *const *sides[2], const size_t *counts, bool closed, double n_inside)
 {
     const size_t dim = s->p->dim;
@@ -121,7 +122,7 @@ static void leaf(searcher *s)
         return;
     }
     for (size_t k = 0; k < dim; k++) {
-        /* lo, z_1, .. z_g, hi: closed boxes take the first g + 1, open ones the last */
+        /* of the sides lo, z_1, .. z_g, hi closed boxes use the first g + 1, open ones the last g + 1 */
         closed_sides[k] = next;
         *next++ = s->lo[k];
         for (size_t u = r->first[k]; u < r->first[k + 1]; u++) {
@@ -158,7 +159,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Where to cut coordinate k of a region: 0, every undecided point, every so many points inside, infinity. */
+/* Chooses the cuts of coordinate k of a region: 0, the coordinate of every undecided point, that of every
+   p->spacing-th point inside, infinity. Returns the number of slabs. */
 static size_t find_cuts(const problem *p, size_t k, const region *r, const uint32_t *sorted, double *cuts)
 {
     size_t count = 0, kept = 0;
@@ -198,8 +200,8 @@ static void sort_inside(searcher *s, size_t k, uint32_t *sorted)
     }
 }
 
-/* Before the slabs of coordinate k of a region: its child gets the region's undecided points, and both kinds of points
-   their coordinates, once for all slabs. */
+/* Prepares the slabs of coordinate k of a region: copies the region's undecided points to its child, and looks up
+   coordinate k of these points and of those inside once for all slabs. */
 static void begin_slabs(searcher *s, size_t k, const uint32_t *sorted)
 {
     const region *r = &s->levels[k];
@@ -215,7 +217,8 @@ static void begin_slabs(searcher *s, size_t k, const uint32_t *sorted)
     }
 }
 
-/* The child of level k for the slab (a, b], but for its undecided points; how many of them are of coordinate k. */
+/* Sets the child of the region of level k to the slab (a, b], except for the undecided points. Returns how many
+   points become undecided in coordinate k. */
 static size_t place_slab(searcher *s, size_t k, const uint32_t *sorted, double a, double b)
 {
     const double *at = s->sorted_at + k * s->p->n;
@@ -233,15 +236,15 @@ static size_t place_slab(searcher *s, size_t k, const uint32_t *sorted, double a
     while (high < n_inside && at[high] < b) {
         high++;
     }
-    child->inside = (uint32_t *)sorted; /* a prefix; only read */
+    child->inside = (uint32_t *)sorted; /* the child's points are a prefix of sorted, which is not written to */
     child->n_inside = low;
     s->lo[k] = a;
     s->hi[k] = b;
     return high - low;
 }
 
-/* The child's undecided points. Slabs come from the last to the first, so that those of coordinates before k are among
-   the ones of the slab before. */
+/* Fills the undecided points of the child. Slabs are visited from the last to the first, so that the points undecided
+   in coordinates before k are among those of the slab visited before. */
 static void fill_slab(searcher *s, size_t k, const uint32_t *sorted, size_t of_k)
 {
     region *child = &s->levels[k + 1];
@@ -275,7 +278,8 @@ static void check_stop(searcher *s)
 
 static void search(searcher *s, size_t k);
 
-/* Of a leaf that can't have a better value, the undecided points are not looked for. */
+/* Searches one slab. For a leaf that cannot have a better value than the best so far, the undecided points are not
+   collected. */
 static void descend(searcher *s, size_t k, const uint32_t *sorted, double a, double b)
 {
     const bool is_leaf = k + 1 == s->p->dim;

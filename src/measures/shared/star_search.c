@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A lower bound of the star discrepancy by threshold accepting over corners (Gnewuch, Wahlstrom and Winzen 2012),
- * with walks of their own for closed boxes (excess) and open ones (deficit).
+ * with separate walks for closed boxes (excess) and open boxes (deficit).
  *
- * The paper snaps a corner to the nearest critical corner. Here a step climbs instead to a corner that no change of
- * a single coordinate improves: with the other coordinates fixed, one pass over the points in order of coordinate k,
- * which counts those inside along the others, gives the value of every end of the box along k; the best is taken.
- * This is repeated until a round over all coordinates gains nothing. Every point has the number of coordinates along
- * which it is outside, so that a pass is one look at each point, and moving an end looks at the points between the
- * two places.
+ * The paper moves a corner to the nearest critical corner. Here a step climbs instead to a corner that no change of a
+ * single coordinate improves. With the other coordinates fixed, one pass over the points in order of coordinate k,
+ * which counts the points inside in the other coordinates, gives the value of the box for every end along k; the best
+ * end is taken. This is repeated until a round over all coordinates gains nothing. For each point the number of
+ * coordinates in which it is outside is stored, so that a pass reads each point once, and moving an end updates only
+ * the points between the old and the new end.
  *
- * A step moves some coordinates by a bounded number of ranks, climbs, and goes back unless the value is at least the
- * last one's less a threshold. The moves get smaller and the threshold goes to zero.
+ * A step moves some coordinates by a bounded number of ranks, climbs, and is undone unless the new value is at least
+ * the old value less a threshold. The moves get smaller and the threshold goes to zero.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -29,16 +29,16 @@ enum { DIMS = KOKSMA__STAR_MAX_DIM, MANY = 1 << 14 };
 typedef struct walk {
     const koksma_points *points;
     size_t n, dim;
-    double *levels;   /* dim rows of n + 1: coordinates in order, then 1 */
-    uint32_t *orders; /* dim rows of n: the points in this order */
-    /* The box: corner[k] is a level, below it or, of closed boxes, up to it are cut[k] points; outside[i] counts the
-       coordinates along which point i is not among them. */
+    double *levels;   /* dim rows of n + 1: the coordinates of the points in order, then 1 */
+    uint32_t *orders; /* dim rows of n: the indices of the points in this order */
+    /* The box: corner[k] is one of the levels. cut[k] is the number of points below it (for closed boxes: up to it)
+       in coordinate k; outside[i] is the number of coordinates in which point i is not one of these. */
     bool closed;
     double corner[DIMS];
     size_t cut[DIMS];
     uint8_t *outside;
     uint64_t seed, index;
-    uint32_t lane, n_walks; /* lane: which walk this is */
+    uint32_t lane, n_walks; /* lane: the number of this walk */
     const koksma_run *run;
     double deadline_s;
     bool stopped, late;
@@ -72,7 +72,7 @@ static size_t rank_of(const walk *w, size_t k, double x)
     return low;
 }
 
-/* Ends the box along coordinate k at level `rank`. */
+/* Moves the end of the box along coordinate k to level `rank`. */
 static void set_end(walk *w, size_t k, size_t rank)
 {
     const double *levels = w->levels + k * (w->n + 1);
@@ -94,7 +94,7 @@ static void set_end(walk *w, size_t k, size_t rank)
     w->cut[k] = cut;
 }
 
-/* Ends the box along coordinate k where its value is largest; n times this value. */
+/* Moves the end of the box along coordinate k to where the value is largest. Returns n times this value. */
 static double best_end(walk *w, size_t k)
 {
     const double *levels = w->levels + k * (w->n + 1);
@@ -122,7 +122,7 @@ static double best_end(walk *w, size_t k)
     return best;
 }
 
-/* True when the walk is to end: out of time, or told to stop. */
+/* True if the walk must end, because the deadline has passed or the caller asked to stop. */
 static bool ends(walk *w, double fraction_done)
 {
     w->stopped = w->stopped || !koksma__keep_going(w->run, (w->lane + fraction_done) / w->n_walks);
@@ -130,7 +130,7 @@ static bool ends(walk *w, double fraction_done)
     return w->stopped || w->late;
 }
 
-/* To a box that is best along each coordinate, or as far as time allows; its value. */
+/* Climbs to a box that no change of a single coordinate improves, or until the walk must end. Returns its value. */
 static double climb(walk *w, double fraction_done)
 {
     const size_t first = draw_below(w, w->dim);
@@ -154,7 +154,7 @@ static double random_box(walk *w)
     return climb(w, 0);
 }
 
-/* Each of m coordinates goes to a level within `reach` ranks. */
+/* Moves the end in each of m random coordinates to a random level within `reach` ranks. */
 static void move(walk *w, size_t m, size_t reach)
 {
     for (size_t c = 0; c < m; c++) {
@@ -172,7 +172,7 @@ static void keep_best(const walk *w, double value, koksma_value *out)
     }
 }
 
-/* One box is looked at in any case. */
+/* Does one walk, which evaluates at least one box whatever the deadline. */
 static void run_walk(walk *w, size_t steps, koksma_value *out)
 {
     double kept[DIMS];
@@ -224,7 +224,7 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
         }
         w.levels[k * (n + 1) + n] = 1;
     }
-    if (!status) { /* the whole cube, to have a box in any case */
+    if (!status) { /* the whole cube, so that there is always a witness */
         double ones[DIMS];
         for (size_t k = 0; k < dim; k++) {
             ones[k] = 1;

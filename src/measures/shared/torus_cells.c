@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Points of the plane sorted into square cells by counting sort, O(n + cells): the points of a cell, and those of a
-   row of cells, are neighbours in memory. Patterns that put points in one by one use patterns/shared/torus_grid.c,
-   whose cells are lists; those that sort again and again patterns/shared/torus_rows.c, which keeps its memory and
-   which point is where. */
+/* Sorts points of the plane into square cells by a counting sort, O(n + cells): the points of a cell, and those of a
+   row of cells, are contiguous in memory. Patterns that insert points one by one use patterns/shared/torus_grid.c,
+   whose cells are lists. Patterns that sort repeatedly use patterns/shared/torus_rows.c, which keeps its memory and
+   the index of each point. */
 #include "measures/shared/torus_cells.h"
 
 #include <stdlib.h>
@@ -20,7 +20,7 @@ koksma_status koksma__torus_cells_init(koksma__torus_cells *cells, const koksma_
                                        bool wrap)
 {
     const size_t n = points->n;
-    const double outside = wrap ? 1 : 2; /* from here on a coordinate is 0 on the torus */
+    const double outside = wrap ? 1 : 2; /* coordinates from here on become 0 */
     *cells = (koksma__torus_cells){.n = n, .columns = columns > 1 ? (size_t)columns : 1};
     const size_t n_cells = cells->columns * cells->columns;
     cells->xs = malloc(2 * n * sizeof(double));
@@ -30,7 +30,7 @@ koksma_status koksma__torus_cells_init(koksma__torus_cells *cells, const koksma_
         return koksma__fail_memory(2 * n * sizeof(double) + (n_cells + 2) * sizeof(size_t));
     }
     cells->ys = cells->xs + n;
-    size_t *fill = cells->start + 1; /* start of the next cell while counting, of this one after filling */
+    size_t *fill = cells->start + 1; /* fill[c]: the end of cell c once it is filled */
     for (size_t i = 0; i < n; i++) {
         const double *x = points->xs + 2 * i;
         fill[cell_of(cells, x[0] < outside ? x[0] : 0, x[1] < outside ? x[1] : 0) + 1]++;

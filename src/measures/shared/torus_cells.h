@@ -4,14 +4,15 @@
 
 #include <koksma/koksma.h>
 
-/* The points by coordinate, in cells: the points of cell c are start[c] .. start[c+1]-1, cells row by row. */
+/* Points sorted into cells, which are numbered row by row. The points of cell c are start[c] .. start[c+1]-1. */
 typedef struct koksma__torus_cells {
     size_t n, columns; /* columns x columns cells */
-    double *xs, *ys;   /* in the order of the cells; within a cell in the order of the points */
+    double *xs, *ys;   /* in order of the cells; within a cell in the original order */
     size_t *start;
 } koksma__torus_cells;
 
-/* Whole columns, at least 1; wrap: the coordinate 1 becomes 0, as it is on the torus. Errors: MEMORY. */
+/* Sorts points into columns x columns cells; columns is a whole number and at least 1. wrap: the coordinate 1 becomes
+   0, as on the torus. Errors: MEMORY. */
 koksma_status koksma__torus_cells_init(koksma__torus_cells *cells, const koksma_points *points, double columns,
                                        bool wrap);
 void koksma__torus_cells_fini(koksma__torus_cells *cells);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * l2-disk on the hemispheres, law=area: spherical caps of random direction whose area is uniform. By Stolarsky's
- * principle the mean square is the mean distance under the domain's measure less that of the points' pairs: O(n^2),
- * in closed form.
+ * The measure l2-disk for points on the hemisphere, with law=area: spherical caps with a random direction and a
+ * uniform area. By Stolarsky's invariance principle the mean square follows from mean distances between points, and
+ * between points and the hemisphere (the formula is in warp_disks.h): O(n^2).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -19,15 +19,16 @@ typedef struct rows {
     size_t n;
     const double *xs;
     bool cosine;
-    koksma__sum *pairs, *linear; /* by block */
+    koksma__sum *pairs, *linear; /* sums for each block */
 } rows;
 
 typedef struct ring {
-    double angle; /* of the point, from the pole */
+    double angle; /* angle of the point from the pole */
     bool cosine;
 } ring;
 
-/* The distance summed over the circle at angle b from the pole, by its length: a complete elliptic integral. */
+/* The integral of the distance from the point over the circle at angle b from the pole, with the density of the
+   measure; it is a complete elliptic integral. */
 static double ring_distance(double b, const void *context)
 {
     const ring *r = context;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Disks and caps of mapped points: what l2-disk is under a warp. xs holds points one after another. */
+/* The measure l2-disk for points that a warp has mapped to the disk (random disks) or to the hemisphere (random
+   caps). xs has the coordinates point by point. */
 #ifndef KOKSMA_MEASURES_SHARED_WARP_DISKS_H
 #define KOKSMA_MEASURES_SHARED_WARP_DISKS_H
 
@@ -9,10 +10,12 @@
  * The root mean square, over disks of radius 0 < r <= 1 that meet the unit disk D with centres uniform within 1 + r,
  * of the difference between the share of points in the disk and the share of D's area in it.
  *
- * Formula: with lens(d) the area that two disks of radius r at distance d share, L(p) the area of D in a disk with
- * its centre at p from the origin, and A = pi (1+r)^2, square = (n^-2 sum_ij lens(|x_i - x_j|) - (2/n) sum_i a(|x_i|)
- * + c)/A, a(s) = the integral of L(p)/pi over the centres within r of a point at s,  c = the integral of 2 pi p
- * (L(p)/pi)^2. Source: derived. Known exactly: random points, the mean of the square is (r^2 - c/pi)/((1+r)^2 n).
+ * Formula: with lens(d) the overlap of two disks of radius r at distance d, L(p) the area of D in a disk of radius r
+ * whose centre is at distance p from the origin, and A = pi (1+r)^2, square = (n^-2 sum_ij lens(|x_i - x_j|) - (2/n)
+ * sum_i a(|x_i|) + c)/A, where a(s) is the integral of L(p)/pi over the centres within r of a point at distance s
+ * from the origin, and c is the integral of 2 pi p (L(p)/pi)^2 over p.
+ * Source: derived.
+ * Known exactly: random points, the mean of the square is (r^2 - c/pi)/((1+r)^2 n).
  * Limits: a and c are integrated to about 1e-14 of their size; the square is good to about 1e-15.
  * Errors: MEMORY, INTERRUPTED.
  */
@@ -20,19 +23,22 @@ koksma_status koksma__warp_l2_disk(size_t n, const double *xs, double r, const k
 
 /*
  * The root mean square, over spherical caps {y.z >= t}, z uniform on the sphere and t on (-1,1), of the difference
- * between the share of points in the cap and that of the hemisphere's measure: uniform, or weighted by the cosine.
+ * between the share of points in the cap and the share of the hemisphere's measure in it, which is uniform or
+ * weighted by the cosine.
  *
- * Formula (Stolarsky's invariance principle, for a measure on a part of the sphere): a cap parts x from y with
- * probability |x - y|/4, so square = ((1/n) sum_i P(x_i) - (1/n^2) sum_{i<j} |x_i - x_j| - C/2)/4. P, the mean
+ * Formula (Stolarsky's invariance principle, for a measure on a part of the sphere): a random cap separates x and y
+ * with probability |x - y|/4, so square = ((1/n) sum_i P(x_i) - (1/n^2) sum_{i<j} |x_i - x_j| - C/2)/4. P, the mean
  * distance of x from the hemisphere, is an integral of complete elliptic integrals over the circles of latitude; C,
- * the mean of P, is 32/(9 pi), and with the cosine 2048/(675 pi) (recognised from 18 digits, and tested). Source:
- * Stolarsky 1973; Alexander 1990. Known exactly: P is 2 sqrt(2)/3 at the pole and 4/3 at the rim, with the cosine 8
- * sqrt(2)/15 and 64/(15 pi). Random points, the mean of the square is C/(8n). Limits: P is integrated to about 1e-15;
- * the square is good to about 1e-15. Errors: MEMORY, INTERRUPTED.
+ * the mean of P, is 32/(9 pi), and with the cosine 2048/(675 pi) (recognised from 18 digits, and tested).
+ * Source: Stolarsky 1973; Alexander 1990.
+ * Known exactly: P is 2 sqrt(2)/3 at the pole and 4/3 at the rim; with the cosine weight 8 sqrt(2)/15 and 64/(15 pi).
+ * For random points the mean of the square is C/(8n).
+ * Limits: P is integrated to about 1e-15; the square is good to about 1e-15.
+ * Errors: MEMORY, INTERRUPTED.
  */
 koksma_status koksma__warp_caps(size_t n, const double *xs, bool cosine, const koksma_run *run, koksma_value *out);
 
-/* P of a point of the hemisphere, and C. */
+/* The potential P of a point of the hemisphere, and the constant C, in the formula of koksma__warp_caps. */
 double koksma__cap_potential(const double *x, bool cosine);
 double koksma__cap_constant(bool cosine);
 

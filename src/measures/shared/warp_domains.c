@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The disk, the triangle and the hemisphere as domains of random lines or great circles: the probability that one
- * separates two points, its integral over the domain from a point (potential), and the integral of that (constant).
+ * The disk, the triangle and the hemisphere as domains of random lines or great circles: the probability that one of
+ * them separates two points, the integral of this probability over the second point (potential), and the integral of
+ * the potential (constant).
  */
 #include "measures/shared/warp_domains.h"
 
@@ -31,7 +32,8 @@ static void gauss(int n, double *x, double *w)
 
 /* ---- The unit disk ------------------------------------------------------------------------------------ */
 
-/* The segment beyond distance t of the centre, t in [-1, 1], as a share of the disk. */
+/* The share of the disk in the half-plane below the line with normal (a, b) through p, by the area of a circular
+   segment. */
 static double below_in_disk(double a, double b, const double p[2])
 {
     const double length = hypot(a, b), t = (a * p[0] + b * p[1]) / length;
@@ -39,15 +41,17 @@ static double below_in_disk(double a, double b, const double p[2])
     return (acos(-h) + h * sqrt((1 - h) * (1 + h))) / M_PI;
 }
 
-/* Across the radius. The centre bisects every chord, with the same area on each side: one stands for all. */
+/* The chord with midpoint p is perpendicular to the radius. The centre bisects every diameter, with equal areas on
+   both sides, so that one diameter is enough. */
 static void chords_of_disk(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
     const bool central = p[0] == 0 && p[1] == 0;
     chords[0] = central ? (koksma__chord){{1, 0}, {0, 0}} : (koksma__chord){{0, p[1]}, {p[0], 0}};
 }
 
-/* The mean distance of p from a uniform point of the disk: (4/9 pi) ((rho^2 + 7) E - 4 (1 - rho^2) K), with the
-   complete elliptic integrals of modulus rho by the arithmetic-geometric mean. */
+/* The mean distance of p, at distance rho from the centre, from a uniform point of the disk: (4/9 pi) ((rho^2 + 7) E
+   - 4 (1 - rho^2) K), where K and E are the complete elliptic integrals of modulus rho, by the arithmetic-geometric
+   mean. */
 static double mean_distance_in_disk(const double *p)
 {
     const double m = fmin(p[0] * p[0] + p[1] * p[1], 1);
@@ -75,8 +79,8 @@ double koksma__disks_share(double r, double distance)
     if (distance <= fabs(1 - r)) {
         return M_PI * small * small;
     }
-    /* Two circular segments. Heron's product, four times the square of the area of the triangle of the centres and a
-       point where the circles meet, does not cancel where these touch. */
+    /* The overlap consists of two circular segments. Heron's formula gives the area of the triangle of the two
+       centres and a point where the circles meet, without cancellation where the circles touch. */
     const double square = distance * distance, rest = (1 - r) * (1 + r);
     const double height =
         sqrt(fmax((1 + r - distance) * (distance + r - 1) * (distance - r + 1) * (distance + r + 1), 0));
@@ -106,12 +110,12 @@ static double below_in_triangle(double a, double b, const double p[2])
     for (int c = 0; c < m; c++) {
         area += polygon[c][0] * polygon[(c + 1) % m][1] - polygon[c][1] * polygon[(c + 1) % m][0];
     }
-    return area; /* the polygon's area over that of the triangle, 1/2 */
+    return area; /* this is twice the polygon's area, its share of the triangle of area 1/2 */
 }
 
-/* With barycentric shares b and c at the far corners of two edges from a corner, p is the middle of the points at 2b
-   and 2c along these edges. In a corner that chord has no length, and lines that only touch the triangle cut nothing
-   off: those along the two edges. Maps round: a share below 0 is 0. */
+/* For each corner of the triangle, with s and t the barycentric coordinates of p at the other two corners, p is the
+   midpoint of the points at 2s and 2t along the two edges from this corner. For p at a corner this chord has length
+   0; the chords there are the two edges. Barycentric coordinates below 0, from rounding in maps, count as 0. */
 static void chords_of_triangle(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
     const double share[3] = {fmax(1 - p[0] - p[1], 0), fmax(p[0], 0), fmax(p[1], 0)};
@@ -130,7 +134,7 @@ static void chords_of_triangle(const double p[2], koksma__chord chords[KOKSMA__M
     }
 }
 
-/* The integral of the distance from p over the triangle of p and an edge. */
+/* The integral of the distance from p over the triangle that p forms with an edge. */
 static double edge_integral(const double p[2], const double u[2], const double v[2])
 {
     const double dx = v[0] - u[0], dy = v[1] - u[1], length = hypot(dx, dy);
@@ -170,15 +174,16 @@ static double triangle_constant(void)
 
 /* ---- The hemisphere z >= 0 ---------------------------------------------------------------------------- */
 
-/* A plane through the centre whose normal is theta from the pole has the share 1 - theta/pi on the normal's side. P
-   is the mean of theta/pi over the normals on the side of p, which is alpha from the pole. */
+/* A plane through the centre whose normal is at angle theta from the pole has a share of 1 - theta/pi of the
+   hemisphere on the normal's side. The potential P of a point p at angle alpha from the pole is the mean of theta/pi
+   over the normals on the side of p. */
 static double hemisphere_potential(const double *p)
 {
     const double alpha = atan2(hypot(p[0], p[1]), p[2]);
     double x[NODES], w[NODES], sum = 0;
     gauss(NODES, x, w);
     for (int i = 0; i < NODES; i++) {
-        const double below = x[i] * (M_PI_2 - alpha); /* all normals at this theta are on the side */
+        const double below = x[i] * (M_PI_2 - alpha); /* all normals at this theta are on the side of p */
         const double phase = M_PI * (x[i] - 0.5), theta = M_PI_2 + alpha * sin(phase);
         const double cotangents = alpha > 0 ? cos(theta) / sin(theta) * cos(alpha) / sin(alpha) : 0;
         const double part = acos(fmin(1, fmax(-1, -cotangents))) / M_PI;
@@ -213,7 +218,7 @@ double koksma__domain_separates(koksma__domain_kind kind, const double *p, const
         plus += (p[k] + q[k]) * (p[k] + q[k]);
     }
     return 2 * atan2(sqrt(minus), sqrt(plus)) /
-           M_PI; /* an arc sine of half the distance is coarse near opposite points */
+           M_PI; /* more accurate near opposite points than the arc sine of half the distance */
 }
 
 double koksma__domain_potential(koksma__domain_kind kind, const double *p)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * l2-disk of points in the unit disk: the mean square over disks of radius r whose centres are uniform within 1 +
- * r. The square expands into sums over pairs (areas that two disks share), over points and a constant; the last two
- * are integrals over rings about the origin (quadrature.c), computed once for all radii of points by rows. O(n^2).
+ * The measure l2-disk for points in the unit disk: the root mean square over disks of radius r whose centres are
+ * uniform within 1 + r of the origin. The square expands into a sum over pairs of points (overlaps of two disks), a
+ * sum over points and a constant. The terms of the last two are integrals over rings about the origin (quadrature.c).
+ * O(n^2).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -23,8 +24,8 @@ typedef struct ring {
 
 typedef struct rows {
     size_t n;
-    double r, *xs, *ys;          /* of the points, a quarter of them */
-    koksma__sum *pairs, *linear; /* by block */
+    double r, *xs, *ys;          /* a quarter of the coordinates of the points */
+    koksma__sum *pairs, *linear; /* sums for each block */
 } rows;
 
 static double whole_circle(double p, const void *context)
@@ -33,12 +34,13 @@ static double whole_circle(double p, const void *context)
     return 2 * M_PI * p * koksma__disks_share(g->r, p) / M_PI;
 }
 
-/* The arc of the circle of radius p about the origin that is within r of the point. */
+/* The length of the arc of the circle of radius p about the origin that is within r of the point, times the share of
+   the unit disk in a disk of radius r about a point of this arc. */
 static double arc(double p, const void *context)
 {
     const ring *g = context;
     const double near = fmax((g->r - p + g->s) * (g->r + p - g->s), 0),
-                 far = fmax((p + g->s - g->r) * (p + g->s + g->r), 0); /* of the triangle's half angle, by Heron */
+                 far = fmax((p + g->s - g->r) * (p + g->s + g->r), 0); /* near / far: tan^2 of the half angle */
     return 4 * p * atan2(sqrt(near), sqrt(far)) * koksma__disks_share(g->r, p) / M_PI;
 }
 
@@ -49,14 +51,15 @@ static double square_of_share(double p, const void *context)
     return 2 * M_PI * p * share * share;
 }
 
-/* In two pieces, as the integrand has a corner where the disk begins to stick out. */
+/* The integral of f in two pieces, as its derivative jumps at p = 1 - r, where the disk of radius r begins to leave
+   the unit disk. */
 static double in_pieces(double (*f)(double, const void *), const ring *g, double a, double b)
 {
     const double corner = fmax(fmin(1 - g->r, b), a);
     return koksma__integral(f, g, a, corner) + koksma__integral(f, g, corner, b);
 }
 
-/* a(s) */
+/* The term a(s) of the formula in warp_disks.h. */
 static double linear_term(double r, double s)
 {
     const ring g = {r, s};
@@ -66,7 +69,8 @@ static double linear_term(double r, double s)
     return in_pieces(whole_circle, &g, 0, r - s) + in_pieces(arc, &g, fabs(r - s), fmin(r + s, 1 + r));
 }
 
-/* Points are shrunk to a quarter, where disks of radius r / 4 don't meet around the torus of the kernel. */
+/* Coordinates are divided by 4, as the kernel is for disks on the unit torus: disks of radius r / 4 about such points
+   do not overlap across the border of the torus. */
 static koksma_status block(void *context, size_t index)
 {
     rows *t = context;
