@@ -82,8 +82,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"candidates", "candidates for each point that there is already", 1, 1, 100, NULL, true},
-    {"most", "at most as many candidates", 1000, 1, 1 << 20, NULL, true},
+    {"candidates", "candidates for each earlier point", 1, 1, 100, NULL, true},
+    {"most", "largest number of candidates for a point", 1000, 1, 1 << 20, NULL, true},
     {0},
 };
 

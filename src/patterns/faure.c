@@ -129,8 +129,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     for (j.whole = j.base; j.whole < end; j.whole *= j.base) {
         j.digits++;
     }
-    KOKSMA__FAIL_IF(j.whole > 0x1p53, KOKSMA_N, "faure: point %.0f: in base %u its points end before number %.0f",
-                    end - 1, j.base, j.whole / j.base);
+    KOKSMA__FAIL_IF(j.whole > 0x1p53, KOKSMA_N,
+                    "faure: point %.0f: in base %u there are only points below number %.0f", end - 1, j.base,
+                    j.whole / j.base);
     uint32_t few[FEW];
     const size_t entries = (size_t)out->dim * (size_t)(j.digits * j.digits);
     j.matrices = entries <= FEW ? few : malloc(entries * sizeof *j.matrices);

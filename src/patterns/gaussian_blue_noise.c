@@ -160,9 +160,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"steps", "of the descent; 0: until it has converged, 2000 at most", 0, 0, 100000, NULL, true},
+    {"steps", "steps of the descent; 0: until it has converged, 2000 at most", 0, 0, 100000, NULL, true},
     {"sigma", "of the Gaussian, in units of 1/sqrt n", 1, 0.15, 1.05, NULL, false},
-    {"step", "how far a point follows its force", 0.4, 0.001, 1, NULL, false},
+    {"step", "distance that a point moves for each unit of force", 0.4, 0.001, 1, NULL, false},
     {0},
 };
 

@@ -72,7 +72,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     interlacing j = {seed, args, out, (int)args->params[0]};
     KOKSMA__FAIL_IF(
         out->dim * j.order > KOKSMA__SOBOL_DIM, KOKSMA_DIM,
-        "interlaced-sobol: order=%d takes %d coordinates of Sobol' for each, so that dim = %d at most, not %d",
+        "interlaced-sobol: order=%d takes %d coordinates of Sobol' for each of its own: dim = %d at most, not %d",
         j.order, j.order, KOKSMA__SOBOL_DIM / j.order, out->dim);
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, make_block, &j);
 }

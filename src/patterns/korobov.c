@@ -104,8 +104,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"a", "the multiplier, Latin when it has no divisor in common with n; 0: the best that is found", 0, 0, 1 << 28,
-     NULL, true},
+    {"a", "the multiplier, Latin when it has no divisor in common with n; 0: the best one found by a search", 0, 0,
+     1 << 28, NULL, true},
     {0},
 };
 

@@ -76,7 +76,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     koksma_status status = KOKSMA_OK;
     const int order = (int)args->params[0];
     double *sums = NULL;
-    KOKSMA__FAIL_IF(order == 1, KOKSMA_ARGUMENT, "lattice-rank1: order=1: it takes 0, or 2 to %d", MOST_ORDER);
+    KOKSMA__FAIL_IF(order == 1, KOKSMA_ARGUMENT, "lattice-rank1: order=1 is not supported; 0, or 2 to %d, would do",
+                    MOST_ORDER);
     if (order) {
         sums = calloc((out->n / 2 + 1) * (size_t)order, sizeof *sums);
         KOKSMA__REQUIRE_MEMORY(sums, (out->n / 2 + 1) * (size_t)order * sizeof *sums);
@@ -92,7 +93,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"order", "only projections of up to so many coordinates count, 2 to 8; 0: all", 0, 0, MOST_ORDER, NULL, true},
+    {"order", "largest number of coordinates of the projections that count, 2 to 8; 0: all", 0, 0, MOST_ORDER, NULL,
+     true},
     {0},
 };
 

@@ -250,7 +250,7 @@ static koksma_status sobol_columns(const koksma__number_lines *lines, int k, con
 {
     const uint64_t degree = count > 1 ? numbers[1] : 0, a = count > 2 ? numbers[2] : 0;
     KOKSMA__FAIL_IF(count < 4 || numbers[0] != (uint64_t)k + 1 || degree != count - 3, KOKSMA_MALFORMED,
-                    "%s: line %zu: it is not the dimension %d, a degree s, a, and s numbers", lines->name,
+                    "%s: line %zu: expected the dimension %d, a degree s, a, and s numbers", lines->name,
                     lines->number, k + 1);
     for (int c = 0; c < SOBOL_COLUMNS; c++) {
         if (c < (int)degree) {

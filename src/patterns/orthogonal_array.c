@@ -58,7 +58,8 @@ static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels
         low = high;
     }
     KOKSMA__FAIL_IF(power(low, strength) > KOKSMA_MAX_COORDINATES / (size_t)dim, KOKSMA_DIM,
-                    "orthogonal-array: dim = %d: of strength %d no set that fits has so many", dim, strength);
+                    "orthogonal-array: dim = %d is too large: a set of strength %d would have too many points", dim,
+                    strength);
     char other[32] = "";
     if (low != high && power(high, strength) <= KOKSMA_MAX_COORDINATES / (size_t)dim) {
         snprintf(other, sizeof other, " or %zu", power(high, strength));

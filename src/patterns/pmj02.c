@@ -55,7 +55,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"shuffle", "1: in random order, aligned blocks of 2^m points staying (0,m,2)-nets", 0, 0, 1, NULL, true},
+    {"shuffle", "1: points in random order; aligned blocks of 2^m points stay (0,m,2)-nets", 0, 0, 1, NULL, true},
     {0},
 };
 

@@ -102,7 +102,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"shuffle", "1: in random order, aligned blocks of 2^m points staying together", 0, 0, 1, NULL, true},
+    {"shuffle", "1: points in random order; aligned blocks of 2^m points stay together", 0, 0, 1, NULL, true},
     {0},
 };
 

@@ -78,7 +78,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"measure", "the measure that the sets have a small value of", 0, 0, 3, names, true},
+    {"measure", "the measure whose value is small for the sets", 0, 0, 3, names, true},
     {0},
 };
 

@@ -197,7 +197,7 @@ static const koksma_param params[] = {
      HASH_OWEN, scrambles, true},
     {"numbers", "direction numbers: joe-kuo (1,111 dimensions) or bratley-fox (40, as in GSL)", 0, 0, 1, numbers,
      true},
-    {"shuffle", "1: with hash-owen, the order is scrambled too", 0, 0, 1, NULL, true},
+    {"shuffle", "1: scrambles the order of the points, too; only with hash-owen", 0, 0, 1, NULL, true},
     {0},
 };
 

@@ -47,7 +47,7 @@ koksma_status koksma__number_lines_open(const char *pattern, const char *path, k
     lines->text = lines->at = (char *)bytes;
     if (memchr(bytes, 0, size)) {
         koksma__number_lines_close(lines);
-        return koksma__fail(KOKSMA_MALFORMED, "%s: no text in UTF-8: it has a zero byte", lines->name);
+        return koksma__fail(KOKSMA_MALFORMED, "%s: not a text file: it contains a zero byte", lines->name);
     }
     find_kind(lines);
     return KOKSMA_OK;
