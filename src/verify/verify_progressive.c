@@ -58,6 +58,6 @@ static koksma_status look(koksma__verification *v)
 const koksma__property koksma__property_progressive = {
     .public = {.name = "progressive",
                .meaning =
-                   "prefixes are at most twice as uneven as random points; value: the largest ratio (L2 star)"},
+                   "prefixes have at most twice the L2 star discrepancy of random points; value: the largest ratio"},
     .look = look,
 };
