@@ -4,7 +4,8 @@
  * one-dimensional Sobol' sequence that gives the next coordinate. Every two consecutive coordinates are thus a
  * (0,m,2)-net in base 2.
  *
- *     y_0 = the m bits of i reversed,  y_k+1 = the first m digits of dimension k + 2 of Sobol' at index y_k,  x_k = y_k / n
+ *     y_0 = the m bits of i reversed,  y_k+1 = the first m digits of dimension k + 2 of Sobol' at index y_k,
+ *     x_k = y_k / n
  *
  * Source: Paulin, Coeurjolly, Iehl, Bonneel, Keller & Ostromoukhov 2021. The paper optimises the direction numbers;
  * this file uses those of Joe & Kuo 2008. For any direction numbers, a one-dimensional digital sequence paired with

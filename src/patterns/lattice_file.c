@@ -11,9 +11,9 @@
  * Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector is good
  * for the numbers of points that the comments of its file name.
  *
- * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion, Godin
- * & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 the integration
- * error falls nearly as n^-2 for smooth functions that are not periodic (Hickernell 2002).
+ * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion,
+ * Godin & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 the
+ * integration error falls nearly as n^-2 for smooth functions that are not periodic (Hickernell 2002).
  */
 #include <stdlib.h>
 #include <string.h>
