@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * best-candidate: each point is the best of some uniform candidates: the one furthest from the points before it, on
- * the torus. A sequence.
+ * best-candidate: each point is the best of some uniform random candidates: the one furthest, on the torus, from all
+ * earlier points. The points are a sequence: fewer points are a prefix of more.
  *
  *     x_k = argmax over c of min over j < k of |c - x_j|,   c one of min(candidates * k + 1, most) uniform points
  *
- * Source: Mitchell 1991, whose number of candidates grows with k so that the spectrum keeps its shape.
+ * Source: Mitchell 1991, where the number of candidates grows with k so that the spectrum keeps its shape.
  */
 #include <math.h>
 
@@ -17,10 +17,11 @@
 
 enum { MAX_DIM = 8, LOOKS = 1 << 24 };
 
-/* The square of the distance to the nearest of the points, or any value at most `enough`. */
+/* The squared distance from x to the nearest of the points; once that is at most `enough`, any value at most `enough`
+   may be returned. */
 static double nearest(const koksma_points *out, size_t placed, const double *x, double enough)
 {
-    double best = INFINITY; /* squares go up to dim / 4 */
+    double best = INFINITY; /* squared distances on the torus go up to dim / 4 */
     for (size_t i = 0; i < placed && best > enough; i++) {
         double sum = 0;
         for (int k = 0; k < out->dim; k++) {
@@ -32,7 +33,8 @@ static double nearest(const koksma_points *out, size_t placed, const double *x, 
     return best;
 }
 
-/* Places a point. `looks` counts the points that candidates are compared with; run is asked from time to time. */
+/* Chooses the next point among its candidates. `looks` counts the comparisons of candidates with points: every LOOKS
+   comparisons the function reports progress to `run` and checks whether to stop. */
 static koksma_status choose(uint64_t seed, size_t placed, size_t candidates, const koksma__torus_grid *grid,
                             const koksma_run *run, size_t *looks, koksma_points *out)
 {
@@ -80,8 +82,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"candidates", "candidates for each point that there is already", 1, 1, 100, NULL, true},
-    {"most", "at most as many candidates", 1000, 1, 1 << 20, NULL, true},
+    {"candidates", "candidates for each earlier point", 1, 1, 100, NULL, true},
+    {"most", "largest number of candidates for a point", 1000, 1, 1 << 20, NULL, true},
     {0},
 };
 

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * cascaded-sobol: n = 2^m points; a coordinate, as a whole number below n, is the index of the next one's point in a
- * dimension of Sobol'. Each two consecutive coordinates thus are a (0,m,2)-net in base 2.
+ * cascaded-sobol: n = 2^m points, where each coordinate, as a whole number below n, is the index into the
+ * one-dimensional Sobol' sequence that gives the next coordinate. Every two consecutive coordinates are thus a
+ * (0,m,2)-net in base 2.
  *
- *     y_0 = the m bits of i reversed,  y_k+1 = the first m digits of dimension k + 2 of Sobol' at index y_k,  x_k = y_k / n
+ *     y_0 = the m bits of i reversed,  y_k+1 = the first m digits of dimension k + 2 of Sobol' at index y_k,
+ *     x_k = y_k / n
  *
- * Source: Paulin, Coeurjolly, Iehl, Bonneel, Keller & Ostromoukhov 2021. Their numbers are optimised; here they are those
- * of Joe & Kuo 2008. A one-dimensional digital sequence beside its index is a (0,m,2)-net (Niederreiter 1987), for any
- * numbers. There are m digits: the modifier owen scrambles them and adds random ones below. All points depend on n.
+ * Source: Paulin, Coeurjolly, Iehl, Bonneel, Keller & Ostromoukhov 2021. The paper optimises the direction numbers;
+ * this file uses those of Joe & Kuo 2008. For any direction numbers, a one-dimensional digital sequence paired with
+ * its index is a (0,m,2)-net (Niederreiter 1987). Coordinates have m binary digits: the modifier owen scrambles these
+ * and adds random digits below them. All points depend on n.
  */
 #include <stdlib.h>
 

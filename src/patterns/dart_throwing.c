@@ -7,9 +7,9 @@
  *
  * Source: Mitchell 1992 ("dart-throwing Poisson disk"; he does not state the distance: f = 0.75 fits his tables).
  * Dart throwing jams at f = 0.777 on average (random sequential packing covers 0.547 of the plane). A jammed set is
- * thrown away and begun anew, at most 200 times. The distribution is that of uniform darts (shared/dart_cover.h).
- * For a small f most darts fit; then they are thrown one by one and looked up in a grid of n cells, because the
- * cover's cells, which are smaller than d, would be many for each point.
+ * discarded and begun anew, at most 200 times. The points are distributed as if uniform darts were thrown
+ * (shared/dart_cover.h). For a small f most darts fit: they are then thrown one by one and checked against a grid of
+ * n cells, because the cells of dart_cover.h, which are smaller than d, would outnumber the points by far.
  */
 #include <string.h>
 
@@ -23,7 +23,7 @@
 
 enum { RESTARTS = 200 };
 
-#define SPARSE 0.4 /* of f; the disks then cover less than 3.63 f^2 = 0.58 of the torus */
+#define SPARSE 0.4 /* below this f the disks of radius d cover less than 3.63 f^2 = 0.58 of the torus */
 
 static koksma_status throw_one_by_one(uint64_t seed, double d, const koksma_run *run, koksma_points *out)
 {
@@ -69,7 +69,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             return status;
         }
         if (restart >= 5 && (double)most < 0.97 * (double)out->n - 1) {
-            break; /* hopeless */
+            break; /* far from n after 6 tries: further ones would not succeed */
         }
     }
     return koksma__fail(KOKSMA_IMPOSSIBLE,

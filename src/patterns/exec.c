@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * exec: the points that a program prints: exec:PROGRAM. For a set it is run as
+ * exec: the points that a program prints, named exec:PROGRAM. To generate a set, the program is run as
  *
  *     PROGRAM n dim seed          three whole numbers, in decimal
  *
- * without a shell and without a search path, and prints n points of dim coordinates in [0,1) to standard output: text, a
- * point a line, or a .npy file. Everything is run twice, and the points have to be equal: all of Koksma rests on a set
- * being a pure function of its arguments, and a sampler seeded by the clock would give results that nobody can repeat.
+ * without a shell and without a search path. It must print n points of dim coordinates in [0,1) to standard output:
+ * text with one point on each line, or a .npy file. The program is run twice, and the points of both runs have to be
+ * equal: all of Koksma assumes that a set is a pure function of its arguments, and a sampler seeded by the clock
+ * would give results that nobody can repeat.
  *
- * Limits: the seconds of koksma_allow_exec, 8 GiB of data for each process, 64 bytes of output for each coordinate and
- * 64 KiB beside them. core/child.c says how no process is left over.
+ * Limits: the time limit set by koksma_allow_exec, 8 GiB of data for each process, and 64 bytes of output for each
+ * coordinate plus 64 KiB. core/child.c documents how it makes sure that no process is left running.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -26,7 +27,7 @@ enum { NAME = KOKSMA_MAX_SPEC + 8, BYTES_A_COORDINATE = 64, BYTES_BESIDE = 1 << 
 
 static const uint64_t MOST_MEMORY = UINT64_C(8) << 30;
 
-/* What was printed, as n points of dim coordinates below 1. */
+/* Parses the program's output, of which n points of dim coordinates below 1 are required. */
 static koksma_status parse(const char *name, char *text, size_t size, const koksma_points *wanted, koksma_points *out)
 {
     KOKSMA__FAIL_IF(!size, KOKSMA_MALFORMED, "%s: it printed nothing", name);

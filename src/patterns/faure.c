@@ -5,10 +5,10 @@
  *     x_k = sum_r y_r b^(-r-1),   y = P^k a mod b: y_r = sum_(c >= r) C(c,r) k^(c-r) a_c
  *
  * with a the digits of i and P the upper triangular Pascal matrix. The first b^m points are a (0,m,dim)-net in base
- * b. Every plain value is the double nearest to its fraction. Source: Faure 1982.
+ * b. Every unscrambled coordinate is the double nearest to its exact fraction. Source: Faure 1982.
  *
  *     scramble=owen  Owen's nested uniform scrambling (1995) in base b, drawn exactly, by stochastic generation
- * (Helmer, Christensen & Kensler 2021); values go in steps of b^-M, b^M the largest power up to 2^53
+ * (Helmer, Christensen & Kensler 2021); coordinates are multiples of b^-M, where b^M is the largest power up to 2^53
  */
 #include <stdlib.h>
 
@@ -44,7 +44,7 @@ static void fill_matrix(const job *j, uint32_t k, uint32_t *matrix)
     }
 }
 
-/* An index and what the matrix makes of its digits: y, and x = y_0 b^(digits-1) + y_1 b^(digits-2) + ... */
+/* The digits a of an index, their product y with the matrix, and x = y_0 b^(digits-1) + y_1 b^(digits-2) + ... */
 typedef struct walk {
     uint32_t a[MAX_DIGITS], y[MAX_DIGITS];
     double weight[MAX_DIGITS], x; /* whole numbers below 2^53 */
@@ -74,7 +74,8 @@ static void begin(const job *j, const uint32_t *matrix, uint64_t index, walk *w)
     }
 }
 
-/* The next index. A digit that goes from b - 1 to 0 has become one more, modulo b, too. */
+/* Goes on to the next index. A digit that wraps from b - 1 to 0 has also grown by 1 modulo b, so that its column is
+   added, too. */
 static void step(const job *j, const uint32_t *matrix, walk *w)
 {
     for (int c = 0; c < j->digits; c++) {
@@ -98,8 +99,9 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
     }
 }
 
-/* y = P^k a has the digit a_l at place l, and above it column l of P^k times a_l is added. What takes that away from
-   the lower digits is P^-k = (P^(b-k) modulo b): its column l, the coefficients of (x + b - k)^l. */
+/* In y = P^k a the digit a_l appears at position l, and column l of P^k times a_l is added to the positions before l.
+   The inverse P^-k, which is P^(b-k) modulo b, recovers the digits of a; this function returns column l = `level` of
+   it, the coefficients of (x + b - k)^l. */
 static void relatives(const void *context, int k, int level, uint32_t *digits)
 {
     const uint32_t b = *(const uint32_t *)context, t = (b - (uint32_t)k) % b;
@@ -127,8 +129,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     for (j.whole = j.base; j.whole < end; j.whole *= j.base) {
         j.digits++;
     }
-    KOKSMA__FAIL_IF(j.whole > 0x1p53, KOKSMA_N, "faure: point %.0f: in base %u its points end before number %.0f",
-                    end - 1, j.base, j.whole / j.base);
+    KOKSMA__FAIL_IF(j.whole > 0x1p53, KOKSMA_N,
+                    "faure: point %.0f: in base %u there are only points below number %.0f", end - 1, j.base,
+                    j.whole / j.base);
     uint32_t few[FEW];
     const size_t entries = (size_t)out->dim * (size_t)(j.digits * j.digits);
     j.matrices = entries <= FEW ? few : malloc(entries * sizeof *j.matrices);

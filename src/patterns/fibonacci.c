@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * fibonacci: the lattice of two neighbouring Fibonacci numbers, n one of them: n = F_m.
+ * fibonacci: the lattice of two neighbouring Fibonacci numbers, F_(m-1) and n = F_m.
  *
  *     x = i / n,   y = {i F_(m-1) / n}
  *
- * Source: Zaremba 1966. It has the best possible periodic L2 discrepancy for n = 1, 2, 3, 5, 8, 13 (Hinrichs &
- * Oettershagen 2016).
- * Known exactly: n = 13: D* = 0.165680473, L2 star = 0.065208186. `golden` is its form for any n.
+ * Source: Zaremba 1966. The lattice has the lowest possible periodic L2 discrepancy for n = 1, 2, 3, 5, 8, 13
+ * (Hinrichs & Oettershagen 2016). Known exactly: n = 13: D* = 0.165680473, L2 star = 0.065208186. The pattern golden
+ * is the analogue for any n.
  */
 #include "core/status.h"
 #include "patterns/patterns.h"

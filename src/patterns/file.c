@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * file: points from elsewhere: file:PATH, a .txt, .csv or .npy file. Asked for n points it gives the file's first n;
- * asked for fewer dimensions than the file's, the first of them. The file is read anew at each call, and a
- * plan may name it, so that it is a plain file.
+ * file: points from a .txt, .csv or .npy file, named file:PATH. A request for n points returns the file's first n,
+ * one for dim dimensions the file's first dim coordinates. Each call reads the file anew, and the plan of a study may
+ * name it, so it has to be a regular file, not a pipe.
  *
  *     x_i = row i of the file, cut to dim columns
  *
@@ -16,7 +16,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/file_names.h"
 
-/* The file of n points (0: any number) for a seed, cut to the dimensions of out. */
+/* Reads the file for n points (0: any number of points) and a seed, cut to the dimensions of `out`. */
 static koksma_status read_set(size_t n, uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const int dim = out->dim;
@@ -37,7 +37,7 @@ static koksma_status read_set(size_t n, uint64_t seed, const koksma_args *args, 
                               path, out->n, n);
     }
     if (!status && dim && dim < out->dim) {
-        for (size_t i = 0; i < out->n * (size_t)dim; i++) { /* never before what is still to be read */
+        for (size_t i = 0; i < out->n * (size_t)dim; i++) { /* in place: no number is overwritten before it is read */
             out->xs[i] = out->xs[i / (size_t)dim * (size_t)out->dim + i % (size_t)dim];
         }
         out->dim = dim;

@@ -5,24 +5,27 @@
  *
  *     energy = sum over i != j of exp(-d_ij^2 / (2 s^2)),   s = sigma / sqrt n
  *
- * Source: Ahmed, Ren & Wonka 2022, in 2D. A step moves a point by step * (sum of unit-scaled forces), cut off at 5 s,
- * and by a part of its last move: 0.9 for the first 128 steps, which settle what is stiff, then 0.98, which speeds up
- * the slow rest five times (heavy ball, Polyak 1964). All points move at once: the order does not matter.
+ * Source: Ahmed, Ren & Wonka 2022, in 2D. A step moves a point by step * (sum of unit-scaled forces), where the
+ * forces are cut off at the distance 5 s, and by a part of its last move, the momentum (heavy ball, Polyak 1964): 0.9
+ * for the first 128 steps, which settle the stiff modes, then 0.98, which makes the slow modes converge five times
+ * faster. All points move at once, so that their order does not matter.
  *
- * With steps=0 the descent ends when the root mean square of the forces is below 2e-5 sigma^2 / sqrt n, about 1e-5 of
- * that of independent points, sqrt(pi) sigma^2 / sqrt n (the cut-off alone makes 1.1e-5), or has not fallen by a
- * tenth for 200 steps; after 400 steps at the least, for few points near a saddle feel next to nothing, and 2,000 at
- * the most. It is some 600 for 64 points and more at sigma 1, and up to 2,000 at sigma < 0.6.
- * Mean power below 0.75 sqrt n at n = 1024: 0.0015; 2,000 steps of 0.9 reach the same, and 400 of them 0.0090.
+ * With steps=0 the descent ends when the root mean square of the forces is below 2e-5 sigma^2 / sqrt n, or when it
+ * has not fallen by a tenth for 200 steps. The limit is about 1e-5 of the root mean square for independent points,
+ * sqrt(pi) sigma^2 / sqrt n; the cut-off alone makes 1.1e-5 of that. The descent takes at least 400 steps, because a
+ * few points near a saddle feel almost no force, and at most 2,000. It takes about 600 for 64 points and more at
+ * sigma = 1, and up to 2,000 at sigma < 0.6. At n = 1024 the mean power at frequencies below 0.75 sqrt n is 0.0015;
+ * with a momentum of 0.9 throughout, it is the same after 2,000 steps and 0.0090 after 400.
  *
- * What the cut leaves out, n integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s at the points'
- * mean density, is how far it could move a point if all of it pulled the same way. With few points, 5 s > 1/2, a
- * point acts from all of its places within 5 s: the torus is laid out in tiles x tiles copies, which are a torus,
- * too, and that one is wide enough for the shortest way to be the only one that counts.
+ * The forces that the cut-off leaves out, n integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s at
+ * the points' mean density, bound how far they could move a point if all of them pulled the same way. With few
+ * points, where 5 s > 1/2, all periodic images of a point within 5 s act: the torus is repeated in tiles x tiles
+ * copies, which form a larger torus, wide enough for only the nearest image of a point to be within the cut-off.
  *
- * sigma: below 0.13 or so points don't reach far enough to be half the densest packing's distance apart; from about
- * 1.1 on those that are close feel nearly the same force, and many end as one (in 20 sets of 100 points the smallest
- * distance was 0.56 of the densest packing's at 1.05, 0.48 at 1.1, 0.36 at 1.15).
+ * Limits of sigma: below about 0.13 the forces are too short to push points apart to half the distance of the densest
+ * packing; from about 1.1 on, points that are close together feel nearly the same force, and many end at the same
+ * position (in 20 sets of 100 points the smallest distance was 0.56 of the densest packing's at 1.05, 0.48 at 1.1,
+ * 0.36 at 1.15).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -40,12 +43,12 @@ enum { BLOCK = 1024, STIFF_STEPS = 128, LEAST_STEPS = 400, MOST_STEPS = 2000, PA
 #define TOLERANCE 2e-5
 
 typedef struct descent {
-    koksma__torus_rows rows; /* of all copies; the width of all tiles is 1 */
-    size_t n, copies;        /* points; of all tiles, those of the first before the others */
+    koksma__torus_rows rows; /* sorted positions of all copies; all tiles together have the width 1 */
+    size_t n, copies;        /* points in one tile, and in all tiles, of which those of the first tile come first */
     double s, step, momentum, tiles, cut;
-    double *squares; /* of the force on each point; NULL where no one asks */
-    double least;    /* smallest sum of the squares so far, lowered only by improvements of 10 %; steps since then */
-    int wait;
+    double *squares; /* squared force on each point; NULL with a fixed number of steps, which does not need it */
+    double least;    /* smallest sum of squares so far, replaced only where the root mean square falls by 10 % */
+    int wait;        /* steps since `least` was replaced */
     double *xs, *moves;
     double *places; /* positions of all points in all tiles; equal to xs if there is one tile */
 } descent;
@@ -56,7 +59,7 @@ static double wrap(double x)
     return x < 1 ? x : 0;
 }
 
-/* Points in the order of their cells, so that those near are in the cache. */
+/* Moves one block of points. Points are visited in the order of their cells, so that neighbours are in the cache. */
 static koksma_status move_block(void *context, size_t block)
 {
     const descent *d = context;
@@ -98,14 +101,15 @@ static void lay_out(const descent *d)
     }
 }
 
-/* The sum is in the order of the points: the same on any number of threads. */
+/* Whether the descent may end. The squares are summed in the order of the points, so that the result does not depend on
+   the number of threads. */
 static bool converged(descent *d)
 {
     double sum = 0;
     for (size_t i = 0; i < d->n; i++) {
         sum += d->squares[i];
     }
-    const double limit = TOLERANCE * d->s * d->s * (double)d->n; /* n squares of 1 / sqrt n */
+    const double limit = TOLERANCE * d->s * d->s * (double)d->n; /* square root of a sum of n squares */
     d->wait = sum < 0.81 * d->least ? 0 : d->wait + 1;
     d->least = d->wait ? d->least : sum;
     return sum <= limit * limit || d->wait >= PATIENCE;
@@ -156,9 +160,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"steps", "of the descent; 0: until it has converged, 2000 at most", 0, 0, 100000, NULL, true},
+    {"steps", "steps of the descent; 0: until it has converged, 2000 at most", 0, 0, 100000, NULL, true},
     {"sigma", "of the Gaussian, in units of 1/sqrt n", 1, 0.15, 1.05, NULL, false},
-    {"step", "how far a point follows its force", 0.4, 0.001, 1, NULL, false},
+    {"step", "distance that a point moves for each unit of force", 0.4, 0.001, 1, NULL, false},
     {0},
 };
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * gaussian-jittered: one point in each cell of a grid, Gaussian about the cell's centre and cut off at the cell's
- * sides (the normal law given that the point is in the cell; no mass piles up on the sides).
+ * gaussian-jittered: one point in each cell of a grid, normally distributed about the cell's centre and truncated at
+ * the cell's sides (the normal distribution given that the point is in the cell, so that no probability piles up on
+ * the sides).
  *
  *     x_k = (c_k + 1/2 + sigma z_k) / m,   z normal given |sigma z| < 1/2, by inverting its distribution function
  *
- * Source: Cook 1986, after Shirley 1991, section 5.5.3; the inverse: Giles 2012. Small sigma is nearly regular, large
- * sigma nearly jittered.
+ * Source: Cook 1986, after Shirley 1991, section 5.5.3; the inverse: Giles 2012. With a small sigma the points are
+ * nearly a regular grid, with a large sigma nearly jittered.
  */
 #include <math.h>
 
@@ -19,11 +20,11 @@
 #include "patterns/shared/fill.h"
 
 typedef struct bell {
-    double scale, erf_a; /* sqrt(2) sigma; erf of half a cell over it */
+    double scale, erf_a; /* scale: sqrt(2) sigma; erf_a: erf(0.5 / scale) */
     size_t along_x, along_rest;
 } bell;
 
-/* Makes the uniform numbers of some points Gaussian ones in their cells. */
+/* Turns the uniform numbers of `count` points into truncated normal positions in their cells. */
 static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
 {
     const bell *b = context;

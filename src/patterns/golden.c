@@ -5,7 +5,7 @@
  *     x = i / n,   y = {i phi},   phi = (1 + sqrt 5) / 2
  *
  * Source: the Kronecker sequence of the golden ratio (Niederreiter 1992) as a set of n points.
- * Known, n = 16: D* = 0.148558813, L2 star = 0.052896127.
+ * Known exactly, n = 16: D* = 0.148558813, L2 star = 0.052896127.
  */
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * halton: radical inverses of i in the first dim primes; a sequence. Scrambled on request.
+ * halton: the sequence of the radical inverses of i in the first dim primes as bases. Scrambling is optional.
  *
  *     x_k(i) = phi_b(i), b the k-th prime: the digits of i in base b, mirrored at the radix point
  *
- *     scramble=affine  the digit a at each place of each base becomes u a + v modulo b, with random u > 0 and v, the
- *                      zeros above the number included (for bases 2 and 3 these are all permutations; after Braaten
- *                      & Weller 1979)
- *     scramble=owen    Owen's nested uniform scrambling (1995): a permutation for each place and each row of digits
- *                      before it, drawn exactly, by stochastic generation (Helmer, Christensen & Kensler 2021)
+ *     scramble=affine  in each base b the digit a at each position becomes u a + v modulo b, with random u > 0 and v
+ *                      for each position; the leading zeros of i are mapped, too (for bases 2 and 3 these maps are
+ *                      all permutations; after Braaten & Weller 1979)
+ *     scramble=owen    Owen's nested uniform scrambling (1995): a random permutation for each position and each
+ *                      string of preceding digits, drawn exactly, by stochastic generation (Helmer, Christensen &
+ *                      Kensler 2021)
  *
- * Source: Halton 1960. Every plain value is the double nearest to its fraction. Scrambled values are
- * multiples of a step: of less than 2^-51 with affine; with owen of 2^-32 in base 2, and of b^-M in other bases, b^M
- * being the largest power up to 2^53.
+ * Source: Halton 1960. Every unscrambled coordinate is the double nearest to its exact fraction. Scrambled
+ * coordinates are multiples of a step: below 2^-51 with affine; with owen 2^-32 in base 2, and b^-M in other bases,
+ * where b^M is the largest power of b up to 2^53.
  * Known exactly, 2D, n = 16: D* = 0.201388889, L2 star = 0.068247792.
  */
 #include "core/random.h"
@@ -30,7 +31,8 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
     koksma__radical_column(&r->columns[k], first, count, xs);
 }
 
-/* a -> u a + v modulo the base, with u from 1 and v from 0; one draw for each place. */
+/* Maps the digit a at position j to u a + v modulo the base, with 1 <= u < base and 0 <= v < base drawn once for each
+   position. */
 static uint32_t affine(const void *context, uint32_t base, int j, uint32_t a)
 {
     const uint64_t seed = *(const uint64_t *)context;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * hammersley: the Halton sequence of one dimension less, behind the equidistant coordinate (i + offset)/n.
+ * hammersley: the equidistant coordinate (i + offset)/n, followed by the Halton sequence of one dimension less.
  *
  *     x_0 = (i + offset) / n,   x_k = phi_b(i), b the k-th prime
  *
- * Source: Hammersley 1960. offset=0.5 has the lower star discrepancy. In 2D with n = 2^m a (0,m,2)-net.
- * Known exactly, 2D, n = 16: D* = 0.171875 with offset 0, 0.15234375 with offset 1/2.
+ * Source: Hammersley 1960. offset=0.5 has a lower star discrepancy than offset=0. In 2D, n = 2^m points are a
+ * (0,m,2)-net in base 2. Known exactly, 2D, n = 16: D* = 0.171875 with offset 0, 0.15234375 with offset 1/2.
  *
- *     scramble=owen  Owen's nested uniform scrambling (1995), exact: of the radical inverses as in halton; of x_0 in
- *                    base 2 where n is a power of 2, else x_0 is uniform in [i/n, (i+1)/n). offset has no effect
+ *     scramble=owen  Owen's nested uniform scrambling (1995), exact: the radical inverses are scrambled as in halton,
+ *                    x_0 in base 2 where n is a power of 2; else x_0 is uniform in [i/n, (i+1)/n). offset has no effect
  */
 #include <math.h>
 
@@ -36,8 +36,8 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
     }
 }
 
-/* In 2D with n = 2^m and an offset of whole 2^(m-32) both coordinates are digital: of i 2^(32-m), and of i mirrored.
- */
+/* The generator matrices of the 2D set with n = 2^m and an offset that is a multiple of 2^(m-32): both coordinates are
+   then digital, as 32-bit numbers i 2^(32-m) + start and i with its bits reversed. */
 typedef struct net {
     uint32_t directions[2][32], start;
 } net;

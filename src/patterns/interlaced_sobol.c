@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * interlaced-sobol: a higher-order digital sequence: `order` coordinates of Sobol' become one by taking their binary digits in
- * turn.
+ * interlaced-sobol: a higher-order digital sequence: the binary digits of `order` coordinates of Sobol', taken in
+ * turn, make one coordinate.
  *
  *     digit order (l - 1) + r of x_k is digit l of y_(order (k - 1) + r),   r = 1 .. order, y the Sobol' points
  *
- * Integrands with square-integrable mixed derivatives up to the order are integrated with errors near n^-order, in place of
- * n^-1, but for powers of log n: of exp in one dimension from 2^5 points on, of products in three from some 2^10. As plain
- * nets, for integrands that are not smooth, they are worse than Sobol' itself.
+ * For integrands with square-integrable mixed derivatives up to `order` the error falls as n^-order in place of n^-1,
+ * up to powers of log n: for exp in one dimension from 2^5 points on, for products in three dimensions from about
+ * 2^10. For integrands that are not smooth the points are worse than those of Sobol'.
  *
- *     scramble=owen   the coordinates are scrambled before they are interlaced, so that every set is unbiased and keeps
- *                     its order: errors near n^(-order - 1/2). The modifier owen=1, which scrambles behind, would lose it
+ *     scramble=owen   scrambles the coordinates before they are interlaced: estimates are unbiased, and errors fall as
+ *                     n^(-order - 1/2). The modifier owen=1, which scrambles after interlacing, destroys that rate
  *
- * Source: Dick 2008; scrambled: Dick 2011. A coordinate has 53 digits, of which each of Sobol' gives 53 / order, 32 at most:
- * with order=2 errors do not fall beyond 2^26 points. order=1 is sobol.
+ * Source: Dick 2008; scrambled: Dick 2011. A coordinate has 53 binary digits; each of its Sobol' coordinates supplies
+ * 53 / order of them, 32 at most. With order=2 errors thus stop falling at 2^26 points. With order=1 the points are
+ * those of the pattern sobol.
  */
 #include <stdlib.h>
 
@@ -22,7 +23,12 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/sobol_table.h"
 
-enum { BLOCK = 4096, DIGITS = 53, MOST_ORDER = 5, SOBOL_OWEN = 3 /* of sobol's scramble */ };
+enum {
+    BLOCK = 4096,
+    DIGITS = 53,
+    MOST_ORDER = 5,
+    SOBOL_OWEN = 3 /* the value `owen` of sobol's parameter scramble */
+};
 
 typedef struct interlacing {
     uint64_t seed;
@@ -31,7 +37,7 @@ typedef struct interlacing {
     int order;
 } interlacing;
 
-/* The first digits of `order` numbers in turn. */
+/* The number whose binary digits are those of `order` numbers y, taken in turn. */
 static double interlace(const double *y, int order)
 {
     uint64_t words[MOST_ORDER], x = 0;
@@ -66,7 +72,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     interlacing j = {seed, args, out, (int)args->params[0]};
     KOKSMA__FAIL_IF(
         out->dim * j.order > KOKSMA__SOBOL_DIM, KOKSMA_DIM,
-        "interlaced-sobol: order=%d takes %d coordinates of Sobol' for each, so that dim = %d at most, not %d",
+        "interlaced-sobol: order=%d takes %d coordinates of Sobol' for each of its own: dim = %d at most, not %d",
         j.order, j.order, KOKSMA__SOBOL_DIM / j.order, out->dim);
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, make_block, &j);
 }

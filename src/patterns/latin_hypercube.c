@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* latin-hypercube: what statistics calls n-rooks (McKay, Beckman & Conover 1979); n_rooks.c has it. */
+/* latin-hypercube: the name in statistics (McKay, Beckman & Conover 1979) of the pattern n-rooks; n_rooks.c generates
+   the points. */
 #include "patterns/patterns.h"
 
 const koksma_pattern koksma__pattern_latin_hypercube = {

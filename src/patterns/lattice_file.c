@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * lattice-file: the rank-1 lattice of a generating vector that was published or made elsewhere: lattice-file:PATH.
+ * lattice-file: the rank-1 lattice of a generating vector that is read from a file, named lattice-file:PATH.
  *
  *     x_i,k = {phi_b(i) z_k},   phi_b the radical inverse in base b
  *
- * The file is in the format `lattice` of LatNet Builder and LDData: a line "# lattice", the number of dimensions, the
- * number of points N, and z_1, z_2, ... on a line each, with comments behind #; or as Kuo publishes them, without a head,
- * a line "k z_k" (or z_k alone) a dimension. With N = b^m, b prime and m > 1, the points are a lattice sequence: the first n
- * of them, n any power of b, are the lattice {i z / n}, and more can follow. Without a head b is 2 and N is 2^32. Any
- * other N takes all its points: {i z / N}. A good vector is so for the numbers of points that its comments name.
+ * The file has one of two formats. The format `lattice` of LatNet Builder and LDData has a line "# lattice", the
+ * number of dimensions, the number of points N, and z_1, z_2, ... on one line each; comments follow a #. Kuo's format
+ * has no header and for each dimension a line "k z_k" (or z_k alone). With N = b^m, b prime and m > 1, the points are
+ * a lattice sequence: for any power n of b, the first n of them are the lattice {i z / n}, and more can follow.
+ * Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector is good
+ * for the numbers of points that the comments of its file name.
  *
- * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion, Godin
- * & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 smooth functions that
- * are not periodic are integrated with errors near n^-2 (Hickernell 2002).
+ * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion,
+ * Godin & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 the
+ * integration error falls nearly as n^-2 for smooth functions that are not periodic (Hickernell 2002).
  */
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +28,7 @@ typedef struct vector {
     const uint64_t *z;
 } vector;
 
-/* Where i is among the points in the order of their multiples: the digits of i mirrored. */
+/* The multiple of z / N that point i is: the m digits of i in base b, in reverse order. */
 static uint64_t mirrored(const vector *v, uint64_t i)
 {
     uint64_t place = v->points, at = 0;
@@ -41,12 +42,12 @@ static uint64_t mirrored(const vector *v, uint64_t i)
 static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const vector *v = context;
-    for (size_t i = 0; i < count; i++) { /* both factors are at most 2^32 */
+    for (size_t i = 0; i < count; i++) { /* no overflow: both factors are at most 2^32 */
         xs[i] = (double)(mirrored(v, first + i) * v->z[k] % v->points) / (double)v->points;
     }
 }
 
-/* The prime of which `points` is a power above the first, else `points`: then the order is the natural one. */
+/* The prime b where `points` is b^m with m > 1, else `points`, with which point i is the multiple i of z / N. */
 static uint64_t base_of(uint64_t points)
 {
     uint64_t base = 2, left = points;

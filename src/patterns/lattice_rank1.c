@@ -1,26 +1,36 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * lattice-rank1: the rank-1 lattice built component by component: each z_k is the multiplier with the lowest
- * worst-case error P_2, all coordinates weighing the same, given those before it.
+ * lattice-rank1: the rank-1 lattice built component by component: given z_0 .. z_(k-1), z_k is the multiplier with
+ * the lowest worst-case error P_2, where all coordinates have equal weights.
  *
  *     x_k = {i z_k / n},   z_0 = 1
  *
- * Formula: P_2 = (1/n) sum_i prod_k (1 + gamma 2 pi^2 B_2({i z_k / n})) - 1,  B_2(x) = x^2 - x + 1/6,  with the
- * weight gamma = 3/(8 pi^2) = 0.038, with which it is the square of l2-wraparound over (4/3)^d. The points in fewer
- * dimensions are the first coordinates of those in more.
- * Source: Sloan & Reztsov 2002, with gamma = 1; all multipliers at once in O(n log n): Nuyens & Cools 2006 and 2006a,
- * as shared/unit_sums.c says; weights: Sloan & Wozniakowski 1998, Dick, Kuo & Sloan 2013; l2-wraparound: Hickernell
- * 1998. With gamma = 1 the products of many coordinates outweigh all pairs: from some 8 dimensions on one multiplier
- * comes again and again (n = 4096: 1615), which lays the points on diagonals. Weights 1/k^2 for coordinate k are
- * customary where the first coordinates matter most; here none does, and with them multipliers repeat still (n = 256:
- * within 32 dimensions). With this gamma none came twice, itself or as n - z, before all phi(n)/2 were there, for
- * each n from 5 to 700 in 64 dimensions and for powers of two to 65,536 in 128: no rule forbids it. In more
- * dimensions than phi(n)/2 there are diagonals. In two dimensions the minimiser hangs on no weight. z and n - z tie
- * always, and the smaller is taken, but for n = 12 and a few others below 30 (lattice.h); of others whose sums are
- * equal to the last bit, the smallest. Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9
- * (docs/findings/lattices.md). Time: O(dim n log n): 2^20 points in 10 dimensions take half a second, a prime number
- * of them hardly more. order=Q counts only projections of up to Q coordinates, all of an order alike (finite-order weights, of
- * the order-dependent ones of Cools, Kuo & Nuyens 2006): the product becomes its terms of up to Q factors; Q times 4 n bytes more. Memory beside the points: 28 n bytes for powers of two, up to 95 n for others.
+ * Formula: P_2 = (1/n) sum_i prod_k (1 + gamma 2 pi^2 B_2({i z_k / n})) - 1,  B_2(x) = x^2 - x + 1/6, with the weight
+ * gamma = 3/(8 pi^2) = 0.038. With this weight P_2 is the square of l2-wraparound divided by (4/3)^d. The points in
+ * fewer dimensions are the first coordinates of those in more.
+ *
+ * Source: Sloan & Reztsov 2002, with gamma = 1; evaluating all multipliers at once in O(n log n), as in
+ * shared/unit_sums.c: Nuyens & Cools 2006 and 2006a; weights: Sloan & Wozniakowski 1998, Dick, Kuo & Sloan 2013;
+ * l2-wraparound: Hickernell 1998.
+ *
+ * The weight: with gamma = 1 the products of many coordinates outweigh all pairs, so that from about 8 dimensions on
+ * one multiplier is chosen again and again (n = 4096: 1615), which puts the points on diagonals. Weights 1/k^2 for
+ * coordinate k are customary where the first coordinates matter most, which is not assumed here; with them
+ * multipliers still repeat (n = 256: within 32 dimensions). With gamma = 0.038 neither z nor n - z was chosen twice
+ * before all phi(n)/2 multipliers had been, for each n from 5 to 700 in 64 dimensions and for powers of two to 65,536
+ * in 128 dimensions, although no theorem rules repetitions out. In more dimensions than phi(n)/2 some points lie on
+ * diagonals. In two dimensions the minimiser does not depend on the weight.
+ *
+ * Ties: z and n - z always have equal errors, and the smaller is taken, except for n = 12 and a few others below 30
+ * (lattice.h); among other multipliers whose sums are equal to the last bit, the smallest is taken.
+ * Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9 (docs/findings/lattices.md).
+ *
+ * order=Q counts only projections of up to Q coordinates, those of an order with equal weights (finite-order weights,
+ * a case of the order-dependent weights of Cools, Kuo & Nuyens 2006): of the expanded product only the terms of up to
+ * Q factors remain.
+ *
+ * Time: O(dim n log n): 2^20 points in 10 dimensions take half a second, a prime number of points hardly more. Memory
+ * besides the points: 28 n bytes for powers of two, up to 95 n for other n, and 4 n Q bytes more with order=Q.
  */
 
 #include <stdlib.h>
@@ -32,7 +42,7 @@
 
 enum { MAX_DIM = 256, MOST_ORDER = 8 };
 
-/* sums: of koksma__lattice_extend_orders; NULL where all projections count. */
+/* Finds all components of z. `sums` is scratch of koksma__lattice_extend_orders; NULL if all projections count. */
 static koksma_status search_all(koksma__lattice_search *search, int dim, int order, double *sums, uint64_t *z)
 {
     z[0] = 1;
@@ -66,7 +76,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     koksma_status status = KOKSMA_OK;
     const int order = (int)args->params[0];
     double *sums = NULL;
-    KOKSMA__FAIL_IF(order == 1, KOKSMA_ARGUMENT, "lattice-rank1: order=1: it takes 0, or 2 to %d", MOST_ORDER);
+    KOKSMA__FAIL_IF(order == 1, KOKSMA_ARGUMENT, "lattice-rank1: order=1 is not supported; 0, or 2 to %d, would do",
+                    MOST_ORDER);
     if (order) {
         sums = calloc((out->n / 2 + 1) * (size_t)order, sizeof *sums);
         KOKSMA__REQUIRE_MEMORY(sums, (out->n / 2 + 1) * (size_t)order * sizeof *sums);
@@ -82,7 +93,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"order", "only projections of up to so many coordinates count, 2 to 8; 0: all", 0, 0, MOST_ORDER, NULL, true},
+    {"order", "largest number of coordinates of the projections that count, 2 to 8; 0: all", 0, 0, MOST_ORDER, NULL,
+     true},
     {0},
 };
 

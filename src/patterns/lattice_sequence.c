@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * lattice-sequence: an extensible rank-1 lattice: any number of points, more can follow, and the first 2^m are a good
- * lattice for every m to 20.
+ * lattice-sequence: an extensible rank-1 lattice for any number of points: more points can follow, and the first 2^m
+ * are a good lattice for every m up to 20.
+ *     x_i,k = {phi_2(i) z_k},   phi_2(i) the radical inverse of i in base 2
  *
- *     x_i,k = {phi_2(i) z_k},   phi_2(i) the bits of i mirrored about the point
- *
- * The vector is made component by component by tools/make_lattice_sequence.py, so that for each coordinate the lattice of no
- * m is far from that of the best multiplier for this m alone. Between powers of two the points are whole lattices of 2^m
- * points, shifted, and a part of another. Beyond 2^20 points it goes on to 2^32 with the same vector, which was
- * not chosen for them.
- * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000; embedded lattices: Cools, Kuo & Nuyens 2006; weights as of lattice-rank1.
- * Of 2^m points, m = 4 to 12, l2-wraparound is at most 1.4 times that of lattice-rank1 in 2 to 10 dimensions
- * (tests/patterns/test_lattices.c).
+ * tools/make_lattice_sequence.py makes the vector component by component: it chooses each component so that, for no
+ * m, the lattice of 2^m points is much worse than with the best multiplier for that m alone. If n is not a power of
+ * two, the points are shifted copies of lattices of 2^m points and a part of another. The same vector serves up to
+ * 2^32 points, although it was not chosen for more than 2^20.
+ * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000; embedded lattices: Cools, Kuo & Nuyens 2006; the weights are
+ * those of lattice-rank1. For 2^m points, m = 4 to 12, l2-wraparound is at most 1.4 times that of lattice-rank1 in 2
+ * to 10 dimensions (tests/patterns/test_lattices.c).
  */
 #include "core/status.h"
 #include "patterns/patterns.h"
@@ -21,7 +20,8 @@ static const uint32_t z[] = {
 #include "patterns/shared/lattice_sequence.inc"
 };
 
-/* Modulo 2^32: bit b of i stands for z 2^(31 - b), as in a digital sequence, but added with carries. */
+/* Computes one coordinate modulo 2^32: bit b of i contributes z 2^(31 - b), as in a digital sequence, but the
+   contributions are added with carries. */
 static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     (void)context;

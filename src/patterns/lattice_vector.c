@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * lattice-vector: the rank-1 lattice of a generating vector that the spec has: lattice-vector:1:182667:469891.
+ * lattice-vector: the rank-1 lattice of a generating vector written in the spec, as in
+ * lattice-vector:1:182667:469891.
  *
  *     x_i,k = {i z_k / n}
  *
- * z_1, z_2, ... stand between colons, whole numbers below 2^52; lattice-file takes longer vectors from a file. Latin where no z_k
- * has a divisor in common with n.
- * Source: Sloan & Reztsov 2002 (rank-1 lattices); the vector is the user's. Known: lattice-vector:1:8 with n = 13 is fibonacci.
+ * The components z_1, z_2, ... are whole numbers below 2^52, separated by colons; lattice-file reads longer vectors
+ * from a file. The points are Latin if no z_k has a divisor in common with n.
+ * Source: Sloan & Reztsov 2002 (rank-1 lattices); the vector is the user's. Known: lattice-vector:1:8 with n = 13 is
+ * fibonacci.
  */
 #include <stdlib.h>
 
@@ -14,7 +16,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/lattice.h"
 
-/* A vector of more would be longer than a spec: a number and its colon are two characters. */
+/* The most components that fit into a spec: each takes at least two characters, a digit and a colon. */
 enum { MOST = KOKSMA_MAX_SPEC / 2 };
 
 static const uint64_t LIMIT = UINT64_C(1) << 52;

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mask-offset: the points of all pixels of a square tile, pixel after pixel: each pixel has its own copy of one
- * hash-Owen-scrambled (0,2)-sequence, which the values of three void-and-cluster masks at the pixel choose.
+ * mask-offset: the points of all pixels of a square tile, pixel after pixel. Each pixel has its own variant of one
+ * hash-Owen-scrambled (0,2)-sequence; the values of three void-and-cluster masks at the pixel select the variant.
  *
  *     point s of pixel p = koksma_mask_2d(sequence, {value_0(p), value_1(p), value_2(p)}, s, spp),   n = width^2 spp
  *
- * koksma/mask.h has the rule, and how blue the errors are for which numbers of samples. Alone, a pixel's points have
- * the law of sobol:scramble=hash-owen: for any spp its error is that of an independently scrambled pixel.
+ * koksma/mask.h documents how the values select the variant, and for which numbers of samples the errors are blue
+ * noise. Taken alone, a pixel's points have the same distribution as sobol:scramble=hash-owen: for any spp the
+ * pixel's error is as large as with independent scrambling.
  *
- * Sources: Georgiev & Fajardo 2016, who shift on the torus by two masks; void-and-cluster masks (Ulichney 1993) in
- * the place of their optimised ones; the scrambling of Laine & Karras 2011 and Burley 2020. The shift by digits below
- * the net's, and the mask that pairs the strata, are this project's.
+ * Sources: Georgiev & Fajardo 2016, who shift the points on the torus by two optimised masks, which void-and-cluster
+ * masks (Ulichney 1993) replace here; the scrambling of Laine & Karras 2011 and Burley 2020. The shift by digits
+ * below those of the net, and the third mask, which pairs the strata, are new in this project.
  */
 #include <koksma/mask.h>
 #include <koksma/sampler.h>

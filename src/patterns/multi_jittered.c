@@ -5,8 +5,9 @@
  *
  *     x = (c + (p_c(j) + u) / r) / m,   y = (j + (q_j(c) + v) / m) / r
  *
- * with column c, row j, a random permutation p_c of the rows for each column and q_j of the columns for each row.
- * Source: Chiu, Shirley & Wang 1994. columns=0 takes the divisor of n nearest to its root from below.
+ * where c is the column, j the row, p_c a random permutation of the rows for each column and q_j one of the columns
+ * for each row.
+ * Source: Chiu, Shirley & Wang 1994. columns=0 takes the largest divisor of n that is at most sqrt(n).
  */
 #include <stdlib.h>
 

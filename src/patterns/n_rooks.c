@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * n-rooks: each coordinate is jittered in n strata, and the strata of the coordinates are put together by
- * independent random permutations, so that every row and column of the n x n grid holds one point. Any n, any
- * dimension. Statistics calls it Latin hypercube sampling.
+ * n-rooks: each coordinate is jittered in n strata, and independent random permutations pair the strata of the
+ * coordinates, so that every row and column of the n x n grid holds one point. It takes any n and any dimension.
+ * Statistics calls the method Latin hypercube sampling.
  *
  *     x_k = (p_k(i) + u_k) / n,   p_0 the identity, p_k random permutations, u uniform in [0,1)^dim
  *
  * Source: Shirley 1991, section 5.5.5 ("separate", "uncorrelated jitter"); McKay, Beckman & Conover 1979.
- * Known exactly, 2D: E(S^2) = (n + 5 - 1/n) / (36 n^2) for the L2 star discrepancy S: O(n^-1/2), but with the
- * constant 1/6 where random points have 0.373.
+ * Known exactly, 2D: E(S^2) = (n + 5 - 1/n) / (36 n^2) for the L2 star discrepancy S: the root mean square falls as
+ * n^-1/2, as for random points, but with the constant 1/6 in place of 0.373.
  */
 #include <stdlib.h>
 
@@ -23,7 +23,7 @@
 
 enum { FEW = 256 };
 
-/* In 2D u has 32 bits: two points for one draw of 128. */
+/* The context of `place`. In 2D each jitter u has 32 bits, so that one draw of 128 random bits makes two points. */
 typedef struct plane {
     uint64_t seed;
     const uint32_t *rows;

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * net-file: the digital net or sequence of generator matrices that were published or made elsewhere: net-file:PATH.
+ * net-file: the digital net or sequence of the generator matrices in a file, named net-file:PATH.
  *
  *     x_i,k = sum_l y_l b^-l,   y = C_k a modulo b,   i = sum_c a_c b^c   (l = 1, 2, ..., c = 0, 1, ...)
  *
- * The file is in one of these formats of LatNet Builder and LDData, or as Joe &
- * Kuo publish theirs; comments stand behind #:
+ * The file is in one of these formats of LatNet Builder and LDData, or in that of Joe & Kuo; comments follow a #:
  *
- *     # dnet      base b, dimensions s, columns k (or b^k), digits r; then a line a dimension: the k columns of C, each
- *                 a whole number whose digit for b^(r-1) is that of row 1. Interlaced (higher-order) nets are such files.
- *     # plattice  prime b, s, degree k and modulus Q(z), then q_k(z) a line, as the values of the polynomials at z = b:
- *                 digit l of C's column c is that of z^-(l+c) in q/Q (Niederreiter 1992)
- *     # soboljk   s lines "k degree a m_1 ... m_degree" from dimension 2 on; the first has the identity (Joe & Kuo 2008,
- *                 whose own files begin with a line "d s a m_i" instead)
+ *     # dnet      base b, dimensions s, columns k (or b^k), digits r; then a line for each dimension: the k columns of
+ *                 C, each as a whole number whose highest digit, that of b^(r-1), is the entry of row 1. Interlaced
+ *                 (higher-order) nets have this format, too.
+ *     # plattice  prime b, dimensions s, degree k and modulus Q(z), then one polynomial q(z) a line for each dimension;
+ *                 polynomials are given by their values at z = b. Row l of column c of C is the coefficient of
+ *                 z^-(l+c) in q/Q (Niederreiter 1992)
+ *     # soboljk   lines "k degree a m_1 ... m_degree" from dimension k = 2 on; the matrix of dimension 1 is the
+ *                 identity (Joe & Kuo 2008, whose own files begin with the line "d s a m_i" in place of "# soboljk")
  *
  * Source: Niederreiter 1992; formats: L'Ecuyer et al. 2022, Joe & Kuo 2008.
  *
- * The first points do not depend on n, and there are b^k of them. A coordinate keeps as many digits as a double has room
- * for (53 in base 2), the others are cut off. Scrambled in the base by the modifier owen-base=b.
+ * Point i does not depend on n, and there are b^k points. A coordinate keeps as many digits as a double has room for
+ * (53 in base 2); the others are cut off. The modifier owen-base=b scrambles the points in base b.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -31,8 +32,8 @@ enum { MOST_COLUMNS = 64, MOST_DIGITS = 53, LARGEST_BASE = 256, SOBOL_COLUMNS = 
 
 typedef struct matrices {
     uint32_t base;
-    int columns, digits;                         /* of a coordinate */
-    uint8_t (*digit)[MOST_COLUMNS][MOST_DIGITS]; /* [k][c][l], C's row l + 1 */
+    int columns, digits;                         /* columns and rows (digits) of each matrix */
+    uint8_t (*digit)[MOST_COLUMNS][MOST_DIGITS]; /* [k][c][l]: row l + 1, column c of C_k */
 } matrices;
 
 /* ---- Points ------------------------------------------------------------------------------------------------ */
@@ -54,7 +55,7 @@ static double value_of(const matrices *m, const uint32_t *y)
     return whole / scale;
 }
 
-/* The same in base 2, a column a word. */
+/* Does in base 2 what `column` does, with each column of the matrix in one word. */
 static void binary_column(const matrices *m, int k, uint64_t first, size_t count, double *xs)
 {
     uint64_t words[MOST_COLUMNS] = {0}, y = 0;
@@ -75,7 +76,8 @@ static void binary_column(const matrices *m, int k, uint64_t first, size_t count
     }
 }
 
-/* To go from i to i + 1 adds a column once for each digit that changes: b times a column is 0. */
+/* Computes one coordinate of `count` points. Going from i to i + 1 adds a column once for each digit that changes: a
+   digit that wraps from b - 1 to 0 needs no subtraction, because b times a column is 0. */
 static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const matrices *m = context;
@@ -118,7 +120,7 @@ static koksma_status check_dims(const koksma__number_lines *lines, uint64_t dims
     return KOKSMA_OK;
 }
 
-/* The most digits of a base in 53 bits. */
+/* The largest number of digits in this base that 53 bits can hold. */
 static int digits_in_double(uint64_t base)
 {
     int digits = 0;
@@ -128,7 +130,7 @@ static int digits_in_double(uint64_t base)
     return digits;
 }
 
-/* Columns given as such, or as the number b^columns of points. */
+/* The number of columns: `given` is this number or, above MOST_COLUMNS, the number of points, base^columns. */
 static koksma_status count_columns(const koksma__number_lines *lines, uint64_t base, uint64_t given, int *columns)
 {
     uint64_t points = given;
@@ -174,7 +176,8 @@ static koksma_status read_dnet(koksma__number_lines *lines, int dim, matrices *m
     return KOKSMA_OK;
 }
 
-/* The coefficients of a polynomial that is given by its value at z = b, lowest first; the degree, -1 of 0. */
+/* Computes the coefficients, lowest first, of a polynomial given by its value at z = b; returns its degree, -1 for the
+   polynomial 0. */
 static int coefficients_of(uint64_t value, uint32_t base, uint32_t *out)
 {
     int degree = -1;
@@ -194,7 +197,8 @@ static uint32_t inverse_modulo(uint32_t a, uint32_t prime)
     return power;
 }
 
-/* The digits u_1, u_2, ... of q/Q, degree of q below that of Q: each step multiplies the remainder by z. */
+/* Computes the first `count` coefficients u_1, u_2, ... of the Laurent series of q/Q by long division: each step
+   multiplies the remainder, at first q, by z. The degree of q is below that of Q. */
 static void divide(uint32_t *rest, const uint32_t *modulus, int degree, uint32_t base, int count, uint8_t *u)
 {
     const uint32_t inverse = inverse_modulo(modulus[degree], base);
@@ -240,13 +244,13 @@ static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrice
     return KOKSMA_OK;
 }
 
-/* A dimension of Sobol' numbers: column c as a whole number of 32 bits. */
+/* Computes the columns of one dimension from its line of Sobol' numbers: v[c] is column c as a 32-bit number. */
 static koksma_status sobol_columns(const koksma__number_lines *lines, int k, const uint64_t *numbers, size_t count,
                                    uint32_t *v)
 {
     const uint64_t degree = count > 1 ? numbers[1] : 0, a = count > 2 ? numbers[2] : 0;
     KOKSMA__FAIL_IF(count < 4 || numbers[0] != (uint64_t)k + 1 || degree != count - 3, KOKSMA_MALFORMED,
-                    "%s: line %zu: it is not the dimension %d, a degree s, a, and s numbers", lines->name,
+                    "%s: line %zu: expected the dimension %d, a degree s, a, and s numbers", lines->name,
                     lines->number, k + 1);
     for (int c = 0; c < SOBOL_COLUMNS; c++) {
         if (c < (int)degree) {

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * orthogonal-array: points on a jittered orthogonal array: every 2D projection has one point in each of s x s cells
- * (strength 2, n = s^2), or every 3D projection one in each of s x s x s cells (strength 3, n = s^3), s prime.
+ * (strength 2, n = s^2), or every 3D projection has one in each of s x s x s cells (strength 3, n = s^3), where s is
+ * prime.
+ *     strength 2, Bose 1938, up to s + 1 dimensions: the levels i div s, i mod s, (i div s + k (i mod s)) mod s
+ *     strength 3, Bush 1952, up to s dimensions: level k is the polynomial whose coefficients are the digits of i in
+ *                 base s, evaluated at k modulo s
  *
- *     strength 2, Bose 1938, to s + 1 dimensions: levels i div s, i mod s, (i div s + k (i mod s)) mod s
- *     strength 3, Bush 1952, to s dimensions: the polynomial with the digits of i in base s at k, modulo s
- *
- * The levels of each coordinate are permuted at random, and each level's n/s points go into n/s strata in random
- * order, so that the points are n-rooks too. Source: Owen 1992; the multi-jittered arrays of Jarosz et al. 2019.
+ * The levels of each coordinate are permuted at random, and the n/s points of each level go into n/s strata in random
+ * order, so that the points are n-rooks, too. Source: Owen 1992; the multi-jittered arrays of Jarosz et al. 2019.
  */
 #include <math.h>
 #include <stdio.h>
@@ -57,7 +58,8 @@ static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels
         low = high;
     }
     KOKSMA__FAIL_IF(power(low, strength) > KOKSMA_MAX_COORDINATES / (size_t)dim, KOKSMA_DIM,
-                    "orthogonal-array: dim = %d: of strength %d no set that fits has so many", dim, strength);
+                    "orthogonal-array: dim = %d is too large: a set of strength %d would have too many points", dim,
+                    strength);
     char other[32] = "";
     if (low != high && power(high, strength) <= KOKSMA_MAX_COORDINATES / (size_t)dim) {
         snprintf(other, sizeof other, " or %zu", power(high, strength));
@@ -116,7 +118,7 @@ const koksma_pattern koksma__pattern_orthogonal_array = {
     .title = "all 2D (or 3D) projections stratified",
     .cite = "bose1938 bush1952 owen1992 jarosz2019",
     .min_dim = 2,
-    .max_dim = 644, /* 643 levels; more points than these have too many coordinates */
+    .max_dim = 644, /* s = 643 levels; larger primes s exceed KOKSMA_MAX_COORDINATES */
     .claims = KOKSMA_CLAIM_LATIN | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_OA3 | KOKSMA_CLAIM_UNBIASED,
     .params = params,
     .generate = generate,

@@ -4,7 +4,7 @@
 
 #include <koksma/koksma.h>
 
-/* koksma_pattern.ranges of those whose every point follows from its index. */
+/* The value of koksma_pattern.ranges for patterns that can compute every point from its index alone. */
 static inline bool koksma__ranges_always(const double *params)
 {
     (void)params;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * plugin: the points of a sampler in a shared library: plugin:LIBRARY.so, its first, or plugin:LIBRARY.so:NAME. The
- * interface is <koksma/plugin.h>. As with exec, every set is made twice and compared.
+ * plugin: the points of a sampler in a shared library: plugin:LIBRARY.so names the library's first sampler,
+ * plugin:LIBRARY.so:NAME the one called NAME. The interface is <koksma/plugin.h>. As with exec, every set is
+ * generated twice, and the two have to be equal.
  *
- * The library is opened once and stays: closing it between two sets would run its constructors again for each. A path
- * without a slash is one of the current folder; the loader's search path has no part in it.
+ * The library stays loaded: closing it between two sets would run its constructors again for each set. A path without
+ * a slash names a file in the current directory; the loader's search path is not used.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -47,7 +48,7 @@ static koksma_status open_library(const char *name, const char *path, void **sym
 
 #endif
 
-/* The sampler that "PATH[:NAME]" names. */
+/* Finds the sampler named by `text`, "PATH[:NAME]". */
 static koksma_status find(const char *name, const char *text, const koksma_plugin **out)
 {
     char path[KOKSMA_MAX_SPEC];
@@ -77,7 +78,7 @@ static koksma_status find(const char *name, const char *text, const koksma_plugi
                         wanted ? wanted : "");
 }
 
-/* Coordinates that are not written stay -1. */
+/* Generates a set. Coordinates are set to -1 first, so that those which the sampler does not write are found. */
 static koksma_status call(const char *name, const koksma_plugin *p, uint64_t seed, size_t n, int dim, double *xs)
 {
     char reason[KOKSMA_PLUGIN_REASON] = "";
@@ -93,7 +94,7 @@ static koksma_status call(const char *name, const koksma_plugin *p, uint64_t see
         KOKSMA__FAIL_IF(!(xs[i] >= 0 && xs[i] < 1), KOKSMA_MALFORMED,
                         "%s: coordinate %zu of point %zu is %.17g; a pattern's points are in [0,1)", name,
                         i % (size_t)dim, i / (size_t)dim, xs[i]);
-        xs[i] = xs[i] == 0 ? 0.0 : xs[i]; /* no -0 */
+        xs[i] = xs[i] == 0 ? 0.0 : xs[i]; /* makes -0 a 0 */
     }
     return KOKSMA_OK;
 }

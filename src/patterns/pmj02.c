@@ -1,19 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * pmj02: progressive multi-jittered points whose prefixes of 2^m are (0,m,2)-nets in base 2, with every other
- * property of the paper, by stochastic generation from the matrices of the Stirling numbers of the first kind modulo
- * 2 and the same shifted by a row and a column.
- *
- *     x(2^l + i) is in the empty half of the stratum of width 2^-l of x(i ^ partner_l), at a random place
+ * pmj02: progressive multi-jittered points whose prefixes of 2^m points are (0,m,2)-nets in base 2, with every other
+ * property of Christensen, Kensler & Kilpatrick 2018. The points are made by stochastic generation from two matrices:
+ * that of the Stirling numbers of the first kind modulo 2, and this matrix shifted by a row and a column.
+ *     x(2^l + i) is at a random position in the empty half of the stratum of width 2^-l of x(i ^ partner_l)
  *
  * Source: Christensen, Kensler & Kilpatrick 2018; Helmer, Christensen & Kensler 2021 for the generation.
+ *     shuffle=1    points of the same matrices in random order, scrambled by a hash as in sobol:scramble=hash-owen
  *
- *     shuffle=1    the same matrices, scrambled by a hash as sobol:scramble=hash-owen, in random order
+ * With shuffle=1 every aligned block of 2^m points is a (0,m,2)-net, and the points of two seeds are paired at
+ * random. Without shuffle=1 they are correlated: the strata of point i are the same for all seeds up to an exclusive
+ * or of their numbers.
  *
- * With shuffle=1 every aligned block of 2^m points is a (0,m,2)-net, and two seeds pair their points at random. Without
- * it they do not: the strata of point i are the same for all seeds up to exclusive ors of their numbers.
- *
- * koksma_pmj02_2d of koksma/sampler.h has the points of shuffle=1 one by one.
+ * koksma_pmj02_2d of koksma/sampler.h computes single points of shuffle=1.
  */
 #include "core/random.h"
 #include "core/status.h"
@@ -23,7 +22,8 @@
 #include "patterns/shared/grow.h"
 #include "patterns/shared/hash_owen.h"
 
-/* The columns of the matrix of coordinate k: point 2^l is in the empty half of the stratum of its partner. */
+/* Computes the columns of the matrix of coordinate k: column l follows from point 2^l, which is in the empty half of
+   the stratum of its partner. */
 static void directions_of(int k, uint32_t *directions)
 {
     for (int l = 0; l < 32; l++) {
@@ -55,7 +55,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"shuffle", "1: in random order, aligned blocks of 2^m points staying (0,m,2)-nets", 0, 0, 1, NULL, true},
+    {"shuffle", "1: points in random order; aligned blocks of 2^m points stay (0,m,2)-nets", 0, 0, 1, NULL, true},
     {0},
 };
 

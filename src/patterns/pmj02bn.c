@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * pmj02bn: pmj02 with blue noise: of the nested scramblings of pmj02, one whose first 4, 16, 64, .. 4^levels points
- * keep apart. Every property of pmj02 that a nested (Owen) scrambling keeps, it has: prefixes of 2^m points, and all
- * aligned blocks of as many, are (0,m,2)-nets.
- *
- *     x = x' XOR the mask of its first `levels` bits, x' from pmj02; y with masks of its own
+ * pmj02bn: pmj02 with blue noise: among the nested scramblings of pmj02, one whose first 4, 16, 64, .. 4^levels
+ * points keep apart. Every property of pmj02 that nested (Owen) scrambling preserves holds: prefixes of 2^m points,
+ * and all aligned blocks of 2^m points, are (0,m,2)-nets.
+ *     x = x' XOR the mask for the first `levels` bits of x', x' from pmj02; y likewise, with other masks
  *     energy of 4^d points = sum over pairs in adjacent cells of max(0, 1 - |p - q|^2 / (1.2 / 2^d)^2)^8
  *
  * Source: Christensen, Kensler & Kilpatrick 2018 for the aim. They choose each new point among candidates that keep
- * the net. But a (0,m,2)-net of 2^m points leaves a new point no choice down to 1/2^(m+1): every box of area 2^-m has
- * one old and one new point, in opposite quadrants, so that the box of one shape settles the next bit of each
- * coordinate, which names the box of the next shape, and so on. What is left is a place in a square of side
- * 1/(2n), and candidates there (Helmer, Christensen & Kensler 2021) gain nothing from some 4,000 points on, crowd at
- * the ends of their strata, and made the error of a step edge 1.8 times that of pmj02. The freedom is elsewhere: the
- * bit of weight 2^-(d+1), which a scrambling may flip in each of 2^d strata of either axis, moves 2^d of 4^d points
- * by half the spacing. So the masks are found coarse bits first: for d = 1 .. levels each of the 2 2^d strata is
- * flipped where that lowers the energy of 4^d points, until nothing changes or SWEEPS times. A cell of side 2^-d has
- * one point and keeps it. Energies are sums of whole numbers: the same on all machines.
+ * the net. But a (0,m,2)-net of 2^m points determines the position of a new point down to 1/2^(m+1): every box of
+ * area 2^-m has one old and one new point, in opposite quadrants, so that the box of one shape determines the next
+ * bit of each coordinate, which determines the box of the next shape, and so on. Only the position in a square of
+ * side 1/(2n) is free. Candidates there (Helmer, Christensen & Kensler 2021) gain nothing from about 4,000 points on,
+ * crowd at the ends of their strata, and made the error of a step edge 1.8 times that of pmj02. This file uses
+ * another freedom: the bit of weight 2^-(d+1), which a scrambling may flip in each of the 2^d strata of either axis;
+ * a flip moves 2^d of 4^d points by half the spacing. The masks are thus found from the coarsest bits on: for d = 1
+ * .. levels each of the 2 2^d strata is flipped if that lowers the energy of the first 4^d points; this is repeated
+ * until nothing changes, at most SWEEPS times. A cell of side 2^-d has one point and keeps it. Energies are sums of
+ * whole numbers and thus the same on all machines.
  *
- * Mean distance to the nearest point in units of the densest packing's, 16 seeds: see docs/findings/blue-noise.md.
- * Time: about 4^levels, whatever n is, and then that of pmj02.
+ * docs/findings/blue-noise.md lists the mean distance to the nearest point over 16 seeds, in units of the densest
+ * packing's distance. Time: proportional to 4^levels for any n, plus that of pmj02.
  *
- * A single point is not uniform over seeds, because the masks are chosen: over 6,000 sets of 16 the density of points
- * 0, 1, 2, 3 and 15 in 16 bins was off by 7 to 11 % (root mean square). Sets of 4^d points are even in the mean. So
- * it does not claim to be unbiased; where few samples must be unbiased, use pmj02.
+ * A single point is not uniform over seeds, because the masks are chosen: over 6,000 sets of 16 points, the density
+ * of points 0, 1, 2, 3 and 15 in 16 bins was off by 7 to 11 % (root mean square). The density of whole sets of 4^d
+ * points is uniform in the mean. The pattern thus does not claim to be unbiased; where few samples must be unbiased,
+ * use pmj02.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -37,15 +38,16 @@
 
 enum { MOST_LEVELS = 10, SWEEPS = 2 };
 
-#define RADIUS 1.2F /* of the energy, in cells */
-#define ONE 0x1p18F /* an energy of 1, as a whole number: a line's 7 2^10 of them are less than 2^31 */
+#define RADIUS 1.2F /* the range of the energy, in cells */
+#define ONE 0x1p18F /* an energy of 1 as a whole number; at most 7 2^10 of them, below 2^31, are on a line */
 
-/* The 4^d points in their cells, in units of a cell, twice: by rows, and by columns with the axes exchanged. A line
-   has a spare cell at each end, for the torus. */
+/* The positions of 4^d points in their cells, in units of a cell, stored twice: by rows, and by columns with the axes
+   exchanged. A line (a row or a column) has a spare cell at each end, a copy of the cell at the other end, because the
+   distance is that of the torus. */
 typedef struct square {
-    long side, width; /* cells a side; the same with the spare cells */
+    long side, width; /* cells on a side, without and with the spare cells */
     float *across[2]; /* the coordinate that a flip of the line changes: y of rows, x of columns */
-    float *along[2];
+    float *along[2];  /* the other coordinate */
 } square;
 
 static void put_cell(const square *s, int axis, long line, long t, float across, float along)
@@ -68,7 +70,7 @@ static void put_point(const square *s, uint32_t x, uint32_t y)
     put_cell(s, 1, column, row, x_in, y_in);
 }
 
-/* The energy of the pairs of cell t + 1 of one line and t + 1 + step of another. */
+/* The energy of the pairs of cell t of one line and cell t + step of the line that is `lines` further. */
 static int32_t energy_of(long side, const float *across, const float *along, const float *others_across,
                          const float *others_along, long lines, long step)
 {
@@ -99,7 +101,7 @@ static int32_t energy_of_line(const square *s, int axis, long line, const float 
     return sum;
 }
 
-/* Flips a line where that lowers the energy. `flipped` has room for a line. */
+/* Flips a line if that lowers the energy; returns whether it did. `flipped` is scratch with room for a line. */
 static bool flip_line(const square *s, int axis, long line, float *flipped)
 {
     const float *across = s->across[axis] + line * s->width, *along = s->along[axis] + line * s->width;
@@ -117,7 +119,8 @@ static bool flip_line(const square *s, int axis, long line, float *flipped)
     return true;
 }
 
-/* One level: points[0] .. are x of 4^levels points, then their y. flips[axis][line] says what was flipped. */
+/* Chooses the flips of one level. points[0] are the x, points[1] the y of 4^levels points; flips[k][line] becomes
+   whether coordinate k is flipped in this stratum. */
 static void choose_level(uint32_t *const points[2], int level, float *room, unsigned char *const flips[2])
 {
     square s = {.side = 1L << level, .width = (1L << level) + 2};
@@ -136,7 +139,7 @@ static void choose_level(uint32_t *const points[2], int level, float *room, unsi
         for (long line = 0; line < s.side; line++) {
             for (int axis = 0; axis < 2; axis++) {
                 const bool flip = flip_line(&s, axis, line, flipped);
-                flips[!axis][line] ^= flip; /* a row's flips are of y */
+                flips[!axis][line] ^= flip; /* flipping a row changes y */
                 changed = changed || flip;
             }
         }
@@ -145,8 +148,8 @@ static void choose_level(uint32_t *const points[2], int level, float *room, unsi
 
 typedef struct masks {
     int levels;
-    uint32_t *points[2]; /* x, and y, of 4^levels points; as scrambled */
-    uint32_t *of[2];     /* the mask of each stratum of 2^-levels */
+    uint32_t *points[2]; /* x and y of 4^levels points, scrambled so far */
+    uint32_t *of[2];     /* the mask of each stratum of width 2^-levels */
     float *room;
     unsigned char *flips[2];
 } masks;
@@ -156,7 +159,8 @@ static uint32_t fraction(double x)
     return (uint32_t)(x * 0x1p32);
 }
 
-/* The first 2^levels points have one in each stratum: theirs are the masks. */
+/* Reads the masks off the first 2^levels points, one in each stratum: a mask is what scrambling changed in the
+   point. */
 static void read_masks(const masks *m, const double *plain)
 {
     for (size_t i = 0; i < (size_t)1 << m->levels; i++) {

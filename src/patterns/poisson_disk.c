@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * poisson-disk: random points, one after the other; a new one that is closer than d to an old one is rejected. With
- * torus=1 the distance goes around the sides, so that tiles fit together.
+ * poisson-disk: random points are tried one after the other; a point closer than d to an earlier one is rejected.
+ * With torus=1 the distance is that of the torus, so that copies of the set tile the plane.
  *
  *     x_i = the first of u_1, u_2, .. uniform in [0,1)^dim with |u - x_j| >= d for all j < i
  *
  * Source: Shirley 1991, section 5.5.4 (dart throwing in the square, d = 0.1 and 0.2 for 16 points); Cook 1986.
  * Without torus=1 points crowd at the sides, where darts have fewer neighbours: 16 points with d = 0.2 have a density
- * of 1.40 in the outer tenths of a coordinate and of .9 inside. A mean over the square is biased by that, and in
- * `checker` it costs the lead over jittered samples. The paper's rule is the default; torus=1 is the one to use.
+ * of 1.40 in the outer tenths of a coordinate and of .9 inside. This biases a mean over the square, and makes the
+ * points no better than jittered ones for the integrand `checker`. The default is Shirley's square without
+ * wraparound; torus=1 is recommended.
  *
- * The set is that of the first n darts that fit. After 3,000 rejections in a row the set is begun anew, and after
- * 200 of these beginnings the search is given up: the error then says what is the largest d that any n points
- * can keep. Dart throwing itself jams at about 0.77 of that on the torus. In the plane, a grid of cells finds the
- * points near a dart once there are more than a few; the points are the same. Elsewhere a dart is compared with all
- * points. The search ends after 2^34 + 4096 n coordinates compared, some 20 s, over all beginnings: enough for 65,536
- * points in 5 dimensions where few darts are rejected. The error then says how many points there were.
+ * The set consists of the first n darts that fit. After 3,000 rejections in a row the set is begun anew, and after
+ * 200 such restarts the search fails: the error message then gives the largest d that any n points can have. Dart
+ * throwing jams at about 0.77 of that d on the torus. In the plane, a grid of cells finds the points near a dart if n
+ * > 256, which does not change the result; in other dimensions a dart is compared with all points. The search also
+ * fails after comparing 2^34 + 4096 n coordinates in all restarts together, about 20 s: enough for 65,536 points in 5
+ * dimensions if few darts are rejected. The error message then gives the number of points placed.
  */
 #include <math.h>
 
@@ -28,14 +29,14 @@
 
 enum { REJECTIONS = 3000, RESTARTS = 200, FEW = 256, LOOKS = 1 << 24 };
 
-/* A search: where it is, and what it has cost. */
+/* The state of a search and the work that it has done. */
 typedef struct search {
     bool torus, stopped;
-    uint64_t work, asked, most; /* coordinates compared; when run was last asked; the bound */
+    uint64_t work, asked, most; /* coordinates compared: so far; at the last check of `run`; at most */
 } search;
 
-/* The fraction of the upper bound on the distance that dart throwing always reached, measured with 3 to 300 points.
-   With few points in many dimensions the bound is far above what any set can have, most of all in the cube. */
+/* The fraction of the upper bound on the distance that dart throwing reached in every test with 3 to 300 points. With
+   few points in many dimensions the bound is far above what any set can reach, above all in the cube. */
 static double reached(int dim, bool torus)
 {
     static const double cube[] = {0.7, 0.7, 0.4, 0.3, 0.3, 0.2, 0.2, 0.2},
@@ -60,10 +61,10 @@ static bool fits(const koksma_points *out, size_t placed, const double *dart, do
     return room;
 }
 
-/* Whether the search may go on; asks run from time to time. */
+/* Whether the search may go on; every LOOKS comparisons it reports progress to `run` and checks whether to stop. */
 static bool may_go_on(search *s, double done, const koksma_run *run)
 {
-    s->work += 64; /* the dart itself, and its neighbours in a grid */
+    s->work += 64; /* the cost of drawing a dart and of its neighbours in a grid */
     if (s->work - s->asked >= LOOKS) {
         s->asked = s->work;
         s->stopped = !koksma__keep_going(run, done);
@@ -71,8 +72,8 @@ static bool may_go_on(search *s, double done, const koksma_run *run)
     return !s->stopped && s->work < s->most;
 }
 
-/* The number of points placed before the darts or the work ran out, or run said stop. The grid, if any, is empty at
-   first. */
+/* Throws darts until all points are placed, too many darts in a row are rejected, the work limit is reached or `run`
+   stops the search; returns the number of points placed. The grid, if any, must be empty. */
 static size_t throw_darts(uint64_t seed, double d, koksma__torus_grid *grid, const koksma_run *run, search *s,
                           koksma_points *out)
 {
@@ -102,7 +103,7 @@ static size_t throw_darts(uint64_t seed, double d, koksma__torus_grid *grid, con
     return placed;
 }
 
-/* Begins anew until all points have a place. */
+/* Restarts dart throwing until all points are placed or the limits are reached. */
 static koksma_status throw_until(uint64_t seed, const koksma_args *args, koksma__torus_grid *grid, koksma_points *out)
 {
     const double d = args->params[0];
@@ -128,7 +129,7 @@ static koksma_status throw_until(uint64_t seed, const koksma_args *args, koksma_
                         "bound of work; n = %zu or less, or a smaller d, would do",
                         most, out->n, d, out->dim, most);
         if (restart >= 5 && most < out->n * 9 / 10) {
-            break; /* hopeless */
+            break; /* far from n after 6 tries: further ones would not succeed */
         }
     }
     return koksma__fail(KOKSMA_IMPOSSIBLE,

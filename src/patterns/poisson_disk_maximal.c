@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * poisson-disk-maximal: dart throwing on the torus until no point can be added: no two points closer than d, and no
- * place further than d from all of them.
+ * poisson-disk-maximal: dart throwing on the torus until no point can be added: no two points are closer than d, and
+ * no position is further than d from all of them.
+ *     by distance, d=D: the number of points follows from D (about 0.6965 / D^2); any other n is an error
+ *     by number, d=0: darts are thrown at a distance at which slightly fewer than n points fit; then the distance
+ *         shrinks, and darts fill the free area that opens, until exactly n points leave no free area (a bisection
+ *         over the distance, because free areas open one at a time)
  *
- *     by distance, d=D: the number of points follows (about 0.6965 / D^2); asking for another is refused
- *     by number, d=0: darts at a distance that leaves a few points to come; then the distance shrinks, and room
- *     that opens is filled by darts, until exactly n points leave no room (a bisection: room opens one place at a
- *     time)
- *
- * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree of the room that is left; the law is
- * that of dart throwing, so the points are unbiased. Room narrower than 2^-30 counts as none. About n log n time.
+ * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree of the free area. The points have the
+ * distribution of dart throwing and are thus unbiased. Free areas narrower than 2^-30 are ignored. The time is about
+ * n log n.
  */
 #include <math.h>
 #include <string.h>
@@ -23,12 +23,13 @@ enum { TRIES = 100, SEARCHES = 8, MANY = 100000 };
 
 #define PER_AREA 0.6965 /* points times d^2, on average */
 
-/* From a maximal set of fewer than n points to one of n. The distance is between `low`, at which there were more, and
-   disks->d. Each try tells how much a point costs. */
+/* Extends a maximal set of fewer than n points to one of n points by shrinking the distance. The distance searched for
+   is between `low`, at which there were more than n points, and disks->d. Each try gives an estimate of how much the
+   distance has to shrink for one point more. */
 static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run *run)
 {
     const double guess = 0.25 / (double)n;
-    double high = disks->d, low = 0, step = guess; /* of the distance, for a point more */
+    double high = disks->d, low = 0, step = guess; /* step: fraction by which d shrinks for one point more */
     size_t kept = disks->n;
     koksma_status status = KOKSMA_OK;
     for (int try = 0; try < TRIES && !status; try++) {
@@ -49,7 +50,8 @@ static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run 
             high = d;
             kept = disks->n;
         }
-        if (low > 0 && high - low < 1e-12 * high) { /* low was of fewer points; with these there is no room there */
+        if (low > 0 && high - low < 1e-12 * high) { /* `low` was found when fewer points were kept; it no longer gives
+                                                       too many */
             low = 0;
             step = guess;
         }
@@ -61,7 +63,7 @@ static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run 
                               n, kept);
 }
 
-/* TRIES from `first` on are this search's. */
+/* Searches for a maximal set of n points; the restarts use the seeds number first to first + TRIES - 1. */
 static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksma_run *run, koksma__disks *disks)
 {
     const double few = fmax((double)n - 0.6 * sqrt((double)n) - 0.4, 0.9);
@@ -104,9 +106,9 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
     return status ? status : koksma__disks_fill(disks, SIZE_MAX, run);
 }
 
-/* Disks of radius d cover the torus and those of radius d/2 do not overlap: between 2/(sqrt(27) d^2) points, the
-   thinnest covering's, and the densest packing's 2/(sqrt(3) d^2). Where counting takes long, any other number is
-   refused before a dart is thrown. */
+/* Whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus and those of
+   radius d/2 do not overlap, so that n is between that of the thinnest covering, 2/(sqrt(27) d^2), and that of the
+   densest packing, 2/(sqrt(3) d^2). For many points any other n fails before the first dart is thrown. */
 static bool is_possible(double d, size_t n)
 {
     const double area = (double)n * d * d;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * poisson-time: jittered x and y with an independent uniform time: what a renderer does that only stratifies its
- * pixel.
+ * poisson-time: jittered x and y with an independent uniform time, as in a renderer that stratifies only the
+ * positions in a pixel.
  *
  *     x, y as in jittered;   t uniform in [0,1)
  *

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * progressive-elimination: the sequence of `length` points that sample elimination makes of `factor` times as many
- * uniform ones, in Yuksel's progressive order: half of the points is taken out again, then half of those left, and
- * so on; the point taken out last comes first.
+ * progressive-elimination: the sequence of `length` points that sample elimination selects from `factor` times as
+ * many uniform random points, in Yuksel's progressive order: elimination removes half of the points, then half of the
+ * rest, and so on; the point removed last comes first.
  *
- * Source: Yuksel 2015, section on progressive sampling; shared/elimination.c has the formulas. The first n points of
- * a sequence do not depend on n, but they do on `length`: another length is another sequence. Generating takes the
- * time of the whole sequence: choose the length that you will use.
+ * Source: Yuksel 2015, section on progressive sampling; shared/elimination.c gives the formulas. The first n points
+ * of a sequence do not depend on n, but they depend on `length`. Generating any n points takes the time of the whole
+ * sequence, so `length` should be no larger than needed.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -4,16 +4,16 @@
  *
  *     x_k = {1/2 + (i+1) g^-k}, k = 1 .. dim,   g the positive root of g^(dim+1) = g + 1
  *
- * Source: Roberts 2018. dim = 1 has the golden ratio 1.618…, dim = 2 the plastic number 1.3247…. In whole numbers
- * modulo 2^64: no drift.
+ * Source: Roberts 2018. For dim = 1, g is the golden ratio 1.618…, for dim = 2 the plastic number 1.3247…. Sums are
+ * computed in integers modulo 2^64, so that rounding errors do not accumulate.
  *
- *     shuffle=1    nested uniform shuffle of the 32-bit index i, by a hash
+ *     shuffle=1    a hash shuffles the 32-bit index i by a nested uniform permutation
  *
- * With shuffle=1 every aligned block of 2^m points is a run of 2^m consecutive points of the sequence, and two seeds
- * pair their points at random. Other numbers n of points are several runs, one for each one bit of n:
- * docs/decisions/0014 has what that costs.
+ * With shuffle=1 every aligned block of 2^m points is a run of 2^m consecutive points of the sequence, and the points
+ * of two seeds are paired at random. If n is not a power of two, the first n points consist of several runs, one for
+ * each bit 1 of n; docs/decisions/0014 gives the resulting loss of quality.
  *
- * koksma_r_2d of koksma/sampler.h has the points of shuffle=1,shift=1 one by one.
+ * koksma_r_2d of koksma/sampler.h computes single points of shuffle=1,shift=1.
  * Known, 2D, n = 16: D* = 0.243477007, L2 star = 0.067755940.
  */
 #include <koksma/sampler.h>
@@ -25,7 +25,7 @@
 
 enum { MAX_DIM = 64 };
 
-/* The upper 64 bits of a product of fractions. */
+/* The product of two fractions in units of 2^-64, cut off to 64 bits. */
 static uint64_t product(uint64_t a, uint64_t b)
 {
     const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
@@ -44,7 +44,7 @@ static uint64_t root(int dim)
             power = product(power, t);
         }
         const uint64_t next = product(power, t);
-        if (power + next >= power) { /* the sum is below 1 */
+        if (power + next >= power) { /* no overflow: the sum is below 1 */
             a = t;
         }
     }
@@ -85,7 +85,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 {
     uint64_t alphas[MAX_DIM] = {0x9E3779B97F4A7C15u};
     if (out->dim == 2) {
-        alphas[0] = 0xC13FA9A902A6328Fu; /* rounded to nearest */
+        alphas[0] = 0xC13FA9A902A6328Fu; /* 1/g and 1/g^2 for dim = 2, rounded to nearest */
         alphas[1] = 0x91E10DA5C79E7B1Du;
     } else if (out->dim > 2) {
         alphas[0] = root(out->dim);
@@ -102,7 +102,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"shuffle", "1: in random order, aligned blocks of 2^m points staying together", 0, 0, 1, NULL, true},
+    {"shuffle", "1: points in random order; aligned blocks of 2^m points stay together", 0, 0, 1, NULL, true},
     {0},
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * random: every point independent and uniform in [0,1)^dim. The mother of all comparisons.
+ * random: every point is independent and uniform in [0,1)^dim. The baseline of all comparisons.
  *
  *     x_k = u_k,   u uniform in [0,1)^dim, a hash of seed, point and coordinate
  *

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * ranking-keys: the points of all pixels of a square image, pixel after pixel: each pixel has its copy of one
- * Owen-scrambled (0,2)-sequence, which optimised ranking and scrambling keys choose such that neighbours' errors cancel.
+ * ranking-keys: the points of all pixels of a square image, pixel after pixel. Each pixel has its own variant of one
+ * Owen-scrambled (0,2)-sequence; ranking and scrambling keys, optimised so that the errors of neighbouring pixels
+ * cancel, select the variant.
  *
  *     point s of pixel (x, y), pair of dimensions k = koksma_keys_2d(koksma_keys_of(seed, x, y, k, spp), s)
  *
- * n = width^2 spp; koksma/keys.h has the rule. The set of a pixel is a (0,m,2)-net in base 2 for spp = 2^m, in each pair of
- * dimensions. Source: Heitz & others 2019; the flips behind the strata and the key that pairs strata are this project's.
+ * n = width^2 spp; koksma/keys.h documents how the keys are applied. For spp = 2^m the points of a pixel are a
+ * (0,m,2)-net in base 2 in each pair of dimensions. Source: Heitz & others 2019; the random flips of the bits below
+ * the strata, and the key that pairs strata, are new in this project.
  */
 #include <koksma/keys.h>
 

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * record: the best known sets of n points for a measure, as `koksma optimise` found them; `koksma list records` has them
- * with their values and the best published ones. Sets of other n do not exist here. The sets are in shared/records.inc (star
- * in the plane) and shared/records_made.inc (star in 3 dimensions and L2 discrepancies, with the commands that make them).
+ * record: the best known sets of n points for a measure, found by `koksma optimise`; `koksma list records` prints
+ * their values and the best published ones. Any other n is an error. The sets are in shared/records.inc (star
+ * discrepancy in the plane) and shared/records_made.inc (star discrepancy in 3 dimensions and L2 discrepancies, with
+ * the commands that make them).
+ *     x_ik = t_ik / 10^12, t_ik a whole number from a table
  *
- *     x_ik = whole number / 10^12, from a table
- *
- * Source: own searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 14 points in the
- * plane, which tools/prove_star.c proves, and to four digits up to 21 (Clement, Doerr, Klamroth & Paquete 2023).
+ * Source: this project's searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 14
+ * points in the plane, which tools/prove_star.c proves, and to four digits up to 21 (Clement, Doerr, Klamroth &
+ * Paquete 2023).
  */
 #include <koksma/optimise.h>
 
@@ -77,7 +78,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"measure", "the measure that the sets have a small value of", 0, 0, 3, names, true},
+    {"measure", "the measure whose value is small for the sets", 0, 0, 3, names, true},
     {0},
 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of patterns (patterns.def): member i, and the member of a name. */
+/* The table of patterns (patterns.def) and the public functions that look up a pattern by its index or its name. */
 #include "core/lookup.h"
 #include "patterns/patterns.h"
 

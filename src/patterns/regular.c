@@ -4,8 +4,8 @@
  *
  *     x_k = (c_k + 1/2) / m,   c in {0 .. m-1}^dim
  *
- * Source: Shirley 1991, section 5.5.2. That the points are cell centres and not corners is what his discrepancy
- * of 16 points says: D = 15/64 = 0.234 (corners give 0.4375).
+ * Source: Shirley 1991, section 5.5.2. Shirley's discrepancy of 16 points, D = 15/64 = 0.234, shows that the points
+ * are the cells' centres: corners give 0.4375.
  * Known exactly, 4 x 4: D = 15/64, T = 7/16, S^2 = 1/9 - 2 (43/128)^2 + (11/32)^2.
  */
 #include "patterns/patterns.h"

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * sample-elimination: from `factor` times as many uniform points, the one with the heaviest neighbourhood on the
- * torus is taken out until n are left.
+ * sample-elimination: starts from factor * n uniform random points and removes the point with the largest weight, the
+ * one most crowded by its neighbours on the torus, until n points are left.
  *
  *     weight of i = sum over j with d_ij < d_max of (1 - max(d_ij, d_min) / d_max)^8
  *     d_max = the distance of the densest packing of n points,  d_min = d_max (1 - factor^-1.5) 0.65
  *
- * Source: Yuksel 2015, in any dimension; shared/elimination.c has the formulas. The points come in the order in which
- * they were drawn; progressive-elimination orders them so that the first k are blue noise, too.
+ * Source: Yuksel 2015, in any dimension; shared/elimination.c gives the formulas in detail. The points come in the
+ * order in which they were drawn; progressive-elimination orders them so that the first k are blue noise, too.
  * Relative radius at n = 1024 in the plane, mean of 10 sets: 0.696 at factor 5, 0.770 at factor 20.
  *
- * From 4 dimensions on nothing keeps single pairs apart: d_max is the radius of balls without gaps, and all distances
- * below d_min = 0.59 d_max weigh the same. At n = 64 in 4 dimensions d_min is 0.281, and the smallest distance of 20
- * sets is 0.036 to 0.223 (mean 0.099); the author's program has the same, set by set.
+ * From 4 dimensions on, single pairs of points may be close together: d_max follows from balls that fill the volume
+ * without gaps, and all distances below d_min = 0.59 d_max have the same weight. At n = 64 in 4 dimensions d_min is
+ * 0.281, and the smallest distance in each of 20 sets is 0.036 to 0.223 (mean 0.099); Yuksel's program gives the same
+ * distances, set by set.
  */
 #include "patterns/patterns.h"
 #include "patterns/shared/elimination.h"

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * scan-time: jittered x and y; the cells are visited in scan order, and each time is the best of some random
- * candidates: the one whose smallest distance to the points that are done is largest, on the unit 3-torus.
+ * scan-time: jittered x and y. The cells are visited in scan order, and each point's time t is the best of some
+ * random candidates: the one whose smallest distance to the finished points, on the unit 3-torus, is largest.
  *
  *     t_i = argmax over candidates t of min over j < i of |(x_i, y_i, t) - (x_j, y_j, t_j)|
  *
- * Source: Mitchell 1992, table 2 ("Scan-Time", after his 1991 paper); the distance and the number of candidates are
- * not stated there. With 16 candidates the L2 star discrepancy of 16, 256, 1600 points is about 0.0463, 0.0074,
- * 0.0023, where the paper has 0.0473, 0.00721, 0.00235.
- * A candidate is worse than the best so far if a finished point is nearer to it than the best one's distance. Such
- * points lie in cells at most that far away, so no others are searched.
+ * Source: Mitchell 1992, table 2 ("Scan-Time", after his 1991 paper), which states neither the distance nor the
+ * number of candidates. With 16 candidates the L2 star discrepancy of 16, 256, 1600 points is about 0.0463, 0.0074,
+ * 0.0023; the paper gives 0.0473, 0.00721, 0.00235. A candidate loses to the best so far if some finished point is
+ * nearer to it than the best candidate's smallest distance. Such a point is in a cell at most that distance away, so
+ * no other cells are searched.
  */
 #include <math.h>
 
@@ -30,7 +30,8 @@ static double around(double t)
     return t > 0.5 ? 1 - t : t;
 }
 
-/* The square of the distance from (x, y, t) to the done points, those with index below i; stops below `enough`. */
+/* The squared distance from (x, y, t), (x, y) of point i, to the nearest finished point, whose index is below i. The
+   search stops once that is at most `enough`. */
 static double nearest(const scan *s, size_t i, double t, double enough)
 {
     const double *own = s->out->xs + 3 * i;

@@ -4,18 +4,19 @@
  *
  *     x_k = 2^-32 (the sum modulo 2 of the columns V_b of dimension k over the set bits b of i)
  *
- * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008, or on request those of Bratley & Fox 1988 that GSL has.
- * Scrambled on request:
- *
- *     scramble=digital-shift  xor with one random word a dimension
- *     scramble=lms            a random lower triangular matrix a dimension, and a digital shift (Matousek 1998); not
- *                             Owen's: pairs of points that share a bit prefix stay correlated
+ * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008 or, with numbers=bratley-fox, those of Bratley & Fox 1988,
+ * which GSL uses. Options for scrambling:
+ *     scramble=digital-shift  exclusive or with one random word for each dimension
+ *     scramble=lms            a random lower triangular matrix for each dimension, and a digital shift (Matousek
+ *                             1998); unlike with owen, pairs of points that share a bit prefix stay correlated
  *     scramble=owen           Owen's nested uniform scrambling (1995), exact, by stochastic generation (Helmer et al.
- *                             2021); the bits below the last that n distinguishes are random
+ *                             2021); bits below those that distinguish n points are independent random bits
  *     scramble=hash-owen      nested scrambling by a hash (Laine & Karras 2011, Burley 2020, constants of Vegdahl
- *                             2021): random access; single and pairs of flips as in Owen's law, so that
- *                             variances are the same; of the 128 trees of three bits it has 32
- *     shuffle=1               with hash-owen: the order is scrambled alike; prefixes stay aligned blocks
+ *                             2021), with random access; single flips and pairs of flips have the distribution of
+ *                             exact Owen scrambling, so that variances are equal; of the 128 flip trees of three
+ *                             bits the hash produces 32
+ *     shuffle=1               with hash-owen: the hash scrambles the order of the points, too; the first 2^m points
+ *                             are still an aligned block of the sequence
  *
  * Known exactly, 2D, n = 16: D* = 0.171875, L2 star = 0.047766231 (no scrambling).
  */
@@ -37,7 +38,7 @@ typedef struct job {
     uint64_t seed;
     int scramble, old;
     bool shuffle;
-    const uint32_t (*matrices)[32]; /* lms: the scrambled directions of all dimensions */
+    const uint32_t (*matrices)[32]; /* with lms: the scrambled direction numbers of all dimensions */
 } job;
 
 static const uint32_t *directions_of(const job *j, int k)
@@ -45,7 +46,7 @@ static const uint32_t *directions_of(const job *j, int k)
     return j->matrices ? j->matrices[k] : koksma__sobol_directions(k, j->old);
 }
 
-/* Word k of what the seed gives to a digital shift; word 3 is unused. */
+/* The random word of the digital shift of dimension k. Word 3 of the random stream is skipped. */
 static uint32_t seed_of(const job *j, int k)
 {
     const uint64_t at = (uint64_t)(k < 3 ? k : k + 1);
@@ -131,8 +132,8 @@ static koksma_status generate_owen(const job *j, const koksma_args *args, koksma
     return status;
 }
 
-/* Each column times a random lower triangular matrix: output bit r gets the input bits above it that a random row
-   chooses, and bit r itself. */
+/* Multiplies each column by a random lower triangular matrix: output bit r is the sum modulo 2 of input bit r and of
+   those higher input bits that a random row of the matrix selects. */
 static void scramble_matrix(const job *j, int k, uint32_t *matrix)
 {
     const uint32_t *directions = koksma__sobol_directions(k, j->old);
@@ -196,7 +197,7 @@ static const koksma_param params[] = {
      HASH_OWEN, scrambles, true},
     {"numbers", "direction numbers: joe-kuo (1,111 dimensions) or bratley-fox (40, as in GSL)", 0, 0, 1, numbers,
      true},
-    {"shuffle", "1: with hash-owen, the order is scrambled too", 0, 0, 1, NULL, true},
+    {"shuffle", "1: scrambles the order of the points, too; only with hash-owen", 0, 0, 1, NULL, true},
     {0},
 };
 

@@ -1,25 +1,29 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * sz: a digital sequence in base 2 that is a (0,256)-sequence in base 256, its dimensions 16 k .. 16 k + 15 a
- * (0,16)-sequence in base 16, 4 k .. 4 k + 3 a (0,4)-sequence in base 4, and 2 k, 2 k + 1 a (0,2)-sequence in base 2.
+ * sz: a digital sequence in base 2 that is a (0,256)-sequence in base 256. Its dimensions 16 k .. 16 k + 15 are a
+ * (0,16)-sequence in base 16, its dimensions 4 k .. 4 k + 3 a (0,4)-sequence in base 4, and its dimensions 2 k and 2
+ * k + 1 a (0,2)-sequence in base 2.
  *
  *     x_d = matrix of d times the bits of i;   matrix of d = Q(1, d & 1) Q(2, d & 2) Q(4, d & 12) Q(8, d & 240)
- *     Q(q, a): blocks of q x q bits, block (r, c) = binomial(c, r) a^(c-r), an element of GF(2^q) as the matrix that
- *     multiplies the bits of others by it; dimensions count from 0
+ *     Q(q, a) consists of blocks of q x q bits: block (r, c) is the element binomial(c, r) a^(c-r) of GF(2^q), as the
+ *     matrix that multiplies the bits of other elements by it; dimensions d count from 0
  *
- * Source: the aim and the use of binary matrices for powers of two are of Ahmed, Pharr, Ostromoukhov & Huang (2025); the
- * product above is this project's. Q(q, a) for all a in GF(2^q) are Faure's matrices, which Niederreiter (1987) has for any
- * finite field: Q(q, a) Q(q, b) = Q(q, a + b), and together they are a (0, 2^q)-sequence in base 2^q. The fields are those
- * of nimbers, where each lies in the next: for a in GF(2^q),
+ * Source: the aim, and the use of binary matrices for bases that are powers of two, come from Ahmed, Pharr,
+ * Ostromoukhov & Huang (2025); the product above is new in this project. The Q(q, a) for all a in GF(2^q) are Faure's
+ * matrices, which Niederreiter (1987) generalised to any finite field: Q(q, a) Q(q, b) = Q(q, a + b), and together
+ * they are a (0, 2^q)-sequence in base 2^q. The fields are represented by nimbers, so that each field is a subfield
+ * of the next: for a in GF(2^q),
  *
  *     Q(q, a) = (diagonal of 2q x 2q blocks) Q(2q, a^2),
  *
- * since binomial(2c + c', 2r + r') = binomial(c, r) binomial(c', r') modulo 2. A diagonal of blocks permutes the digits in
- * base 2^2q, each by itself, which keeps nets. So up to such permutations the matrix of d is Q(8, a_d) with 256 different
- * a_d, those of 16 consecutive dimensions are Q(4, ...) times one common matrix, and so on; a common upper triangular
- * matrix on the right only permutes aligned blocks of indices. Two dimensions are the (0,2)-sequence of Sobol'.
+ * since binomial(2c + c', 2r + r') = binomial(c, r) binomial(c', r') modulo 2. A block-diagonal matrix permutes the
+ * values of each digit in base 2^2q, which preserves nets. Up to such permutations the matrix of dimension d is thus
+ * Q(8, a_d), with 256 different a_d; the matrices of 16 consecutive dimensions are Q(4, ...) times one common matrix,
+ * and so on. A common upper triangular matrix on the right only permutes the indices within aligned blocks. The first
+ * two dimensions are the (0,2)-sequence of Sobol'.
  *
- * Known exactly, 2D: the points of `sobol`. Scrambled by the modifier owen, which keeps the nets of all four bases.
+ * Known exactly: in 2D the points are those of the pattern sobol. The modifier owen scrambles the points and
+ * preserves the nets in all four bases.
  */
 #include <koksma/sampler.h>
 
@@ -32,7 +36,7 @@
 
 enum { BITS = 32, MOST_DIM = 256 };
 
-/* The product of two nimbers of q bits, q a power of two: with F = 2^(q/2), F F = F + F/2. */
+/* The product of two nimbers of q bits, q a power of two. It follows from F F = F + F/2, where F = 2^(q/2). */
 static uint32_t product(uint32_t a, uint32_t b, int q)
 {
     const int half = q / 2;
@@ -45,7 +49,7 @@ static uint32_t product(uint32_t a, uint32_t b, int q)
     return (all ^ lows) << half | (lows ^ product(highs, 1u << (half - 1), half));
 }
 
-/* Q(q, a) times z; bit r of z is row r. */
+/* The product of the matrix Q(q, a) and the bit vector z; bit r of z is row r. */
 static uint32_t multiply(int q, uint32_t a, uint32_t z)
 {
     const uint32_t digit = (1u << q) - 1;
@@ -60,7 +64,7 @@ static uint32_t multiply(int q, uint32_t a, uint32_t z)
     return sum;
 }
 
-/* Column b of the matrix of dimension d, its first row the highest bit. */
+/* Column b of the matrix of dimension d; the highest bit is its first row. */
 static uint32_t column_of(int d, int b)
 {
     const uint32_t k = (uint32_t)d;
@@ -86,7 +90,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const size_t bytes = (size_t)out->dim * BITS * sizeof(uint32_t);
     uint32_t(*directions)[BITS] = calloc(1, bytes);
     KOKSMA__REQUIRE_MEMORY(directions, bytes);
-    for (int d = 0; d < out->dim; d++) { /* the columns that indices below first + n need */
+    for (int d = 0; d < out->dim; d++) { /* computes the columns that indices below first + n need */
         for (int b = 0; b < BITS && (args->first + out->n - 1) >> b; b++) {
             directions[d][b] = column_of(d, b);
         }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * z-sampler: the points of all pixels of a square image, pixel after pixel: each pixel has its block of one
- * hash-Owen-scrambled (0,2)-sequence, the blocks being given out along a Z-curve whose quadrants are in random order
- * at each node. Neighbours share well-spread points, so their errors differ.
+ * z-sampler: the points of all pixels of a square image, pixel after pixel. Each pixel takes a block of one
+ * hash-Owen-scrambled (0,2)-sequence; the blocks are assigned along a Z-curve whose quadrants are in random order at
+ * each node. The points of neighbouring pixels together are well distributed, so that their errors differ.
  *
  *     point s of pixel (x, y) = sequence(rank(x, y) spp + s),   n = width^2 spp
  *
- * Source: Ahmed & Wonka 2020. The set of all points, and with spp = 2^k that of each pixel, is a (0,m,2)-net in
- * base 2.
+ * Source: Ahmed & Wonka 2020. If spp = 2^k, the points of each pixel are a (0,k,2)-net in base 2, and all points
+ * together are a (0,m,2)-net with 2^m = n.
  */
 #include <koksma/sampler.h>
 

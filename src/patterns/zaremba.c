@@ -3,16 +3,17 @@
  * zaremba: Hammersley points with folded radical inverses, the best pattern of Mitchell's tables 1 and 2.
  *
  *     x_0 = i / n,   x_k = psi_b(i), b the k-th prime
- *     psi_b: the digit a at place j (0: the least significant of i) becomes (a + j) mod b, the infinite row of zeros
- *     above the number included; then the digits are mirrored at the radix point. psi_2(0) = 1/4 + 1/16 + … = 1/3
+ *     psi_b is the folded radical inverse: the digit a at position j of i (j = 0 is the least significant) becomes
+ *     (a + j) mod b, also for the infinitely many leading zeros; then the digits are mirrored at the radix point.
+ *     Example: psi_2(0) = 1/4 + 1/16 + … = 1/3
  *
- * Source: Zaremba 1968, Warnock 1972, after Mitchell 1992, section 3. Only this reading reproduces his numbers:
- * without the infinite row of zeros, or with places counted from 1, they come out otherwise. Known exactly: L2 star
- * for n = 16, 256, 1600: 0.035833915 0.002550635 0.000438 in 2D, 0.039301 0.003756 0.000761 in 3D. In base 2 it is a
- * digital shift of Hammersley's.
- *
- *     scramble=owen  Owen's nested uniform scrambling (1995), exact, as in hammersley, with the same points: folding
- * is a permutation of the digits of each place, and has no effect on what is scrambled uniformly
+ * Source: Zaremba 1968, Warnock 1972, after Mitchell 1992, section 3. Only this definition reproduces Mitchell's
+ * numbers: without the leading zeros, or with positions counted from 1, the results differ. Known exactly: L2 star
+ * for n = 16, 256, 1600: 0.035833915 0.002550635 0.000438 in 2D, 0.039301 0.003756 0.000761 in 3D. In base 2 the
+ * folded radical inverse is a digital shift of the radical inverse in hammersley.
+ *     scramble=owen  Owen's nested uniform scrambling (1995), exact; the points are those of hammersley with
+ *                    scramble=owen, because folding permutes the digits at each position, which has no effect on the
+ *                    distribution of uniformly scrambled digits
  */
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Verified properties: a line of properties.def is a koksma__property, which looks at one set of points and adds its
- * findings. koksma_verify (verify.c) asks all of them in the order of the lines.
+ * The interface of the properties that koksma_verify (verify.c) checks. Each line of properties.def names a
+ * koksma__property, whose function looks at one set of points and adds its findings; koksma_verify calls these
+ * functions in the order of the lines.
  */
 #ifndef KOKSMA_VERIFY_VERIFY_H
 #define KOKSMA_VERIFY_VERIFY_H
@@ -11,23 +12,24 @@
 typedef struct koksma__verification {
     const koksma_points *points;
     const koksma_run *run;
-    const struct koksma__property *property; /* the one that is looked for */
+    const struct koksma__property *property; /* the property being checked */
     koksma_findings *findings;
-    uint32_t *counts; /* scratch: n + 1 numbers */
+    uint32_t *counts; /* scratch memory: n + 1 numbers */
 } koksma__verification;
 
 typedef struct koksma__property {
     koksma_property public;
-    /* Adds findings by koksma__finding, or none where the property is not for so many points or dimensions. */
+    /* Adds findings with koksma__finding; adds none where the property does not apply to this number of points or
+     * dimensions. */
     koksma_status (*look)(koksma__verification *v);
-    size_t base; /* of net-base-B */
+    size_t base; /* the B of net-base-B; unused by other properties */
 } koksma__property;
 
 #define PROPERTY(name) extern const koksma__property koksma__property_##name;
 #include "verify/properties.def"
 #undef PROPERTY
 
-/* Adds a finding of the property that is looked for: subject and detail "-"; NULL when memory runs out. */
+/* Adds a finding of v->property, with subject and detail "-", and returns it; returns NULL when memory runs out. */
 koksma_finding *koksma__finding(koksma__verification *v);
 
 #endif

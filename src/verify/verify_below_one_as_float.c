@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * below-one-as-float: a double just below 1 rounds to the float 1, outside of [0,1), where a renderer then reads past
- * the end of a table. 1 - 2^-25 and above do. O(n dim).
+ * below-one-as-float: checks that no coordinate becomes 1 when it is converted to float. Doubles from 1 - 2^-25 on
+ * round to the float 1, which is outside [0,1): a renderer then reads past the end of a table. O(n dim).
  */
 #include <stdio.h>
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * distinct, distance-square and distance-torus, and the public koksma_smallest_distance. In the plane the closest
- * pair is found by halving (core/closest_pair.c), O(n log n); in other dimensions by a sweep over the points sorted
- * by their first coordinate, which looks at those pairs only that are nearer along it than the best so far: O(n^2 d)
- * at worst, about n^(2 - 1/d) for even points. Fractions are of the densest packing's distance
- * (patterns/shared/packing.h): exact for squares of 30 points or fewer, else an upper bound.
+ * The properties distinct, distance-square and distance-torus, and the public koksma_smallest_distance. In the plane
+ * divide and conquer finds the closest pair (core/closest_pair.c) in O(n log n). In other dimensions d a sweep over
+ * the points sorted by their first coordinate compares only pairs whose first coordinates differ by less than the
+ * smallest distance found so far: O(n^2 d) at worst, about n^(2 - 1/d) for evenly distributed points. Findings also
+ * give the distance as a fraction of that of the densest packing (patterns/shared/packing.h), which is exact for 30
+ * points or fewer in the square, else an upper bound.
  */
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +27,7 @@ typedef struct point {
     int dim;
 } point;
 
-/* As numbers: 0 and -0 are one. */
+/* Compares coordinates as numbers, so that 0 equals -0. */
 static int compare_positions(const point *p, const point *q)
 {
     for (int k = 0; k < p->dim; k++) {
@@ -54,7 +55,8 @@ static double square_of(const point *p, const point *q, bool torus)
     return sum;
 }
 
-/* Over points sorted by their first coordinate: only those nearer along it than the best so far are looked at. */
+/* Closest pair of points sorted by their first coordinate: compares only pairs whose first coordinates differ by less
+   than the smallest distance so far. */
 static koksma_status sweep(const point *sorted, size_t n, bool torus, const koksma_run *run, double *distance)
 {
     double best = INFINITY;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * net-base-2, -3 and -5: t of the prefixes of b^m points as nets (core/net.c), of all pairs of
- * coordinates and, in up to 8 dimensions, of all coordinates together. Prefixes for which the search would take more
- * than a second or so are left out.
+ * net-base-2, net-base-3 and net-base-5: the quality parameter t of the first b^m points as a (t,m,s)-net in base b
+ * (core/net.c), for each pair of coordinates and, in up to 8 dimensions, for all coordinates together. Prefixes for
+ * which computing t would take more than about a second are left out.
  */
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 
 enum { MAX_NET_DIM = 8 };
 
-#define WORK 4e8 /* point visits for one value of t */
+#define WORK 4e8 /* most point visits to compute one t */
 
 typedef struct search {
     const koksma__net *net;
@@ -21,7 +21,7 @@ typedef struct search {
     koksma__verification *v;
 } search;
 
-/* C(m + dim - 1, dim - 1): the shapes of elementary intervals. */
+/* The number of shapes of elementary intervals of volume b^-m: C(m + dim - 1, dim - 1). */
 static double shapes(int m, int dim)
 {
     double count = 1;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * origin-unique and origin-present: points at the origin. A digital sequence has one, its first point; generators
- * that skip it spoil the nets of its prefixes. origin-present fails where the points look like points 1 .. n of such
- * a sequence: in each coordinate different multiples of 2^-m, 2^m > n, none of them 0 nor all odd. O(n dim).
+ * origin-unique and origin-present: how many points are at the origin. A digital sequence has one there, its first
+ * point; a generator that skips it destroys the net property of the sequence's prefixes. origin-present fails where
+ * the points look like points 1 to n of such a sequence: each coordinate takes different multiples of 2^-m, 2^m > n,
+ * of which none is 0 and not all are odd multiples. O(n dim).
  */
 #include <stdio.h>
 #include <string.h>
@@ -22,8 +23,9 @@ static size_t at_origin(const koksma_points *points)
     return count;
 }
 
-/* Points 1 .. n of a sequence like Sobol's: in each coordinate different multiples of 2^-m, 2^m > n, none of them 0.
-   Grids share coordinates, and those of centres are odd multiples all. `seen` has room for a bit each. */
+/* Whether the points look like points 1 to n of a sequence like Sobol's: in each coordinate different multiples of
+   2^-m, 2^m > n, none of them 0. Grids fail because their points share coordinates, cell centres because all their
+   coordinates are odd multiples. `seen` has room for one bit for each multiple. */
 static bool is_sequence_from_one(const koksma_points *points, uint32_t *seen)
 {
     size_t cells = 1;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * progressive: whether the points may be used in their order, a few at first and more later. Over the prefixes of 2^j
- * points, 16 or more, the largest ratio of the L2 star discrepancy to its root mean square over random points,
- * sqrt((2^-d - 3^-d) / n). The longest prefix is what takes about a second: 2^22 points in the plane, 2^18 in three
- * dimensions, 2^12 in four to twelve.
+ * progressive: whether the points can be used progressively, in their order, a few at first and more later. The value
+ * is the largest ratio, over the prefixes of 2^j >= 16 points, of the prefix's L2 star discrepancy to its root mean
+ * square over random points, sqrt((2^-d - 3^-d) / n). The longest prefix is one that takes about a second: 2^22
+ * points in the plane, 2^18 in three dimensions, 2^12 in four to twelve.
  */
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 
 enum { PREFIX_LEAST = 16, PREFIX_MOST_DIM = 12 };
 
-/* The longest prefix that is measured, in a second or so. */
+/* The number of points of the longest prefix that can be measured in about a second. */
 static size_t longest_prefix(const koksma_points *points)
 {
     const size_t most = points->dim <= 2 ? (size_t)1 << 22 : points->dim == 3 ? (size_t)1 << 18 : (size_t)1 << 12;
@@ -58,6 +58,6 @@ static koksma_status look(koksma__verification *v)
 const koksma__property koksma__property_progressive = {
     .public = {.name = "progressive",
                .meaning =
-                   "prefixes are at most twice as uneven as random points; value: the largest ratio (L2 star)"},
+                   "prefixes have at most twice the L2 star discrepancy of random points; value: the largest ratio"},
     .look = look,
 };

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * latin and stratified: one point in each stratum of a partition of the cube into n boxes of equal size. latin cuts
- * one coordinate into n; stratified cuts the first two into m x n/m for every divisor m, or 3 or 4 dimensions into
- * m^dim. The points are counted per box; the value is the number of empty boxes. O(n) for each partition.
+ * latin and stratified: whether each of n boxes of equal size, a partition of the cube, holds one point. latin cuts
+ * one coordinate into n intervals; stratified cuts the first two coordinates into m x n/m cells for every divisor m
+ * of n, or the cube of 3 or 4 dimensions into m^dim cells. The points in each box are counted; the value is the
+ * number of empty boxes. O(n) for each partition.
  */
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +12,7 @@
 #include "core/net.h"
 #include "verify/verify.h"
 
-/* How many points each of the n cells holds that m[k] strata along each of the first dim coordinates of `use` make.
- */
+/* Counts the points in each of the n cells: cutting coordinate use[k] into m[k] strata, k < dim, makes the cells. */
 static void count_cells(const koksma_points *points, const int *use, const size_t *m, int dim, uint32_t *counts)
 {
     memset(counts, 0, points->n * sizeof *counts);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * concentric-disk: concentric squares become concentric circles; area is kept and neighbours stay neighbours.
- * With (a,b) = 2u - 1: if |a| > |b|, radius a and angle (pi/4)(b/a); else radius b and angle pi/2 - (pi/4)(a/b).
- * Source: Shirley & Chiu 1997. Known exactly: the centre stays, corners go to the diagonals of the circle.
+ * concentric-disk: maps concentric squares to concentric circles; it keeps ratios of areas and is continuous. With
+ * (a,b) = 2u - 1: if |a| > |b|, radius a and angle (pi/4)(b/a); else radius b and angle pi/2 - (pi/4)(a/b). Source:
+ * Shirley & Chiu 1997. Known exactly: the square's centre goes to the disk's centre, and its corners to the points of
+ * the circle on the diagonals.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"

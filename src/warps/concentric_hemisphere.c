@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * concentric-hemisphere: the concentric map to the disk, then z = 1 - r^2 and radius r sqrt(2 - r^2): uniform solid
- * angle. Source: Shirley & Chiu 1997.
+ * concentric-hemisphere: the concentric map to the disk, then the radius r becomes r sqrt(2 - r^2) at the height z =
+ * 1 - r^2: the directions are uniform in solid angle. Source: Shirley & Chiu 1997.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * cosine-hemisphere: the concentric map to the disk, then straight up to z = sqrt(1 - r^2): density z/pi.
- * Source: Shirley & Chiu 1997; the lift is known as Malley's method.
+ * cosine-hemisphere: the concentric map to the disk, then a vertical projection up to z = sqrt(1 - r^2): the
+ * directions have the density z/pi. Source: Shirley & Chiu 1997; the projection onto the hemisphere is known as
+ * Malley's method.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"

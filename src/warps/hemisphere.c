@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * hemisphere: the polar map to the disk, then z = 1 - r^2 and radius r sqrt(2 - r^2): height 1 - u_0, angle 2 pi u_1,
- * uniform solid angle. Source: Shirley 1991; the lift is Lambert's equal-area projection.
+ * hemisphere: the polar map to the disk, then the radius r becomes r sqrt(2 - r^2) at the height z = 1 - r^2. The
+ * height is thus 1 - u_0, the angle 2 pi u_1, and the directions are uniform in solid angle. Source: Shirley 1991;
+ * the map from the disk to the hemisphere is the inverse of Lambert's equal-area projection.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"

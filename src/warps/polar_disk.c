@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * polar-disk: radius sqrt(u_0), angle 2 pi u_1; area is kept, distances are not: the square is cut open along one
- * radius and squeezed at the centre. Source: Shirley 1991, section 5.5, the contrast to its preferred disk map.
+ * polar-disk: radius sqrt(u_0), angle 2 pi u_1. The map keeps ratios of areas but not distances: two sides of the
+ * square meet along one radius of the disk, and a third shrinks to its centre. Source: Shirley 1991, section 5.5,
+ * where it is the contrast to the preferred map to the disk.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"

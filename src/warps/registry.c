@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of warps (warps.def): member i, and the member of a name. */
+/* The table of warps (warps.def) and the public functions that look up a warp by its index or its name. */
 #include "core/lookup.h"
 #include "warps/warps.h"
 

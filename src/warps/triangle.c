@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * triangle: (1 - sqrt u_0, u_1 sqrt u_0): strips of u_0 become strips along a side; area is kept. The side u_0 = 0 of
- * the square shrinks to a corner. Source: Turk 1990.
+ * triangle: maps (u_0, u_1) to (1 - sqrt u_0, u_1 sqrt u_0). Strips of constant u_0 become strips parallel to a side
+ * of the triangle; ratios of areas are kept. The side u_0 = 0 of the square shrinks to a corner of the triangle.
+ * Source: Turk 1990.
  */
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Patterns with one point in each cell of a grid: how n is cut into m^dim cells or into columns and rows, and a
- * uniform place in each cell. Errors name the nearest n that would do.
+ * Helpers of patterns with one point in each cell of a grid: they factor n into m^dim cells or into columns and rows,
+ * and put a uniform random point into each cell. Error messages name the nearest n that would do.
  */
 #include "patterns/shared/cells.h"
 
@@ -13,7 +13,7 @@
 #include "kernels/kernels.h"
 #include "patterns/shared/fill.h"
 
-/* m^dim, or SIZE_MAX when that is no number of points. */
+/* m^dim, or SIZE_MAX where that overflows. */
 static size_t power(size_t m, int dim)
 {
     size_t product = 1;

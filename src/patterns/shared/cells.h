@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the patterns on a grid of cells share: how n is cut into cells, and placing a number in its cell. */
+/* Helpers of the patterns on a grid of cells: they factor n into numbers of cells and put points into cells. */
 #ifndef KOKSMA_PATTERNS_SHARED_CELLS_H
 #define KOKSMA_PATTERNS_SHARED_CELLS_H
 
@@ -7,37 +7,40 @@
 
 #include "core/visibility.h"
 
-/* A place u in [0,1) of cell `cell` of m. The result is at least the double nearest to cell/m and below the one
-   nearest to (cell+1)/m: where rounding takes it there, it is the double before. Cell centres stay exact. */
+/* The coordinate at the fraction u, in [0,1), of cell number `cell` of m cells. The result is at least the double
+   nearest to cell/m and below the double nearest to (cell+1)/m: if rounding reaches the latter, the result is the
+   double before it. For u = 1/2 the result is the double nearest to the cell's centre. */
 static inline double koksma__in_cell(double cell, double u, double m)
 {
     const double x = (cell + u) / m, end = (cell + 1) / m;
     return x < end ? x : end * (1 - 0x1p-53);
 }
 
-/* The parameter that the patterns on cells share: params[0] of those that use KOKSMA__PARAM_COLUMNS. */
+/* The parameter `columns` of patterns on grids of cells; koksma__fill_cells expects it as params[0]. */
 #define KOKSMA__PARAM_COLUMNS                                                                                        \
     {                                                                                                                \
         "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true   \
     }
 
-/* `columns` for patterns of cells that make any number of points. */
+/* The parameter `columns` of patterns on cells that take any n. */
 #define KOKSMA__PARAM_DIVISOR                                                                                        \
     {                                                                                                                \
         "columns", "cells along x, a divisor of n; 0: the one nearest to the root of n from below", 0, 0, 1 << 28,   \
             NULL, true                                                                                               \
     }
 
-/* columns * rows = n. Errors: N, with the n that would do. */
+/* Factors n into columns * rows; `wanted` is the parameter `columns`. Fails with KOKSMA_N, naming the n that would
+   do. */
 KOKSMA__LAB koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows);
 
-/* Cells along x (2D with columns > 0), and along every other coordinate, such that their product is out->n.
-   Errors: N, with the n that would do. */
+/* Computes the number of cells along the first coordinate and that along every other coordinate, such that there are
+   out->n cells. They may differ in 2D only, with columns > 0. Fails with KOKSMA_N, naming the n that would do. */
 KOKSMA__LAB koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
                                         size_t *along_rest);
 
-/* The range of points that args wants of those with one in every cell, in order of the cells (the last coordinate's
-   changes fastest): the point is at centre + (u - 1/2) * width of its cell, with u uniform; width in [0,1]. */
+/* Makes points args->first, args->first + 1, ... of a set with one point in every cell, in order of the cells (the cell
+   along the last coordinate changes fastest). A point is at the cell's centre + (u - 1/2) * width cell sizes, with u
+   uniform in [0,1)^dim and width in [0,1]. */
 koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
                                  koksma_points *out);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Fills points by blocks of rows on several threads. Coordinates are made in columns of 512, which stay in the
- * cache, and kernels transpose columns into rows. Sets larger than the caches are written by streaming stores.
+ * Fills sets of points in blocks of rows on several threads. Coordinates are computed in columns of 512 points, which
+ * stay in the cache, and kernels transpose the columns into rows. Streaming stores write sets that are larger than
+ * the caches.
  */
 #include "patterns/shared/columns.h"
 
@@ -46,7 +47,7 @@ void koksma__store_columns(size_t count, int some, const double *columns, size_t
     }
 }
 
-/* Points at .. at + count - 1, all of one block of indices. */
+/* Makes points at .. at + count - 1, which all belong to one aligned block of KOKSMA__COLUMN_BLOCK indices. */
 static void block(const job *j, uint64_t at, size_t count)
 {
     double columns[COLUMNS][KOKSMA__COLUMN_BLOCK];
@@ -59,13 +60,14 @@ static void block(const job *j, uint64_t at, size_t count)
     }
 }
 
-/* Groups are of indices, not of out's points. */
+/* The number of groups that points first .. first + n - 1 touch. Groups are aligned ranges of GROUP indices and do not
+   depend on `first`. */
 static size_t groups_of(uint64_t first, size_t n)
 {
     return (size_t)((first + n - 1) / GROUP - first / GROUP + 1);
 }
 
-/* Group g of the points first .. first + n - 1. */
+/* The part at .. end - 1 of the points first .. first + n - 1 that is in their group number g. */
 static void group_of(uint64_t first, size_t n, size_t g, uint64_t *at, uint64_t *end)
 {
     const uint64_t start = (first / GROUP + g) * GROUP;
@@ -130,8 +132,8 @@ uint32_t koksma__digital_start(const uint32_t *directions, uint64_t first)
     return start;
 }
 
-/* The kernel takes points whose index is that of the first with some of its last zeros set: a group that begins amid
-   is cut at the ends of longer and longer such runs. */
+/* Makes the points of group g of a digital sequence. The kernel handles aligned runs of 2^k points, so that a group
+   which begins at an unaligned index is cut into longer and longer aligned runs. */
 static koksma_status group_of_digits(void *context, size_t g)
 {
     const digital_job *j = context;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Patterns whose coordinates are computed one column at a time, a block of points at a time: no allocation, and the
-   same bits on any number of threads. */
+/* Fills the points of patterns that compute one coordinate (a column) of a block of points at a time. The functions
+   allocate no memory, and results are equal to the last bit on any number of threads. */
 #ifndef KOKSMA_PATTERNS_SHARED_COLUMNS_H
 #define KOKSMA_PATTERNS_SHARED_COLUMNS_H
 
@@ -8,44 +8,46 @@
 
 enum { KOKSMA__COLUMN_BLOCK = 512 };
 
-/* xs[0] .. xs[count-1] = coordinate k of points first .. first + count-1. first is a multiple of the block and count
-   at most the block; xs has room for a whole block. */
+/* Computes coordinate k of points first .. first + count - 1 into xs[0] .. xs[count - 1]. `first` is a multiple of
+   KOKSMA__COLUMN_BLOCK and count is at most that; xs has room for a whole block. */
 typedef void (*koksma__column)(const void *context, int k, uint64_t first, size_t count, double *xs);
 
-/* Coordinates k .. k + some - 1 at once, some <= 8: xs[c][i] = coordinate k + c of point first + i. */
+/* Computes the coordinates k .. k + some - 1 at once, some <= 8: xs[c][i] is coordinate k + c of point first + i. */
 typedef double (*koksma__columns)[KOKSMA__COLUMN_BLOCK];
 typedef void (*koksma__block)(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs);
 
-/* Point 0 of out is point args->first. */
+/* Fill `out` with points args->first, args->first + 1, ... by calling f for each block of points. */
 koksma_status koksma__range_blocks(const koksma_args *args, koksma_points *out, koksma__block f, const void *context);
 koksma_status koksma__range_columns(const koksma_args *args, koksma_points *out, koksma__column f,
                                     const void *context);
 
 enum { KOKSMA__DIGITAL_DIM = 16 };
 
-/* A range of a digital sequence in base 2, dim <= KOKSMA__DIGITAL_DIM, up to point 2^32 - 1: coordinate k of point i is
-   2^-32 times starts[k] xor directions[k][b] for all bits b of i. */
+/* Fills `out` with a range of a digital sequence in base 2, dim <= KOKSMA__DIGITAL_DIM, up to point 2^32 - 1:
+   coordinate k of point i is 2^-32 times the exclusive or of starts[k] and directions[k][b] for all bits b set in i. */
 koksma_status koksma__range_digital(const koksma_args *args, const uint32_t *const *directions,
                                     const uint32_t *starts, koksma_points *out);
 
-/* What the bits of `first` make of directions. */
+/* The exclusive or of directions[b] for all bits b set in `first`. */
 uint32_t koksma__digital_start(const uint32_t *directions, uint64_t first);
 
-/* An error unless the points wanted are below 2^32, which the indices of some sequences are. */
+/* Fails with KOKSMA_N if a point's index is 2^32 or more, for sequences whose indices have 32 bits. */
 koksma_status koksma__range_fits(const char *name, const koksma_args *args, const koksma_points *out);
 
-/* All coordinates of points first .. first + count - 1 of out, first a multiple of 32768; stream: past the caches. */
+/* Computes all coordinates of points first .. first + count - 1 of `out`, with `first` a multiple of 32768; `stream`:
+   whether to bypass the caches with streaming stores. */
 typedef void (*koksma__rows)(const void *context, size_t first, size_t count, bool stream, koksma_points *out);
 
 koksma_status koksma__fill_rows(const koksma_run *run, koksma_points *out, koksma__rows f, const void *context);
 
-/* Whether points are better stored past the caches: they are larger than these. */
+/* Whether the set is larger than the caches, so that streaming stores should write it. */
 bool koksma__is_large(const koksma_points *out);
 
-/* out[i*dim + k] = xs[i] for i < count. */
+/* Stores a column as coordinate k of `count` points: out[i*dim + k] = xs[i] for i < count. */
 void koksma__store_column(size_t count, const double *xs, int dim, int k, double *out);
 
-/* Coordinates k .. k + some - 1 of points first .. first + count-1, column c at columns[c KOKSMA__COLUMN_BLOCK]. */
+/* Stores coordinates k .. k + some - 1 of points first .. first + count - 1; that of coordinate k + c are at
+   columns[c * KOKSMA__COLUMN_BLOCK] and after. */
 void koksma__store_columns(size_t count, int some, const double *columns, size_t first, int k, koksma_points *out);
 
 #endif

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The grid, the tiles and the shrinking cover of dart throwing; dart_cover.h has the algorithm, dart_round.c a
- * round of darts.
+ * The grid, the tiles and the shrinking cover of dart throwing. dart_cover.h describes the algorithm; dart_round.c
+ * throws a round of darts.
  *
- * Cells are at most d / sqrt(2) wide, so that a cell holds one point at most, and whether a dart is near a point is
- * decided by the 5 x 5 cells around it. The cover begins with all cells as squares. After a round each square is
- * cut in four (one level of a quadtree, all leaves at one depth), and a quarter is dropped when it lies within d of
- * one point, its farthest corner included: no dart can land there. The rest is the cover of the next round. It
- * shrinks geometrically until no square is left or squares reach the resolution of doubles: then the set is
- * maximal.
+ * Cells are at most d / sqrt(2) wide, so that a cell holds at most one point, and only the 5 x 5 cells around a dart
+ * can hold points near it. The cover begins with all cells as squares. After a round each square is cut into four
+ * (one level of a quadtree with all leaves at one depth), and a quarter is dropped if all of it, up to its farthest
+ * corner, is within d of one point: no dart can be kept there. The remaining quarters are the cover of the next
+ * round. The cover shrinks geometrically until no square is left or squares reach the resolution of doubles: then the
+ * set is maximal.
  *
- * Squares are lists, one a tile; a tile's cells carry a border of copies of its neighbours' cells, brought up to
- * date between rounds, so that kernels read one contiguous array.
+ * Each tile has a list of squares. Around a tile's cells there is a border of copies of its neighbours' cells, which
+ * are updated between rounds, so that kernels read one contiguous array.
  */
 #include "patterns/shared/dart_cover.h"
 
@@ -26,16 +26,16 @@
 
 enum {
     BORDER = KOKSMA__DART_BORDER,
-    SPARE = 3 /* places after a row, which kernels read */
+    SPARE = 3 /* elements after the last row, because kernels read beyond it */
 };
 
 #define NONE UINT32_MAX
 
-#define FINEST ((uint64_t)1 << 30) /* squares a side; room smaller than that is none */
+#define FINEST ((uint64_t)1 << 30) /* squares on a side of the torus, at most; smaller free areas are ignored */
 
 static const double far_away = 1e9;
 
-/* Room for `count` things of `size` bytes, whose contents may be lost. */
+/* Grows the array `things` to `count` elements of `size` bytes; its contents may be lost. False: no memory. */
 static bool get_room(void **things, size_t *room, size_t count, size_t size)
 {
     if (count > *room) {
@@ -47,8 +47,9 @@ static bool get_room(void **things, size_t *room, size_t count, size_t size)
     return *things != NULL;
 }
 
-/* Cells and tiles for distance d. The difference of two places is off by less than a unit in each coordinate, that
-   of a place and the middle of a square by half of one. */
+/* Chooses cells and tiles for distance d, and the limits on squared distances between fixed-point positions. The
+   difference of two such positions is off by less than a unit in each coordinate, that of a position and the middle of
+   a square by less than half a unit; 1.42 and 0.71 are these errors times sqrt(2). */
 static void choose_grid(koksma__disks *s, double d)
 {
     s->d = d;
@@ -65,7 +66,7 @@ static void choose_grid(koksma__disks *s, double d)
     s->cover = (int32_t)((reach - 0.71) * (reach - 0.71));
 }
 
-/* The tiles' cells without points. */
+/* Empties the cells of all tiles. */
 static void clear_grid(koksma__disks *s)
 {
     const size_t tiles = (size_t)s->tiles * s->tiles;
@@ -79,7 +80,7 @@ static void clear_grid(koksma__disks *s)
     memset(s->who, 0xff, tiles * s->wide * s->wide * sizeof *s->who);
 }
 
-/* An empty grid for distance d. */
+/* Makes an empty grid for distance d. */
 static koksma_status make_grid(koksma__disks *s, double d)
 {
     choose_grid(s, d);
@@ -118,8 +119,8 @@ void koksma__disks_fini(koksma__disks *s)
     *s = (koksma__disks){0};
 }
 
-/* The tiles that hold a cell along one axis, and its index in each of them; in a tile's border the index lies
-   outside the tile. */
+/* The tiles that hold a cell or a copy of it, along one axis, and the cell's index in each of them; where the copy is
+   in a tile's border, the index is outside the tile. */
 typedef struct axis {
     int count, at[2 * BORDER + 1];
     uint32_t tile[2 * BORDER + 1];
@@ -167,8 +168,8 @@ void koksma__disks_put(koksma__disks *s, const koksma__tile *t, uint32_t cell_x,
     }
 }
 
-/* The points of the cells that a point of the cell can be in reach of, in units of the torus: 25 of them, with the
-   corners, since the diagonal of a cell is a little shorter than d. */
+/* The points in the 5 x 5 cells around a cell, in units of the torus: all points that can be within d of a point of the
+   cell. The corner cells count, too, because the diagonal of a cell is a little shorter than d. */
 typedef struct around {
     size_t count;
     double xs[32], ys[32];
@@ -194,12 +195,13 @@ static void look_around(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y
     }
 }
 
-/* The quarters of a tile's squares that have room, by doubles: for squares so small that the errors of places would
-   matter. Larger ones may be told to have room when they nearly have, since their quarters will be asked. */
+/* Finds the quarters of a tile's squares that have free area, in double arithmetic: for squares so small that the
+   rounding of fixed-point positions matters. Larger squares may be kept although they have no free area, because their
+   quarters are examined later. */
 static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, size_t first, size_t end,
                              koksma__square *out)
 {
-    const double half = 0.25 / ((double)((uint32_t)1 << s->level) * s->cells); /* of a quarter's side */
+    const double half = 0.25 / ((double)((uint32_t)1 << s->level) * s->cells); /* half of a quarter's side */
     uint32_t cell_x = NONE, cell_y = NONE;
     size_t kept = 0;
     around points;
@@ -211,7 +213,7 @@ static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, size
             look_around(s, cell_x, cell_y, &points);
         }
         if (s->who[koksma__disks_own(s, t->number, cell_x - t->x, cell_y - t->y)] != NONE) {
-            continue; /* its point covers the cell */
+            continue; /* the point in this cell covers the cell */
         }
         const unsigned covered =
             s->kernels->covers(points.count, points.xs, points.ys, (4 * (double)square.x + 2) * half,
@@ -256,7 +258,7 @@ koksma_status koksma__disks_refine(koksma__disks *s)
     return KOKSMA_OK;
 }
 
-/* The list of whole cells. */
+/* Makes the first cover: the lists of all cells. */
 static void list_cells(koksma__disks *s)
 {
     uint32_t *squares = s->squares;

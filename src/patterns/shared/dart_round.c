@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The darts of one round of koksma__disks_fill (dart_cover.h): which of them are kept. */
+/* Throws the darts of one round of koksma__disks_fill and decides which are kept (the algorithm is in
+   dart_cover.h). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,13 +15,14 @@ enum { MOST_CELLS = KOKSMA__DART_TILE };
 
 #define NONE UINT32_MAX
 
-/* The darts of this round that wait in a tile, by cell. */
+/* The darts of this round that wait in one tile, by cell. */
 typedef struct queue {
     uint8_t rows[MOST_CELLS][MOST_CELLS / 8 + 1];
-    uint32_t last[MOST_CELLS * MOST_CELLS]; /* the dart in each cell with a bit in rows */
+    uint32_t last[MOST_CELLS * MOST_CELLS]; /* last waiting dart in each cell whose bit in rows is set */
 } queue;
 
-/* The darts that are drawn and not thrown yet, four words each. Few are drawn at first: small sets need few. */
+/* The random words of darts that are drawn but not thrown yet, four words for each dart; draws more if there are none.
+   The first batch is small, because small sets need few darts. */
 static size_t draw(koksma__disks *s, const uint32_t **words)
 {
     if (s->used == s->drawn) {
@@ -33,7 +35,7 @@ static size_t draw(koksma__disks *s, const uint32_t **words)
     return s->drawn - s->used;
 }
 
-/* Of the points whose places don't tell. */
+/* Whether a point is nearer than d, in double arithmetic, for points whose fixed-point distance does not decide. */
 static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 {
     const koksma__tile t = koksma__disks_tile(s, d->tile);
@@ -56,7 +58,7 @@ static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
     return false;
 }
 
-/* Whether there is a point nearer than d. */
+/* Whether there is a point nearer to the dart than d. */
 static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
 {
     const size_t corner = koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
@@ -64,12 +66,12 @@ static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
     return least < s->high && (least < s->low || near_in_doubles(s, d));
 }
 
-/* The squares of a tile, to throw at. */
+/* A tile whose squares darts are thrown at. */
 typedef struct target {
     koksma__tile tile;
     koksma__dart_cells cells;
     size_t first;
-    double side; /* of a square, on the torus */
+    double side; /* side of a square, the torus having side 1 */
 } target;
 
 static target target_of(const koksma__disks *s, uint32_t number)
@@ -80,7 +82,7 @@ static target target_of(const koksma__disks *s, uint32_t number)
     return a;
 }
 
-/* The darts, by their numbers, that are not clearly near points. */
+/* Lists in `far` the numbers of the darts that are not certainly too near to a point; returns how many there are. */
 static size_t choose_far(const koksma__disks *s, const target *a, size_t count, const uint32_t *words, uint32_t *far)
 {
     if (s->level <= KOKSMA__PACKED_LEVEL) {
@@ -92,13 +94,13 @@ static size_t choose_far(const koksma__disks *s, const target *a, size_t count, 
     return count;
 }
 
-/* The place of a coordinate of a dart, from the grid's corner. */
+/* A coordinate of a dart as a fixed-point number, measured from the grid's corner. */
 static inline uint32_t place_of(uint32_t square, uint32_t word, int level)
 {
     return (uint32_t)((((uint64_t)square << 32 | word) >> (level + 31 - KOKSMA__PLACE_BITS)) + 1) >> 1;
 }
 
-/* A dart at a random one of the squares of a tile. False if it misses the unit square by rounding. */
+/* Makes a dart in a random square of a tile. False if rounding puts it outside the unit square. */
 static inline bool aim(const koksma__disks *s, const target *a, const uint32_t *w, koksma__dart *d)
 {
     const koksma__tile *t = &a->tile;
@@ -141,8 +143,8 @@ static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const 
     return KOKSMA_OK;
 }
 
-/* The only tile: its darts are in order of time, and decided at once. Of those drawn together first all are left out
-   that are near the points there were before. */
+/* Throws a round of darts if there is only one tile: darts come in order of time and are decided at once. From each
+   batch, darts near points of earlier batches are dropped first. */
 static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
 {
     const target a = target_of(s, 0);
@@ -164,7 +166,7 @@ static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
     return status;
 }
 
-/* Whether the dart has to wait: its reach leaves the tile, or an earlier dart near it waits. */
+/* Whether the dart has to wait: cells within d of it are outside the tile, or an earlier dart near it waits. */
 static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, const queue *q, const koksma__dart *d)
 {
     const uint32_t x = d->cell_x, y = d->cell_y;
@@ -204,12 +206,12 @@ static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
     return KOKSMA_OK;
 }
 
-/* The time in a Poisson process with events at the given rate in [0, 1): times its rate, it is -log of a product of
-   uniform numbers, of which the logarithm is taken when it is asked for. */
+/* The current time in a Poisson process on [0, 1) with the given rate. The time multiplied by the rate is -log of a
+   product of uniform numbers; the logarithm is computed only for darts that need their time. */
 typedef struct stopwatch {
     double rate, before, product;
     int factors;
-    double last; /* product at which the process ends */
+    double last; /* the process ends once `product` is at most this */
 } stopwatch;
 
 static bool tick(stopwatch *c, uint32_t word)
@@ -217,7 +219,7 @@ static bool tick(stopwatch *c, uint32_t word)
     if (!c->factors) {
         c->before -= koksma__log(c->product);
         c->product = 1;
-        c->factors = 16; /* of at least 2^-33: exp(-366) together */
+        c->factors = 16; /* each is at least 2^-33, so their product is at least exp(-366) */
         c->last = c->rate - c->before > 400 ? 0 : koksma__exp(c->before - c->rate);
     }
     c->factors--;
@@ -225,7 +227,7 @@ static bool tick(stopwatch *c, uint32_t word)
     return c->product > c->last;
 }
 
-/* Brings a tile into the cache: darts, which come anywhere, would wait for each line of it. */
+/* Prefetches a tile into the cache: darts hit it in random order, so that each would wait for its cache lines. */
 static void fetch(const koksma__disks *s, const target *a)
 {
     for (size_t i = 0; i < s->block; i += 16) {
@@ -239,7 +241,7 @@ static void fetch(const koksma__disks *s, const target *a)
     }
 }
 
-/* One of several tiles. Times of points are written down if asked for. */
+/* Throws a round of darts at one of several tiles; with `timed` it stores the arrival times of the kept points. */
 static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, double mean, bool timed)
 {
     const target a = target_of(s, number);
@@ -284,7 +286,7 @@ static int earlier(const void *a, const void *b)
     return (d->time > e->time) - (d->time < e->time);
 }
 
-/* The points of the round from number `before` on become so few that there are n. */
+/* Drops the latest points of this round, which begin at number `before`, until n points are left. */
 static koksma_status drop_last(koksma__disks *s, size_t before, size_t n)
 {
     const size_t count = s->n - before;
@@ -303,7 +305,8 @@ static koksma_status drop_last(koksma__disks *s, size_t before, size_t n)
     return KOKSMA_OK;
 }
 
-/* Puts the waiting darts in order of time: n uniform numbers are nearly in order when their n-ths are. */
+/* Sorts the waiting darts by time: a bucket sort by floor(n * time), which leaves n uniform times nearly sorted,
+   then an insertion sort. */
 static koksma_status sort_waiting(koksma__disks *s)
 {
     const size_t n = s->n_waiting;

@@ -8,22 +8,24 @@
  *         sqrt(1 / (2 sqrt3 n))          dim 2, the hexagonal packing
  *         (1 / (4 sqrt2 n))^(1/3)        dim 3, the face-centred cubic packing
  *         (1 / (V_dim n))^(1/dim)        dim > 3, V_dim the volume of the unit ball
- *     d_min = d_max (1 - (n/m)^1.5) 0.65, n points kept of m: weight limiting
+ *     d_min = d_max (1 - (n/m)^1.5) 0.65, the weight limit, where n of m points are kept
  *
- * Without weight limiting, two points that happen to be close outweigh a whole crowd, and the last points that are
- * taken out are the wrong ones: at n = 1024 of 5120 the relative radius is 0.635 without and 0.696 with it.
+ * Without weight limiting, two points that happen to be close have more weight than a point in a whole crowd, and the
+ * last points removed are the wrong ones: for n = 1024 of 5120 points the relative radius is 0.635 without and 0.696
+ * with weight limiting.
  *
- * A heap has the heaviest point on top; when it goes, its share of the weights of its neighbours goes, too. Cells of
- * about half d_max (in 3 dimensions or fewer, else d_max) hold the points that are left, so that a visit looks at a
- * bounded number of cells: O(m log m) in few dimensions, O(m^2) where d_max spans the torus. Memory: 16 dim + 44
- * bytes a point. Points in cells are renumbered so that neighbours are near in memory.
+ * A heap has the heaviest point on top. When that point is removed, its contribution to its neighbours' weights is
+ * subtracted. A grid of cells, about d_max / 2 wide in 3 dimensions or fewer, else d_max, holds the remaining points,
+ * so that finding a point's neighbours visits a bounded number of cells: O(m log m) in few dimensions, O(m^2) where
+ * d_max spans the torus. Memory: 16 dim + 44 bytes for each point. Points are renumbered cell by cell so that
+ * neighbours are near in memory.
  *
- * Where d_max is above 1/2, several images of one point are within d_max, and each of them weighs, as in the author's
- * implementation: from equal candidates both keep equal points (n = 64 in 2 to 6 dimensions). A ball of radius d_max
- * has 2^dim m/n points and images, too many above 8 dimensions: there, and below 4, where only sets of at most 11
- * points have such a d_max, the nearest image alone weighs. It changes which points are kept, and hardly how evenly:
- * the mean smallest distance of 64 points in 6 dimensions is 0.159 with all images and 0.155 with the nearest, 20 sets
- * each.
+ * Where d_max is above 1/2, several periodic images of one point are within d_max, and each contributes to the
+ * weight, as in Yuksel's implementation: from equal candidates both programs keep equal points (n = 64 in 2 to 6
+ * dimensions). A ball of radius d_max contains 2^dim m/n points and images, too many above 8 dimensions: there, and
+ * below 4 dimensions, where only sets of at most 11 points have such a d_max, only the nearest image contributes.
+ * This changes which points are kept, but hardly how evenly they are distributed: the mean smallest distance of 64
+ * points in 6 dimensions, over 20 sets, is 0.159 with all images and 0.155 with the nearest.
  */
 #include "patterns/shared/elimination.h"
 
@@ -39,7 +41,7 @@
 
 enum { GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22 };
 
-#define BETA 0.65 /* Yuksel's gamma is 1.5: a power that needs no pow() */
+#define BETA 0.65 /* Yuksel's beta; his gamma = 1.5 is a power that needs no pow() */
 
 typedef struct entry {
     double weight;
@@ -48,19 +50,19 @@ typedef struct entry {
 
 typedef struct elimination {
     int dim, grid_dims;
-    size_t all, keep, count; /* points given, to keep, in the heap */
+    size_t all, keep, count; /* numbers of points: given, to keep, in the heap */
     double d_max, d_min;
-    bool all_images;        /* of a point weigh, not only the nearest */
-    double *xs;             /* of the points as they are renumbered */
-    uint32_t *origin;       /* a point's number as it was given */
-    entry *heap;            /* the heaviest first */
-    uint32_t *heap_place;   /* of a point in the heap */
-    size_t cells, reach;    /* a side; how many cells d_max can reach */
-    uint32_t *cell_start;   /* of each cell in `members` */
-    uint32_t *cell_count;   /* the points that are left in it */
-    uint32_t *members;      /* of all cells */
-    uint32_t *member_place; /* of a point in `members` */
-    size_t looks;           /* distances since the run was last asked */
+    bool all_images;        /* all images of a point contribute, not only the nearest */
+    double *xs;             /* coordinates of the renumbered points */
+    uint32_t *origin;       /* the number that a point had when it was given */
+    entry *heap;            /* heaviest point first */
+    uint32_t *heap_place;   /* index of a point in the heap */
+    size_t cells, reach;    /* cells on a side; how many cells away d_max can reach */
+    uint32_t *cell_start;   /* where each cell's points begin in `members` */
+    uint32_t *cell_count;   /* number of points left in each cell */
+    uint32_t *members;      /* the points of all cells, cell by cell */
+    uint32_t *member_place; /* index of a point in `members` */
+    size_t looks;           /* distances computed since the last check of `run` */
 } elimination;
 
 double koksma__elimination_radius(size_t n, int dim)
@@ -75,7 +77,7 @@ double koksma__elimination_radius(size_t n, int dim)
     if (dim == 3) {
         return 2 * cbrt(area / (4 * sqrt(2)));
     }
-    double ball = dim % 2 ? 2 : M_PI; /* the unit ball's volume, from that of two dimensions less */
+    double ball = dim % 2 ? 2 : M_PI; /* volume of the unit ball, from that in two dimensions less */
     for (int d = dim % 2 ? 3 : 4; d <= dim; d += 2) {
         ball *= 2 * M_PI / d;
     }
@@ -131,7 +133,7 @@ static size_t cell_of(const elimination *e, const double *x)
     return cell;
 }
 
-/* As many cells a side as d_max allows, but about one for each point at most. Returns their number. */
+/* Chooses as many cells on a side as d_max allows, but no more cells than points. Returns the number of cells. */
 static size_t size_cells(elimination *e)
 {
     e->grid_dims = e->dim < GRID_DIMS ? e->dim : GRID_DIMS;
@@ -155,7 +157,7 @@ static size_t size_cells(elimination *e)
     return count;
 }
 
-/* Numbers the points cell by cell, in each as they are given. */
+/* Renumbers the points cell by cell; within a cell they stay in the given order. */
 static void sort_into_cells(elimination *e, const double *points, size_t cells)
 {
     const size_t dim = (size_t)e->dim;
@@ -193,9 +195,10 @@ static double weight_at(const elimination *e, double square)
     return t4 * t4;
 }
 
-/* The weight of all images within d_max of a point. across: the difference to the nearest image along each axis; square:
-   the squared distance to the image that has been chosen along the axes before k, and is the nearest along k and the
-   others. Along an axis images are visited from the nearest to the farthest. */
+/* The summed weight of all images of another point within d_max, by recursion over the axes. across: the difference to
+   the nearest image along each axis; square: the squared distance to the image that is chosen along the axes before k
+   and the nearest one along axis k and those after it. Along each axis images are visited from the nearest to the
+   farthest. */
 static double weight_of_images(elimination *e, const double *across, int k, double square)
 {
     if (k == e->dim) {
@@ -214,8 +217,9 @@ static double weight_of_images(elimination *e, const double *across, int k, doub
     }
 }
 
-/* While the heap is in the order of the points, `point` gains what its neighbours weigh on it; later they lose what
-   it weighs on them. */
+/* Visits the neighbours of `point` in one cell. With relieve = false, while the heap is still in the order of the
+   points, adds their contributions to the weight of `point`; with relieve = true, after `point` was removed, subtracts
+   its contributions from their weights. */
 static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve)
 {
     const size_t dim = (size_t)e->dim;
@@ -247,7 +251,7 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     }
 }
 
-/* All cells in reach, each once, dimension by dimension. */
+/* Calls weigh_cell for each cell that can hold neighbours of `point`, by recursion over the dimensions. */
 static void weigh_from(elimination *e, int k, size_t row, uint32_t point, bool relieve)
 {
     if (k == e->grid_dims) {
@@ -300,10 +304,10 @@ static koksma_status take_out(elimination *e, const koksma_run *run, uint32_t *o
     return KOKSMA_OK;
 }
 
-/* The numbers of the points that are left, in rising order. */
+/* Lists the original numbers of the remaining points in ascending order. */
 static void list_kept(const elimination *e, uint32_t *order)
 {
-    uint32_t *left = e->member_place; /* no more needed */
+    uint32_t *left = e->member_place; /* reused: no longer needed for its first purpose */
     memset(left, 0, e->all * sizeof *left);
     for (size_t at = 0; at < e->keep; at++) {
         left[e->origin[e->heap[at].point]] = 1;
@@ -349,9 +353,9 @@ static void pick(size_t n, size_t dim, const double *from, const uint32_t *order
     }
 }
 
-/* Half of the first `count` points after the other: those taken out follow those that stay, and the radius grows with
-   the room that each point has. d_min stays that of the whole set, as in the author's implementation. `spare` has
-   room for as many points. */
+/* Orders the first `count` points progressively: elimination halves them again and again, each time with a d_max that
+   grows with the volume available to each point, and puts the points removed after those kept. d_min stays that of the
+   whole set, as in Yuksel's implementation. `spare` has room for `count` points. */
 static koksma_status order_progressively(size_t count, int dim, double d_max, double d_min, const koksma_run *run,
                                          uint32_t *order, double *spare, double *xs)
 {

@@ -6,25 +6,25 @@
 
 #include <koksma/koksma.h>
 
-/* Twice the largest Poisson disk radius of n points in [0,1)^dim: the radius of the weight function. Exact for the
-   torus packings of dim 1, 2 and 3; above, the radius of balls that fill the whole volume, as the paper takes it. */
+/* Twice the largest Poisson disk radius of n points in [0,1)^dim: the radius of the weight function. In dim 1, 2 and 3
+   it follows from the densest packing; above, from balls that fill the whole volume, as in the paper. */
 double koksma__elimination_radius(size_t n, int dim);
 
-/* Weight limiting: the fraction of that radius below which a smaller distance weighs no more, when n of m points
-   are kept. */
+/* The weight limit d_min / d_max if n of m points are kept: distances below d_min have the same weight as d_min. */
 double koksma__elimination_limit(size_t n, size_t m);
 
-/* Takes the heaviest of `count` points out, one after the other, until `keep` are left. A point weighs the sum over
-   the others of (1 - max(d, d_min) / d_max)^8, where d is the distance on the torus and d < d_max; in 4 to 8 dimensions
-   over all periodic images of the others within d_max, which are several where d_max > 1/2. Of equal weights the first
-   point's goes first.
+/* Removes the heaviest of `count` points, one after the other, until `keep` are left. The weight of a point is the
+   sum over the other points with d < d_max of (1 - max(d, d_min) / d_max)^8, where d is the distance on the torus;
+   in 4 to 8 dimensions with d_max > 1/2 the sum is over all periodic images of the other points. Of points with
+   equal weights the one with the lowest number is removed first.
        order[0] .. order[keep - 1]       the points left, in the order in which they are given
-       order[keep] .. order[count - 1]   those taken out, the last one first */
+       order[keep] .. order[count - 1]   the points removed, the last one first */
 koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,
                                 const koksma_run *run, uint32_t *order);
 
-/* n points, of `factor` times as many uniform ones: in the order in which these were drawn, or so that the first
-   n/2, n/4, .. and all others are blue noise, too (Yuksel's progressive ordering). `name` is the pattern's. */
+/* Makes n points by elimination from factor * n uniform random points. They come in the order in which they were drawn
+   or, with `progressive`, in Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the pattern's
+   name, for errors. */
 koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, int dim, size_t factor,
                                      bool progressive, const koksma_run *run, double *xs);
 

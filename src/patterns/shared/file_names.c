@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Paths with places for numbers. Going from numbers to a path replaces each {n} and {seed} by decimal digits without
- * leading zeros. The other direction lists what glob(3) finds for a `*` at each place, and keeps the paths that the
- * numbers read from them give again: `my_16_03.npy` is not the set of seed 3.
+ * Paths with the placeholders {n} and {seed}. To make a path from numbers, each placeholder is replaced by decimal
+ * digits without leading zeros. To find the existing files, glob(3) lists the paths with a `*` for each placeholder;
+ * a path is kept if the numbers read from it give the same path again, so that `my_16_03.npy` is not taken for the
+ * set of seed 3.
  */
 #include "patterns/shared/file_names.h"
 
@@ -20,7 +21,7 @@ bool koksma__file_has(const char *path, const char *place)
     return strstr(path, place) != NULL;
 }
 
-/* The length of the place that text begins with, else 0. */
+/* The length of the placeholder at the beginning of `text`; 0 if there is none. */
 static size_t place_at(const char *text, bool *is_seed)
 {
     *is_seed = !strncmp(text, place_seed, sizeof place_seed - 1);
@@ -68,7 +69,7 @@ void koksma__file_glob(const char *path, bool escape, char *out, size_t size)
     out[used] = '\0';
 }
 
-/* The numbers of a path that glob found; false: some other name. */
+/* Reads n and seed from a path that glob found; false if the path has another form. */
 static bool read_numbers(const char *path, const char *found, koksma__file_set *set)
 {
     char again[KOKSMA_MAX_SPEC];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Uniform random numbers by the thousand: the kernel of counter-based random words, in blocks on several threads.
+ * Fills arrays with uniform random numbers: calls the kernel of counter-based random words for blocks of numbers, on
+ * several threads.
  */
 #include "patterns/shared/fill.h"
 
@@ -13,7 +14,7 @@ enum { BLOCK_PAIRS = 1 << 16 };
 typedef struct fill {
     uint64_t seed;
     uint32_t purpose;
-    uint64_t first; /* pair */
+    uint64_t first; /* index of the first pair */
     size_t pairs;
     double *xs;
 } fill;

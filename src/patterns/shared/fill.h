@@ -4,15 +4,15 @@
 
 #include <koksma/koksma.h>
 
-/* Fills xs with count independent uniform doubles in [0,1): xs[2i], xs[2i+1] are the pair of index i, lane 0.
-   Over threads when there are many; the bits are the same. */
+/* Fills xs with `count` independent uniform doubles in [0,1): xs[2i] and xs[2i+1] are the random pair of index i and
+   lane 0. Large arrays are filled on several threads; the result does not depend on their number. */
 koksma_status koksma__fill_uniform(uint64_t seed, uint32_t purpose, const koksma_run *run, size_t count, double *xs);
 
-/* The numbers first .. first + count - 1 of those. */
+/* Fills xs with the numbers first .. first + count - 1 of the array that koksma__fill_uniform makes. */
 koksma_status koksma__range_uniform(uint64_t seed, uint32_t purpose, const koksma_run *run, uint64_t first,
                                     size_t count, double *xs);
 
-/* koksma__random_permutation, the same bits, faster. n >= 1. */
+/* Computes the permutation of koksma__random_permutation, but faster. n >= 1. */
 void koksma__fill_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation);
 
 #endif

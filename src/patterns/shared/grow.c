@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Doubles a set level by level: new point start + i of a level takes the sibling half-stratum of its partner, and
- * the digits below are fresh random bits. O(n) for each coordinate, without a tree and without comparing points
- * (grow.h).
+ * Stochastic generation (grow.h): doubles a set level by level. New point start + i of a level goes into the other
+ * half of its partner's stratum, and the digits below are new random bits. O(n) for each coordinate, without a tree
+ * and without comparing points.
  */
 #include "patterns/shared/grow.h"
 
@@ -22,9 +22,9 @@ typedef struct growth {
     uint64_t seed;
     uint32_t purpose;
     const uint32_t *partners;
-    int dim, k, level; /* dim columns beginning with coordinate k */
-    size_t n, count;   /* points in all; new ones at this level */
-    uint32_t *v;       /* dim columns of n fractions */
+    int dim, k, level; /* `dim` columns are made, beginning with coordinate k */
+    size_t n, count;   /* total number of points; number of new points at this level */
+    uint32_t *v;       /* `dim` columns of n fractions, times 2^32 */
 } growth;
 
 static void grow_some(const growth *g, int c, size_t first, size_t count)
@@ -50,7 +50,7 @@ static koksma_status grow_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* One column of few points: all its random words at once. */
+/* Makes one column of at most WORDS points, whose random words are drawn at once. */
 static void grow_few(const growth *g, int c)
 {
     const koksma__kernel_table *kernels = koksma__kernels();
@@ -91,8 +91,8 @@ static koksma_status grow_columns(growth *g, const koksma_run *run)
     return status;
 }
 
-/* Points first .. first + count - 1 of out: v begins with the fraction of point first, a column every stride words.
- */
+/* Stores points first .. first + count - 1 of `out`: v holds their fractions, with `stride` words from column to
+   column. */
 static void store(const growth *g, const uint32_t *v, size_t stride, koksma_points *out, size_t first, size_t count)
 {
     const koksma__kernel_table *kernels = koksma__kernels();
@@ -135,16 +135,16 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
 
 /* ---- Ranges ---------------------------------------------------------------------------------------------- */
 
-/* Points first .. of out, in aligned blocks of a power of two of points: what a level does to an index, one xor, keeps
-   such blocks together. The first block is grown as ever. */
+/* Makes points from args->first on, in aligned blocks of g->n points, a power of two. Finding a partner is an exclusive
+   or of the index, which maps such blocks to blocks. Block 0 is made by grow_columns. */
 typedef struct range {
-    const growth *g; /* n and v: of the first block */
+    const growth *g; /* its n and v describe block 0 */
     uint64_t first;
     koksma_points *out;
 } range;
 
-/* Column c of the points block .. block + n - 1. The bits that a point has from its partner are those that the partner
-   has, from its own, and so on down to the first block. */
+/* Makes column c of the points block .. block + n - 1. A point takes its upper bits from its partner, which takes its
+   upper bits from its own partner, and so on down to block 0; this chain is followed for the whole block at once. */
 static void grow_far(const growth *g, int c, uint32_t block, uint32_t *v)
 {
     const uint32_t *partners = g->partners + 32 * (g->k + c), inside = (uint32_t)g->n - 1;

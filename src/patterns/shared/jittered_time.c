@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Jittered points of the plane with an independent uniform time each, for the patterns of pixel and time. */
+/* Jittered points in the plane, each with an independent uniform time, for the patterns poisson-time and
+   scan-time. */
 #include "patterns/shared/jittered_time.h"
 
 #include "core/random.h"

@@ -4,7 +4,8 @@
 
 #include <koksma/koksma.h>
 
-/* Fills 3D points: x, y jittered in the cells of params[0] columns (0: square), t uniform. In order of the cells. */
+/* Fills `out` with 3D points in order of the cells: x and y are jittered in a grid of params[0] columns (0: as many as
+   rows), t is uniform. */
 koksma_status koksma__fill_jittered_time(const char *name, uint64_t seed, const koksma_args *args,
                                          koksma_points *out);
 

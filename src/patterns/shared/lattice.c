@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Rank-1 lattices and the search for their multipliers, component by component (Sloan & Reztsov 2002). The sums for
- * all candidates at once are a convolution over the group of units (unit_sums.c, after Nuyens & Cools 2006), O(n
- * log n); they have rounding, so that the candidates within it of the least are summed again in a fixed order, and
- * the smallest wins ties.
+ * all candidates at once are a convolution over the group of units (unit_sums.c, after Nuyens & Cools 2006), O(n log
+ * n). These sums have rounding errors; candidates whose sums are within the error bound of the least are summed again
+ * in a fixed order, and the smallest of equal candidates is taken.
  */
 #include "patterns/shared/lattice.h"
 
@@ -115,9 +115,9 @@ static double planar_kernel(uint64_t numerator, size_t n)
     return 1 + 2 * M_PI * M_PI * bernoulli(numerator, n);
 }
 
-/* P_2 of (1, z); product[i] = planar_kernel(i, n). A multiplier ties with its inverse, which swaps the axes, and now
-   and then with others: which of them is taken hangs on the last bit, so the order of these sums is part of the
-   points, here and below. */
+/* P_2 of the generating vector (1, z), where product[i] = planar_kernel(i, n). A multiplier ties with its inverse,
+   which swaps the axes, and sometimes with others. Which of them is taken depends on the last bit of the sum, so
+   that the order of summation, here and in added_sum, must not change: it would change the points. */
 static double planar_sum(const koksma__lattice_search *s, uint64_t z)
 {
     double sum = 0;
@@ -129,7 +129,7 @@ static double planar_sum(const koksma__lattice_search *s, uint64_t z)
     return sum / (double)s->n - 1;
 }
 
-/* What a coordinate with the multiplier z would add. */
+/* What a further coordinate with the multiplier z would add to the minimised sum, up to a constant factor. */
 static double added_sum(const koksma__lattice_search *s, uint64_t z)
 {
     double sum = 0;

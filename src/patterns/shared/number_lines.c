@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Lines of whole numbers with comments behind #, as the file formats of LatNet Builder and of the collection LDData have
- * them (L'Ecuyer, Marion, Godin & Puchhammer 2022), and those of Joe & Kuo 2008, which begin with a heading of words.
- * The file is read whole; a line is taken apart when it is asked for, so that dimensions behind those asked for cost
- * nothing more.
+ * Reads files of lines of whole numbers with comments after a #: the formats of LatNet Builder and of the collection
+ * LDData (L'Ecuyer, Marion, Godin & Puchhammer 2022), and that of Joe & Kuo 2008, which begins with a header of
+ * words. The whole file is read at once, but a line is parsed only when it is requested, so that unused dimensions
+ * cost little.
  */
 #include "patterns/shared/number_lines.h"
 
@@ -20,7 +20,8 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* The first word behind the mark of a comment; a first line of words is Joe & Kuo's heading and is passed over. */
+/* Sets lines->kind: if the first line is a comment, to its first word; if it is Joe & Kuo's header, to "soboljk", and
+   skips the header. */
 static void find_kind(koksma__number_lines *lines)
 {
     const char *s = lines->text + strspn(lines->text, " \t");
@@ -46,7 +47,7 @@ koksma_status koksma__number_lines_open(const char *pattern, const char *path, k
     lines->text = lines->at = (char *)bytes;
     if (memchr(bytes, 0, size)) {
         koksma__number_lines_close(lines);
-        return koksma__fail(KOKSMA_MALFORMED, "%s: no text in UTF-8: it has a zero byte", lines->name);
+        return koksma__fail(KOKSMA_MALFORMED, "%s: not a text file: it contains a zero byte", lines->name);
     }
     find_kind(lines);
     return KOKSMA_OK;
@@ -58,7 +59,7 @@ void koksma__number_lines_close(koksma__number_lines *lines)
     lines->text = lines->at = NULL;
 }
 
-/* The numbers of the line from `at`, which ends at `end`. */
+/* Parses the numbers of the line from `at` to `end`. */
 static koksma_status split(const koksma__number_lines *lines, char *at, const char *end, size_t most,
                            uint64_t *numbers, size_t *count)
 {

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Owen's nested scrambling of radical inverses, exact, without looking at a digit twice (Helmer, Christensen &
- * Kensler 2021). Point r < b^j and its relatives r + d b^j, 0 < d < b, agree in the first j output digits. The digit
- * at place j of r is known from its random fraction; those of its relatives are drawn from the other b - 1 without
- * replacement, and what lies below is uniform. A value is a whole number of b^-M, with b^M just below 2^53; in base
- * 2, of 2^-32.
+ * Owen's nested uniform scrambling of radical inverses, exact, by stochastic generation (Helmer, Christensen &
+ * Kensler 2021). Point r < b^j and its relatives r + d b^j, 0 < d < b, agree in the first j output digits. Digit j of
+ * point r is known from its random fraction; the digits j of its relatives are drawn without replacement from the
+ * other b - 1 digits, and the digits below are uniform. Coordinates are multiples of b^-M, where b^M is the largest
+ * power of b up to 2^53; in base 2 multiples of 2^-32.
  *
- * The columns but the first lie in the points' own memory: a block of points holds its coordinates one
- * column after the other, until they become rows. A number is two random words before it has a value.
+ * All columns except the first are stored in the memory of the output points: each block of points holds its
+ * coordinates column after column, until the columns are transposed into rows. Before a number is computed, its
+ * memory holds two random words.
  */
 #include "patterns/shared/owen_digits.h"
 
@@ -28,9 +29,9 @@ enum { FEW = 256, MANY = 4096, MAX_BASE = 38880, SMALL_BASE = 13, BLOCK_NUMBERS 
 typedef struct job {
     uint64_t seed;
     koksma_points *out;
-    size_t block; /* points of all blocks but the last: a power of two, at least 2, as two numbers' words are drawn at
-                     once */
-    uint32_t *binary; /* the column of base 2, times 2^32 */
+    size_t block; /* points in a block (the last may be smaller): a power of two, at least 2, because the words of two
+                     numbers are drawn at once */
+    uint32_t *binary; /* the coordinates in base 2, times 2^32 */
 } job;
 
 typedef struct column {
@@ -40,13 +41,13 @@ typedef struct column {
     uint16_t *order, *picked;
 } column;
 
-/* The points of the block that begins at point `start`. */
+/* The number of points in the block that begins at point `start`. */
 static size_t block_of(const job *j, size_t start)
 {
     return j->out->n - start < j->block ? j->out->n - start : j->block;
 }
 
-/* Where number i of column k is; `left` numbers from it on lie side by side. */
+/* The address of number i of column k; *left becomes how many numbers from there on are contiguous. */
 static double *find(const job *j, int k, size_t i, size_t *left)
 {
     const size_t within = i & (j->block - 1), start = i - within, count = block_of(j, start);
@@ -60,7 +61,7 @@ static double *number(const column *c, size_t i)
     return find(c->job, c->k, i, &left);
 }
 
-/* floor, which is a call without SSE 4.1. */
+/* floor(x) for x >= 0; the library function floor is a call without SSE 4.1. */
 static inline double whole_part(double x)
 {
     return (double)(int64_t)x;
@@ -71,8 +72,8 @@ static inline double below(double width, uint32_t word)
     return whole_part(width * (word * 0x1p-32));
 }
 
-/* The relatives of point r at the place whose digit has the value `width`, r + step, r + 2 step, … Quotients of whole
-   numbers below 2^53 have the right floor. */
+/* Computes the relatives r + step, r + 2 step, … of point r, which differ from it first in the digit of value `width`.
+   The floor of a quotient of whole numbers below 2^53 is exact. */
 static void place_relatives(const column *c, size_t r, size_t step, double width)
 {
     const double upper = whole_part(*number(c, r) / width), prefix = whole_part(upper / c->base) * c->base;
@@ -100,9 +101,9 @@ static void place_relatives(const column *c, size_t r, size_t step, double width
     c->order[own] = (uint16_t)own;
 }
 
-/* Small bases: points first .. end - 1, which have the same number of relatives, as many at a time as lie side by
-   side, and so do their relatives. Base 3 has draws of its own: the others of its digits come in their cyclic order
-   or in the opposite one. */
+/* Computes, in small bases, the relatives of points first .. end - 1, which all have the same number of relatives;
+   takes as many points at a time as are contiguous and have contiguous relatives. Base 3 is drawn differently: the
+   other two digits come in cyclic order or in the opposite order. */
 static void place_alike(const column *c, uint32_t relatives, size_t first, size_t end, size_t step, double width)
 {
     while (first < end) {
@@ -134,7 +135,7 @@ static void place_level(const column *c, size_t step, double width)
     }
 }
 
-/* The largest power of the base up to 2^53. */
+/* The largest power of the base that is at most 2^53. */
 static double whole_of(uint32_t base)
 {
     double whole = base;
@@ -162,7 +163,8 @@ static void place_all(const column *c)
     }
 }
 
-/* Two words for each number: four for a pair, of which the last may be half. */
+/* Draws two random words for each number of column k. Words come in fours, for two numbers; a last single number uses
+   half of them. */
 static void draw(const job *j, int k)
 {
     const koksma__kernel_table *kernels = koksma__kernels();
@@ -178,7 +180,8 @@ static void draw(const job *j, int k)
     }
 }
 
-/* Base 2 by the kernel of the nets in base 2; the digital sequence is the identity. */
+/* Fills column k. Base 2 uses koksma__grow_column, because the van der Corput sequence is the digital sequence whose
+   matrix is the identity. */
 static koksma_status fill(void *context, size_t k)
 {
     const job *j = context;
@@ -193,7 +196,7 @@ static koksma_status fill(void *context, size_t k)
     return KOKSMA_OK;
 }
 
-/* The columns of a block become rows. */
+/* Transposes the columns of a block into rows. */
 static koksma_status turn(void *context, size_t block)
 {
     const job *j = context;

@@ -4,7 +4,7 @@
 
 #include <koksma/koksma.h>
 
-/* Fills out with the Halton sequence, Owen-scrambled: coordinate k in the k-th prime. */
+/* Fills `out` with the Owen-scrambled Halton sequence; the base of coordinate k is the k-th prime. */
 koksma_status koksma__owen_digits(uint64_t seed, const koksma_run *run, koksma_points *out);
 
 #endif

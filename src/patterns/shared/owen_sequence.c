@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Owen's nested uniform scrambling of a digital sequence in base b, by stochastic generation (Helmer, Christensen &
- * Kensler 2021). Where each coordinate is a (0,1)-sequence, each of its strata of width b^-l has one of the first b^l
- * points, r, and one of each later b^l points d b^l + r', 0 < d < b. The digit l of r is read off its value; the
- * others get the other b - 1 digits, drawn without replacement, and what lies below is uniform. The groups of level l
- * share no point, and every number is visited once: time in n for each coordinate.
+ * Kensler 2021). If each coordinate is a (0,1)-sequence, each of its strata of width b^-l holds one of the first b^l
+ * points, r, and, for each d with 0 < d < b, one of the points d b^l .. (d + 1) b^l - 1, called d b^l + r'. Digit l
+ * of r is read off its value; its relatives d b^l + r' take the other b - 1 digits, drawn without replacement, and
+ * the digits below are uniform. The groups of relatives of level l share no point, and every number is computed once:
+ * O(n) for each coordinate.
  *
- * r' is r plus d times a vector, digit by digit and without carries. That is done on the lower and the upper half of
- * the digits of r by tables of about sqrt(b^l) entries for each d.
+ * r' is r plus d times a vector, digit by digit modulo b, without carries. Tables of about sqrt(b^l) entries for each
+ * d give the sums for the lower and the upper half of the digits of r.
  *
- * A value is a whole number of b^-M with b^M the largest power up to 2^53, kept in a double. A number has 64 random
- * bits: times the number of digits left they are the choice, and the fraction of that product is the place below.
+ * Coordinates are multiples of b^-M, where b^M is the largest power of b up to 2^53, and are stored as whole numbers
+ * in doubles. Each number has 64 random bits, a fraction in [0,1): the whole part of its product with the number of
+ * remaining digits chooses one of these digits, and the fractional part of the product gives the digits below.
  */
 #include "patterns/shared/owen_sequence.h"
 
@@ -32,26 +34,26 @@ typedef struct job {
     koksma_points *out;
 } job;
 
-/* The relatives of r = high * size[0] + low at a level: at low[low * base + d] + high[high * base + d]. */
+/* The tables of one level: relative d of r = y * size[0] + x is point low[x * base + d] + high[y * base + d]. */
 typedef struct level {
     size_t step, size[2];
-    double width; /* of a stratum of the next level, in b^-M */
+    double width; /* width of a stratum of the next level, in units of b^-M */
     size_t *low, *high;
 } level;
 
 typedef struct column {
     const job *job;
-    double *v; /* a number's random bits until it has its value */
+    double *v; /* the column; a number is its random bits until it is computed */
     uint16_t *order, *picked;
 } column;
 
-/* Numbers below 2^53 only: floor, which is a call without SSE 4.1. */
+/* floor(x) for 0 <= x < 2^53; the library function floor is a call without SSE 4.1. */
 static inline double whole_part(double x)
 {
     return (double)(int64_t)x;
 }
 
-/* The upper 64 bits of the product. */
+/* The upper 64 bits of the 128-bit product. */
 static inline uint64_t upper_half(uint64_t a, uint64_t b)
 {
     const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
@@ -59,7 +61,7 @@ static inline uint64_t upper_half(uint64_t a, uint64_t b)
     return ah * bh + (middle >> 32) + (other >> 32);
 }
 
-/* A choice among `count` and a whole number below width, from 64 bits. */
+/* Makes of 64 random bits a choice below `count`, which is returned, and a whole number below `width`. */
 static inline uint32_t choose(const double *bits, uint32_t count, double width, double *below)
 {
     uint32_t word[2];
@@ -70,7 +72,7 @@ static inline uint32_t choose(const double *bits, uint32_t count, double width, 
     return (uint32_t)(product >> 32);
 }
 
-/* The digit of v at the value width, and the digits above it. */
+/* The digit of v whose place value is `width`; *prefix becomes the number formed by the digits above, times base. */
 static inline uint32_t digit_of(double v, double width, uint32_t base, double *prefix)
 {
     const double upper = whole_part(v / width);
@@ -78,7 +80,7 @@ static inline uint32_t digit_of(double v, double width, uint32_t base, double *p
     return (uint32_t)(upper - *prefix);
 }
 
-/* The relatives of r; base up to 16: the digits left are 4-bit parts of one word. */
+/* Computes the relatives of r in bases up to 16, with the remaining digits as 4-bit parts of one word. */
 static inline void place_packed(const column *c, const level *l, size_t r, const size_t *low, const size_t *high)
 {
     const uint32_t base = c->job->base;
@@ -89,7 +91,7 @@ static inline void place_packed(const column *c, const level *l, size_t r, const
     for (uint32_t d = 1; d < base; d++) {
         const size_t i = low[d] + high[d];
         if (i >= n) {
-            break; /* the later relatives come after all points of this d */
+            break; /* relatives with larger d have larger indices */
         }
         double below;
         const uint32_t pick = d + choose(&c->v[i], base - d, l->width, &below);
@@ -117,7 +119,7 @@ static inline void place_many(const column *c, const level *l, size_t r, const s
         c->picked[d] = (uint16_t)pick;
         *v = (prefix + digit) * l->width + below;
     }
-    while (--d) { /* the identity again */
+    while (--d) { /* restores the identity permutation */
         const uint16_t digit = c->order[d];
         c->order[d] = c->order[c->picked[d]];
         c->order[c->picked[d]] = digit;
@@ -139,9 +141,8 @@ static void place_level(const column *c, const level *l)
     }
 }
 
-/* map[a base + d] = d last + unit times the number with the digits of a, plus d digits[c], for the a of `count`
- * digits.
- */
+/* Fills one table of a level: map[a * base + d] = d * last + unit * a', for each a of `count` digits, where digit c
+   of a' is that of a plus d * digits[c] modulo base. */
 static void fill_map(uint32_t base, const uint32_t *digits, int count, size_t unit, size_t last, size_t *map)
 {
     for (uint32_t d = 0; d < base; d++) {

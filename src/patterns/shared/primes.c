@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The first 4,096 primes, by Eratosthenes' sieve, once. */
+/* The first 4,096 primes, computed once by the sieve of Eratosthenes. */
 #include <pthread.h>
 
 #include "patterns/shared/radical.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Radical inverses of consecutive indices: a table of the mirrored low digits, to which those above add a number
- * that changes once a table's length. One division rounds, so that each value is the double nearest to its
- * fraction.
+ * Radical inverses of consecutive indices: a table holds the mirrored low digits; the higher digits add a number that
+ * changes only once per length of the table. Only the final division rounds, so that each value is the double nearest
+ * to its exact fraction.
  */
 #include "patterns/shared/radical.h"
 
@@ -17,11 +17,11 @@ static uint32_t digit_of(const koksma__radical *r, int j, uint32_t a)
     return r->digit ? r->digit(r->context, r->base, j, a) : a;
 }
 
-/* Mapped digits: those of indices below this are of the numerator, which is exact; those above are of the tail. */
+/* With mapped digits, the digits of indices below MAPPED form the exact numerator, and the higher digits the tail. */
 #define MAPPED 0x1p28
 
-/* The digits and the size of the table for indices below n. With mapped digits the place where the tail begins must not
-   depend on n, so that the values do not either. */
+/* Chooses the numbers of digits and the size of the table for indices below n. With mapped digits, the position at
+   which the tail begins does not depend on n, so that values do not depend on n. */
 static void measure(koksma__radical *r, uint32_t base, uint64_t n, bool mapped)
 {
     const double most = mapped ? MAPPED : (double)n;
@@ -45,7 +45,8 @@ static void measure(koksma__radical *r, uint32_t base, uint64_t n, bool mapped)
     }
 }
 
-/* What the digits of `rest`, which are those above the numerator's, add to it; behind the last, zeros without end. */
+/* The fraction in [0,1) that the digits of `rest`, those above the numerator's digits, and the infinitely many leading
+   zeros after them add to the numerator if digits are mapped. */
 static double tail_of(const koksma__radical *r, uint64_t rest)
 {
     double place = 1, tail = 0;
@@ -53,12 +54,13 @@ static double tail_of(const koksma__radical *r, uint64_t rest)
         place /= r->base;
         tail += place * digit_of(r, j, (uint32_t)(rest % r->base));
     }
-    /* Every sum of numerators and tail is exact, and the tail below 1, so that values are, too. */
+    /* Rounded to a grid on which the sum of numerator and tail is exact, and kept below 1, so that values are below
+       1. */
     const double grid = exp2(floor(52 - log2(r->whole)));
     return fmin(floor(tail * grid + 0.5), grid - 1) / grid;
 }
 
-/* table[a] = the mirrored low digits of a, as a whole number, times high_scale. */
+/* Computes table[a]: the mirrored low digits of a, as a whole number, times high_scale. */
 static void fill_table(koksma__radical *r)
 {
     double top = r->high_scale; /* the value of digit 0's position */

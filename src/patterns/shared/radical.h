@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Radical inverses: phi_b(i) has the digits of i in base b, mirrored at the radix point (van der Corput 1935). Every
- * value is the double nearest to the fraction (numerator / b^m, one rounding), whatever the number of points.
+ * value is the double nearest to the exact fraction numerator / b^m, with one rounding, and does not depend on the
+ * number of points.
  */
 #ifndef KOKSMA_PATTERNS_SHARED_RADICAL_H
 #define KOKSMA_PATTERNS_SHARED_RADICAL_H
@@ -10,25 +11,26 @@
 
 enum { KOKSMA__RADICAL_TABLE = 1024 };
 
-/* What digit a at place j (0: the least significant of i) becomes; NULL is a itself. */
+/* Maps the digit a at position j of i (0: the least significant) to another digit. Where a koksma__digit is NULL,
+   digits are not mapped. */
 typedef uint32_t (*koksma__digit)(const void *context, uint32_t base, int j, uint32_t a);
 
-/* A coordinate: the mirrored low `digits` digits come from the table, the others are added. */
+/* One coordinate. The table gives the mirrored low `low_digits` digits; the others are added. */
 typedef struct koksma__radical {
     uint32_t base;
-    int digits, low_digits; /* of all i < n; of the table */
-    uint32_t size;          /* base^low_digits, or n where that is less */
+    int digits, low_digits; /* number of digits of the numerator; of the table's indices */
+    uint32_t size;          /* size of the table: base^low_digits, or n if that is less */
     double high_scale;      /* base^(digits - low_digits) */
     double whole;           /* base^digits */
-    double tail;            /* what the infinite row of zero digits adds to the numerator, in [0,1) */
+    double tail;            /* what mapping the infinitely many leading zeros adds to the numerator, in [0,1) */
     koksma__digit digit;
     const void *context;
     double *table;
 } koksma__radical;
 
-/* Prepares coordinates for the first `count` prime bases and indices below n. Error: N, past the largest power of a base
-   up to 2^53, beyond which numerators are not exact.
-   All memory is one block that the caller frees with koksma__radicals_fini. */
+/* Coordinates of radical inverses. koksma__radicals_init prepares them for the first `count` prime bases and indices
+   below n. It fails with KOKSMA_N where numerators would not be exact: if n is above the largest power of a base up
+   to 2^53 or, with mapped digits, above 2^53 / base. All memory is one block, which koksma__radicals_fini frees. */
 typedef struct koksma__radicals {
     koksma__radical few[8];
     double room[4 * KOKSMA__RADICAL_TABLE];
@@ -40,10 +42,10 @@ koksma_status koksma__radicals_init(koksma__radicals *r, int count, uint64_t n, 
                                     const void *context);
 void koksma__radicals_fini(koksma__radicals *r);
 
-/* out[i] = the value for index first + i, i < count. */
+/* Computes out[i], i < count, the radical inverse of first + i. */
 void koksma__radical_column(const koksma__radical *r, uint64_t first, size_t count, double *out);
 
-/* The k-th prime, 0: 2. k < KOKSMA_MAX_DIM. */
+/* The k-th prime, counted from 0: koksma__prime(0) = 2. k < KOKSMA_MAX_DIM. */
 uint32_t koksma__prime(int k);
 
 #endif

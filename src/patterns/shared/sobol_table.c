@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Direction numbers of Sobol' sequences from primitive polynomials and initial numbers (Joe & Kuo 2008; Bratley &
- * Fox 1988), expanded by the recurrence of Sobol 1967, once.
+ * Fox 1988), expanded once by the recurrence of Sobol 1967.
  */
 #include "patterns/shared/sobol_table.h"
 
@@ -17,8 +17,8 @@ static const uint16_t bratley_fox[] = {
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static uint32_t new_columns[KOKSMA__SOBOL_DIM][32], old_columns[KOKSMA__SOBOL_OLD_DIM][32];
 
-/* The recurrence of the polynomial x^s + a_1 x^(s-1) + … + a_(s-1) x + 1:
-   m_i = 2 a_1 m_(i-1) ^ 4 a_2 m_(i-2) ^ … ^ 2^s m_(i-s) ^ m_(i-s); column i is m_i 2^(32-i). */
+/* Expands one row of the table by the recurrence of the polynomial x^s + a_1 x^(s-1) + … + a_(s-1) x + 1,
+   m_i = 2 a_1 m_(i-1) ^ 4 a_2 m_(i-2) ^ … ^ 2^s m_(i-s) ^ m_(i-s), where column i is m_i 2^(32-i). */
 static const uint16_t *expand(const uint16_t *row, uint32_t *columns)
 {
     const uint32_t polynomial = row[0];

@@ -12,9 +12,8 @@ enum { KOKSMA__SOBOL_DIM = 1111, KOKSMA__SOBOL_OLD_DIM = 40 };
    old: use the numbers of Bratley & Fox (k < 40) instead of those of Joe & Kuo (k < 1111). */
 KOKSMA__LAB const uint32_t *koksma__sobol_directions(int k, int old);
 
-/* partners[l], l < levels: the number such that points i and i ^ partners[l], i < 2^l, and 2^l + i of the digital
-   sequence with these directions (an upper triangular matrix) have the same first l bits in points 2^l + i and
-   i ^ partners[l]. */
+/* Computes partners[l], l < levels, for the digital sequence with these directions, an upper triangular matrix: for
+   i < 2^l, points 2^l + i and i ^ partners[l] have the same first l bits. */
 KOKSMA__LAB void koksma__partners(const uint32_t *directions, int levels, uint32_t *partners);
 
 #endif

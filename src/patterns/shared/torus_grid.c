@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Points of the torus in square cells, each a linked list, so that points go in one at a time in O(1). A
- * search for the nearest looks at rings of cells outwards until no ring can hold a nearer one: O(1) for even
- * points. Points that are sorted at once are in measures/shared/torus_cells.c or patterns/shared/torus_rows.c.
+ * A grid of square cells over the torus, each with a linked list of its points, so that adding a point takes O(1).
+ * The search for the nearest point visits rings of cells from the inside outwards until no further ring can hold a
+ * nearer point: O(1) if points are evenly distributed. Where all points are known in advance,
+ * measures/shared/torus_cells.c or patterns/shared/torus_rows.c sort them into cells at once.
  */
 #include "patterns/shared/torus_grid.h"
 
@@ -54,7 +55,8 @@ void koksma__torus_grid_add(koksma__torus_grid *g, uint32_t point)
     *list = point;
 }
 
-/* The nearest in one cell, which may be given by any whole numbers. */
+/* The smaller of `best` and the squared distance from (x, y) to the nearest point of a cell. The cell's numbers may be
+   outside the grid by up to one period. */
 static double nearest_in(const koksma__torus_grid *g, long cell_x, long cell_y, double x, double y, double best)
 {
     const long cells = (long)g->cells;
@@ -73,7 +75,8 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double 
     const long cx = cell_of(g, x), cy = cell_of(g, y), most = (long)g->cells / 2;
     double best = 1;
     for (long ring = 0; ring <= most && best > enough; ring++) {
-        const double gap = (double)(ring - 1) / g->cells; /* rings further out than this are no nearer */
+        const double gap = (double)(ring - 1) / g->cells; /* points of this ring and those outside are at least this
+                                                             far */
         if (ring > 1 && gap * gap >= best) {
             break;
         }
@@ -89,7 +92,7 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double 
     return best;
 }
 
-/* A row or column of `count` cells about one, from the first on, around the torus. */
+/* The numbers of `count` consecutive cells along one axis, from `first` on, which wrap around the torus. */
 typedef struct span {
     long first, count;
 } span;
@@ -100,7 +103,7 @@ static span span_about(const koksma__torus_grid *g, double x, long reach)
     return (span){first < 0 ? first + cells : first, 2 * reach + 1 < cells ? 2 * reach + 1 : cells};
 }
 
-/* Cell number i of a span. */
+/* The number of cell i of a span. */
 static inline long around(const koksma__torus_grid *g, const span *s, long i)
 {
     const long cell = s->first + i;

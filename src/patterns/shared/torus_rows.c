@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Points of the torus sorted into square cells, row by row, by counting sort: O(n), again and again into the same
- * memory. A disk about a place covers for each row of cells one run of consecutive points, or two where it wraps
- * around, over which kernels sum without looking at cells.
+ * Sorts points of the torus into square cells, row by row, by counting sort, in O(n); repeated sorts use the same
+ * memory. In each row of cells the points near a position are one run of consecutive points, or two where the row
+ * wraps around the torus; kernels sum over these runs without looking at cells.
  */
 #include "patterns/shared/torus_rows.h"
 
@@ -47,7 +47,7 @@ void koksma__torus_rows_fini(koksma__torus_rows *r)
     r->xs = NULL;
 }
 
-/* Counts, then places: in a cell the points keep their order. */
+/* Counting sort: first counts the points of each cell, then stores them; within a cell they keep their order. */
 void koksma__torus_rows_sort(koksma__torus_rows *r, size_t n, const double *points)
 {
     const size_t cells = (size_t)r->cells * r->cells;
@@ -68,7 +68,7 @@ void koksma__torus_rows_sort(koksma__torus_rows *r, size_t n, const double *poin
     r->start[cells] = (uint32_t)n;
 }
 
-/* How many rows above and below a point's own row the radius can reach. */
+/* How many rows above and below the row of a point its neighbours within the radius can be. */
 static long reach_of(const koksma__torus_rows *r, double radius)
 {
     return (long)ceil(radius * r->cells);
@@ -80,7 +80,8 @@ size_t koksma__torus_rows_most(const koksma__torus_rows *r, double radius)
     return 2 * (count < r->cells ? count : r->cells);
 }
 
-/* The cells from column `first` to `last` of a row, which may be any whole numbers: once around at most. */
+/* Adds the runs of cells `first` to `last` of a row; column numbers may be outside the grid by up to one period, and no
+   cell is added twice. Returns the number of runs. */
 static size_t add_row(const koksma__torus_rows *r, long row, long first, long last, koksma__run_of_points *runs)
 {
     const long cells = (long)r->cells;
@@ -105,12 +106,12 @@ size_t koksma__torus_rows_near(const koksma__torus_rows *r, double x, double y, 
 {
     const long cells = (long)r->cells, reach = reach_of(r, radius);
     const long count = 2 * reach + 1 < cells ? 2 * reach + 1 : cells, own = (long)cell_of(r, y);
-    const double inside = y * (double)cells - (double)own; /* of its row */
+    const double inside = y * (double)cells - (double)own; /* position of y in its row, in cells */
     size_t n = 0;
     for (long v = own - reach; v < own - reach + count; v++) {
         const double gap = (v < own ? (double)(own - v - 1) + inside : v > own ? (double)(v - own) - inside : 0);
         const double height = gap / (double)cells, left = radius * radius - height * height;
-        if (count == cells) { /* rows stand for those on the other side of the torus, too */
+        if (count == cells) { /* all rows are visited, each also for its periodic image, so that it is taken whole */
             n += add_row(r, (v + cells) % cells, 0, cells - 1, runs + n);
         } else if (left > -1e-12) {
             const double half = sqrt(fmax(left, 0)) + 1e-9;

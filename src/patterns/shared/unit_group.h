@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The group of the units modulo m as a product of cyclic groups, u and -u being one. */
+/* The group of the units modulo m, with u and -u identified, as a product of cyclic groups. */
 #ifndef KOKSMA_PATTERNS_SHARED_UNIT_GROUP_H
 #define KOKSMA_PATTERNS_SHARED_UNIT_GROUP_H
 
@@ -7,12 +7,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { KOKSMA__MAX_PRIMES = 10 }; /* more than any n below 2^32 has */
+enum { KOKSMA__MAX_PRIMES = 10 }; /* numbers below 2^32 have at most 9 different primes */
 
 typedef struct koksma__unit_axis {
     size_t length;
     uint64_t generator;
-    bool turns; /* half-way around it is -1 */
+    bool turns; /* whether generator^(order / 2) is -1 modulo its prime power */
 } koksma__unit_axis;
 
 /* Finds generators g_k such that each unit u modulo m, or its negative -u, has one representation as a product of
@@ -21,7 +21,7 @@ typedef struct koksma__unit_axis {
    their orders. Returns the number of axes. 2 < m < 2^32. */
 int koksma__unit_axes(uint64_t m, koksma__unit_axis axes[KOKSMA__MAX_PRIMES], bool *cut);
 
-/* The primes that divide n, upward; returns how many. 0 < n < 2^32. */
+/* Lists the primes that divide n in ascending order; returns how many there are. 0 < n < 2^32. */
 int koksma__primes_of(uint64_t n, uint64_t primes[KOKSMA__MAX_PRIMES]);
 
 #endif

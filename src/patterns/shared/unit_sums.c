@@ -3,24 +3,24 @@
  * The sums over i of product[i] B_2({i z / n}) for all z that are units modulo n, in O(n log n) steps, for any n:
  * the fast component-by-component construction of Nuyens & Cools 2006 (primes) and 2006a (other n).
  *
- * The i with gcd(i, n) = n/m are r n/m, r a unit modulo m: they make a block for each divisor m > 1 of n. In it the
- * sum depends on z modulo m only, and is a correlation over the group of units modulo m, u and -u being one as
- * B_2(x) = B_2(1 - x). Fourier transforms run along all of the group's axes but the first. Along the first axis each
- * line is then a correlation with a kernel that is computed beforehand. A line whose length is a power of two is
- * correlated cyclically; others are padded with zeros. Where the axis is cut (unit_group.h) the kernel continues
- * with the sign that the character has at the other axes' elements of half their orders. Small blocks are multiplied
- * by their matrix.
+ * The i with gcd(i, n) = n/m are r n/m, where r is a unit modulo m: they make a block for each divisor m > 1 of n. In
+ * a block the sum depends only on z modulo m, and is a correlation over the group of units modulo m, where u and -u
+ * are identified because B_2(x) = B_2(1 - x). Fourier transforms run along all of the group's axes except the first;
+ * each line along the first axis is then correlated with a precomputed kernel. A line whose length is a power of two
+ * is correlated cyclically; others are padded with zeros. Where the first axis is cut (unit_group.h), the kernel
+ * continues with the sign that the line's character has at the product of the other axes' elements of half their
+ * orders. In small blocks the sums are a product with a matrix.
  *
- * Blocks then add up: the sum over the divisors of n, prime by prime, is value[i] += value[p i mod n], as p i has
- * the place of z in the block of m/p.
+ * Then the sums of the blocks are added over the divisors of n, prime by prime: value[i] += value[p i mod n], because
+ * the sum of z in the block of m/p is stored at p i.
  *
- * Each block's weights go in less their mean, which adds the same to all z, and takes most of the rounding away.
- * Rounding is taken to be below 256 (1 + log2 m) u |weights| |kernel| / sqrt(count) in 2-norms, u = 2^-53, and 64 u
- * times the norms with the mean / sqrt(count) for its subtraction: 20 to 1,200 times what is found (65 <= n <=
- * 2^21). The root of count is there as errors of a transform spread evenly over its numbers; what Brent, Percival &
- * Zimmermann 2007 prove without it is 10,000 times what is found at 2^20, and would leave thousands of z open at
- * 2^24. What is found is meant to leave a few z, among which sums in a fixed order decide, so that no bit of a
- * lattice hangs on a transform.
+ * Each block's mean weight is subtracted from its weights: this changes the sums of all z equally and removes most of
+ * the rounding error. The rounding error is assumed to be below 256 (1 + log2 m) u |weights| |kernel| / sqrt(count)
+ * in 2-norms, u = 2^-53, plus 64 u times the product of the norms before the subtraction / sqrt(count): 20 to 1,200
+ * times the errors measured (65 <= n <= 2^21). The bound is divided by sqrt(count) because errors of a transform
+ * spread evenly over its numbers; the bound that Brent, Percival & Zimmermann 2007 prove, without this division, is
+ * 10,000 times the errors measured at 2^20 and would leave thousands of z undecided at 2^24. Sums in a fixed order
+ * decide among the few z that this bound leaves undecided, so that no bit of a lattice depends on a transform.
  */
 #include "patterns/shared/unit_sums.h"
 
@@ -39,15 +39,16 @@ enum { MATRIX = 32 };
 
 typedef struct block {
     uint64_t m;
-    size_t count;   /* of units modulo m, up to the sign */
-    uint32_t *at;   /* the i of each, at most n/2; the first axis runs fastest */
-    double norm;    /* of the kernel */
-    double *matrix; /* count x count, or NULL, and then: */
+    size_t count;   /* number of units modulo m, up to the sign */
+    uint32_t *at;   /* the i of each unit, at most n/2; the exponent of the first axis changes fastest */
+    double norm;    /* 2-norm of the kernel */
+    double *matrix; /* count x count, for small blocks; NULL for others, which use the members below */
     koksma__unit_axis axes[KOKSMA__MAX_PRIMES];
-    koksma__dft chirps[KOKSMA__MAX_PRIMES]; /* of the axes from 1 on */
+    koksma__dft chirps[KOKSMA__MAX_PRIMES]; /* transforms along the axes from 1 on */
     int n_axes;
     bool cut;
-    size_t lines, padded;          /* count / length of the first axis; length of the lines' transforms */
+    size_t lines, padded;          /* number of lines, count / length of the first axis; length of the lines'
+                                      transforms */
     double *kernel_re, *kernel_im; /* lines x padded */
 } block;
 
@@ -58,8 +59,8 @@ struct koksma__unit_sums {
     block *blocks;
     size_t n_blocks;
     koksma__fourier fourier;
-    double *re, *im;           /* the largest block of several lines */
-    double *line_re, *line_im; /* the longest padded line */
+    double *re, *im;           /* scratch for the largest block of several lines */
+    double *line_re, *line_im; /* scratch for the longest padded line */
 };
 
 static double bernoulli(double x)
@@ -67,7 +68,7 @@ static double bernoulli(double x)
     return x * (x - 1) + 1.0 / 6;
 }
 
-/* phi(m)/2, or 1 */
+/* The number of units modulo m up to the sign: phi(m)/2, at least 1. */
 static size_t count_units(const koksma__unit_sums *s, uint64_t m)
 {
     uint64_t count = m;
@@ -95,7 +96,7 @@ static koksma_status add_block(koksma__unit_sums *s, uint64_t m)
     return KOKSMA_OK;
 }
 
-/* All divisors of n above 1. */
+/* Adds a block for each divisor of n above 1, by recursion over the primes of n. */
 static koksma_status add_blocks(koksma__unit_sums *s, uint64_t m, int prime)
 {
     koksma_status status = KOKSMA_OK;
@@ -121,7 +122,7 @@ static koksma_status make_room(koksma__unit_sums *s)
         }
     }
     longest = padded > longest ? padded : longest;
-    const size_t line = longest > 64 ? longest : 64; /* and for transforms by the definition */
+    const size_t line = longest > 64 ? longest : 64; /* short transforms, computed by the definition, use up to 64 */
     const size_t bytes = 2 * (line + several) * sizeof *s->line_re;
     s->line_re = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(s->line_re, bytes);
@@ -161,7 +162,8 @@ static void list_units(const koksma__unit_sums *s, block *b)
     }
 }
 
-/* Transforms along all axes but the first, forward; backward, but for a factor, with re and im exchanged. */
+/* Transforms forward along all axes except the first. With re and im exchanged it transforms backward, up to a
+   factor. */
 static void transform_axes(koksma__unit_sums *s, const block *b, double *re, double *im)
 {
     size_t stride = b->axes[0].length;
@@ -177,7 +179,8 @@ static void transform_axes(koksma__unit_sums *s, const block *b, double *re, dou
     }
 }
 
-/* What a line's character is half-way around the axes that turn. */
+/* The sign with which a line's kernel continues where the first axis is cut: the line's character at the product of the
+   elements of half order of those axes with `turns` set. */
 static double sign_of(const block *b, size_t line)
 {
     size_t turns = 0;
@@ -287,7 +290,7 @@ static void correlate_lines(koksma__unit_sums *s, const block *b, double *re, do
         memset(line_re + length, 0, (padded - length) * sizeof *re);
         memset(line_im + length, 0, (padded - length) * sizeof *re);
         koksma__fourier_forward(&s->fourier, padded, line_re, line_im);
-        for (size_t j = 0; j < padded; j++) { /* by the conjugate of the line: a correlation */
+        for (size_t j = 0; j < padded; j++) { /* kernel times the conjugate of the line: a correlation */
             const double x = line_re[j] * kernel_re[j] + line_im[j] * kernel_im[j];
             line_im[j] = line_re[j] * kernel_im[j] - line_im[j] * kernel_re[j];
             line_re[j] = x;
@@ -301,7 +304,7 @@ static void correlate_lines(koksma__unit_sums *s, const block *b, double *re, do
     transform_axes(s, b, im, re);
 }
 
-/* Returns the bound of rounding. */
+/* Computes the sums of one block; returns the bound on their rounding error. */
 static double find_block(koksma__unit_sums *s, const block *b, const double *product, double *values)
 {
     double weights[MATRIX];
@@ -336,7 +339,8 @@ static double find_block(koksma__unit_sums *s, const block *b, const double *pro
            (256 * (1 + log2((double)b->m)) * sqrt(square) + 64 * sqrt(whole));
 }
 
-/* The sum over the divisors: one prime after the other, those i first that have the most of it. */
+/* Adds the sums of the blocks over the divisors of n: one prime after the other, first those i that are divisible by
+   its highest power. */
 static void add_up(const koksma__unit_sums *s, double *values)
 {
     const size_t n = s->n;

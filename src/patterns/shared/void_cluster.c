@@ -2,14 +2,15 @@
 /*
  * Void and cluster (Ulichney 1993): the energy of a pixel is the sum of Gaussians (standard deviation 1.5 pixels, on
  * the torus, cut off at 9 pixels along each axis) about the pixels that are set. A tenth of the pixels is set at
- * random, and the tightest cluster is moved to the largest void until that changes nothing. The ranks of those pixels
- * are found by taking out tightest clusters, the other ranks by filling largest voids. On the torus, filling voids
- * and taking clusters out of the rest are the same.
+ * random; then the pixel in the tightest cluster is moved to the largest void until that changes nothing. Removing
+ * the pixel in the tightest cluster again and again gives the ranks of these pixels; filling the largest void again
+ * and again gives the other ranks. On the torus, filling the largest void is the same as removing the tightest
+ * cluster of unset pixels.
  *
- * A change of one pixel changes the energies of the at most 19 x 19 about it. The largest void and the tightest
- * cluster are the roots of two pyramids: a node of level 1 has the best of 2 x 2 pixels, a node of level l + 1 the
- * best of 2 x 2 nodes of level l. A change renews 100 nodes of level 1, 36 of level 2, ...: a constant number but for
- * the height of the pyramid, so that a mask takes time in size^2 log(size). Energies are sums of doubles in a fixed
+ * A change of one pixel changes the energies of the at most 19 x 19 pixels about it. The largest void and the
+ * tightest cluster are the roots of two pyramids: a node of level 1 has the best of 2 x 2 pixels, a node of level l +
+ * 1 the best of 2 x 2 nodes of level l. A change updates 100 nodes of level 1, 36 of level 2, and so on, a bounded
+ * number for each level, so that a mask takes O(size^2 log(size)) time. Energies are sums of doubles in a fixed
  * order, and ties go to the pixel with the lowest index: the ranks do not depend on the instruction set.
  */
 #include <koksma/mask.h>
@@ -27,7 +28,7 @@ enum { REACH = 9, LEVELS = 12 }; /* six standard deviations; 2^LEVELS >= KOKSMA_
 enum { VOIDS, CLUSTERS };
 
 typedef struct best {
-    double merit; /* the energy of a set pixel, minus that of another; -INFINITY without a pixel */
+    double merit; /* CLUSTERS: the pixel's energy; VOIDS: minus its energy; -INFINITY if there is no pixel */
     size_t at;
 } best;
 
@@ -36,8 +37,7 @@ typedef struct mask {
     size_t n;
     double *energy;
     bool *set;
-    best *pyramids[2][LEVELS + 1]; /* VOIDS: of the pixels that are not set, CLUSTERS: of those that are; level 0 is
-                                      energy itself */
+    best *pyramids[2][LEVELS + 1]; /* VOIDS: of unset pixels; CLUSTERS: of set pixels; level 0 is `energy` */
     bool maintained[2];
     double gauss[2 * REACH + 1][2 * REACH + 1];
 } mask;
@@ -61,7 +61,7 @@ static best pixel(const mask *m, int kind, size_t at)
     return one;
 }
 
-/* Node (x, y) of a level, from the four below it; at the far sides there may be fewer. */
+/* Updates node (x, y) of a level from its four children, or fewer at the far sides. */
 static void renew_node(mask *m, int kind, int level, int x, int y)
 {
     const int below = width_of(m, level - 1), right = 2 * x + 1 < below, down = 2 * y + 1 < below;
@@ -76,7 +76,7 @@ static void renew_node(mask *m, int kind, int level, int x, int y)
     m->pyramids[kind][level][(size_t)y * (size_t)width_of(m, level) + (size_t)x] = found;
 }
 
-/* The nodes above the pixels of columns x[0] to x[1] and rows y[0] to y[1]. */
+/* Updates the nodes above the pixels of columns x[0] to x[1] and rows y[0] to y[1]. */
 static void renew(mask *m, const int x[2], const int y[2])
 {
     for (int kind = VOIDS; kind <= CLUSTERS; kind++) {
@@ -90,7 +90,7 @@ static void renew(mask *m, const int x[2], const int y[2])
     }
 }
 
-/* The parts of from .. to on a circle of `size` pixels: one, or two where it crosses the end. */
+/* Cuts the range from .. to of a ring of `size` pixels into one part, or two where it wraps around. */
 static int unwrap(int from, int to, int size, int parts[2][2])
 {
     if (from >= 0 && to < size) {
@@ -107,7 +107,7 @@ static int unwrap(int from, int to, int size, int parts[2][2])
 
 static void change(mask *m, size_t at, bool on)
 {
-    /* On a small torus each pixel is met once, along the shortest way. */
+    /* On a small torus each pixel is visited once, at its shortest distance. */
     const int size = m->size, after = size / 2 < REACH ? size / 2 : REACH;
     const int before = (size - 1) / 2 < REACH ? (size - 1) / 2 : REACH;
     const int x = (int)(at % (size_t)size), y = (int)(at / (size_t)size);
@@ -126,7 +126,7 @@ static void change(mask *m, size_t at, bool on)
     }
 }
 
-/* From now on updates the pyramid of one kind only. */
+/* Makes later changes update the pyramid of one kind only. */
 static void maintain_only(mask *m, int kind)
 {
     const int all[2] = {0, m->size - 1};
@@ -168,7 +168,7 @@ static koksma_status begin(mask *m, uint64_t seed, const koksma_run *run, size_t
     return KOKSMA_OK;
 }
 
-/* The ranks of the first pixels, taken out one by one, and put back. */
+/* Computes the ranks of the first `count` pixels by removing them one by one, and sets them again. */
 static void rank_first(mask *m, size_t count, uint32_t *ranks)
 {
     for (size_t i = 0; i < m->n; i++) {
@@ -203,7 +203,7 @@ static koksma_status fill_voids(mask *m, size_t count, const koksma_run *run, ui
     return KOKSMA_OK;
 }
 
-/* All memory is one block, which begins with m->energy. */
+/* Allocates all memory of the mask as one block, which begins with m->energy. */
 static koksma_status make_room(mask *m)
 {
     size_t nodes = 0;

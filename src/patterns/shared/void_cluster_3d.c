@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Void and cluster (Ulichney 1993) in space and time: the energy of a voxel is the sum of Gaussians (standard deviation 1.5
- * voxels along each axis, on the torus, cut off at 4 voxels) about the voxels that are set. The order of work is that of
- * void_cluster.c: a tenth of the voxels at random, evened out, ranked from the tightest cluster down, then voids filled.
+ * Void and cluster (Ulichney 1993) in space and time: the energy of a voxel is the sum of Gaussians (standard
+ * deviation 1.5 voxels along each axis, on the torus, cut off at 4 voxels) about the voxels that are set. The steps
+ * are those of void_cluster.c: a tenth of the voxels is set at random, clusters are moved to voids, these voxels are
+ * ranked by removing the tightest cluster, and the others by filling the largest void.
  *
- * The largest void and the tightest cluster are found by a tournament over all voxels: node i of a binary tree has the
- * better of nodes 2 i and 2 i + 1. A change of a voxel renews the paths above the at most 9^3 about it. Ties go to the voxel
- * with the lowest index.
+ * The largest void and the tightest cluster are found by a tournament over all voxels: node i of a binary tree holds
+ * the better voxel of nodes 2 i and 2 i + 1. A change of a voxel updates the paths above the at most 9^3 voxels about
+ * it. Ties go to the voxel with the lowest index.
  */
 #include <koksma/mask.h>
 
@@ -24,12 +25,12 @@ typedef struct volume {
     int sides[3]; /* along x, y, time */
     uint32_t n, leaves;
     double *energy;
-    uint32_t *winner; /* of node i; n: no voxel. Leaves are nodes leaves .. 2 leaves - 1. */
+    uint32_t *winner; /* best voxel of each node, n if none; the leaves are nodes leaves .. 2 leaves - 1 */
     bool *set, clusters;
     double gauss[SPAN];
 } volume;
 
-/* The voxel with more energy if it is one of those set, with less if not. */
+/* The better of two voxels: the one with more energy if clusters are searched, with less if voids are. */
 static uint32_t better(const volume *v, uint32_t a, uint32_t b)
 {
     if (a == v->n || b == v->n) {
@@ -51,7 +52,7 @@ static void renew_above(volume *v, uint32_t at)
     }
 }
 
-/* Looks among the voxels that are set for the most energy, or among the others for the least. */
+/* Finds the set voxel with the most energy (clusters) or the unset voxel with the least (voids). */
 static uint32_t look_for(volume *v, bool clusters)
 {
     if (v->clusters != clusters) {
@@ -69,7 +70,7 @@ static uint32_t look_for(volume *v, bool clusters)
     return v->winner[1];
 }
 
-/* The coordinates from which a voxel of coordinate c is met once, along the shortest way. */
+/* Lists the coordinates within REACH of c on the torus, each once with its shortest offset; returns how many. */
 static int neighbours(int c, int side, int *at, int *offset)
 {
     int count = 0;
@@ -111,7 +112,8 @@ static koksma_status begin(volume *v, uint64_t seed, const koksma_run *run, uint
             placed++;
         }
     }
-    /* Looking for voids and clusters by turns would renew the whole tree each time: a voxel's move is judged by scanning. */
+    /* Searching for voids and clusters in turn would rebuild the whole tree each time: a scan finds the void
+       instead. */
     for (uint32_t step = 0; step < 4 * *count; step++) {
         const uint32_t cluster = look_for(v, true);
         change(v, cluster, false);

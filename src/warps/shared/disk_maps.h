@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The two maps of the square onto the unit disk, which the hemispheres lift. */
+/* The two maps of the square onto the unit disk (concentric and polar), and two maps of the disk to the
+ * hemisphere. */
 #ifndef KOKSMA_WARPS_SHARED_DISK_MAPS_H
 #define KOKSMA_WARPS_SHARED_DISK_MAPS_H
 
 #include <math.h>
 
-/* Squares about the centre become circles: side a > |b| of [-1,1]^2 goes to radius a, angle (pi/4) b/a. */
+/* Maps squares about the centre to circles: a point (a, b) of [-1,1]^2 with |a| > |b| goes to radius a and angle
+   (pi/4) b/a; one with |a| <= |b| goes to radius b and angle pi/2 - (pi/4) a/b. */
 static inline void koksma__map_concentric(const double *u, double *x)
 {
     const double a = 2 * u[0] - 1, b = 2 * u[1] - 1;
@@ -22,7 +24,7 @@ static inline void koksma__map_concentric(const double *u, double *x)
     }
 }
 
-/* Radius sqrt(u), angle 2 pi v. */
+/* Maps (u, v) of the square to radius sqrt(u) and angle 2 pi v. */
 static inline void koksma__map_polar(const double *u, double *x)
 {
     const double r = sqrt(u[0]), angle = 2 * M_PI * u[1];
@@ -30,7 +32,8 @@ static inline void koksma__map_polar(const double *u, double *x)
     x[1] = r * sin(angle);
 }
 
-/* A point of the disk to the hemisphere: uniform solid angle, z = 1 - r^2 (Lambert's equal-area projection). */
+/* Maps a point of the disk to the hemisphere at height z = 1 - r^2, uniform in solid angle (the inverse of Lambert's
+   equal-area projection). */
 static inline void koksma__lift_uniform(double *x)
 {
     const double square = fmin(x[0] * x[0] + x[1] * x[1], 1), scale = sqrt(2 - square);
@@ -39,7 +42,7 @@ static inline void koksma__lift_uniform(double *x)
     x[2] = 1 - square;
 }
 
-/* Straight up: density proportional to z (Malley's method). */
+/* Projects a point of the disk vertically onto the hemisphere: the density is proportional to z (Malley's method). */
 static inline void koksma__lift_cosine(double *x)
 {
     x[2] = sqrt(fmax(1 - x[0] * x[0] - x[1] * x[1], 0));
