@@ -35,7 +35,7 @@ enum { RAYS = 256, COARSEST = 16, FINEST = 2, LEVELS = 64, BUCKETS = 1 << 16, MA
 
 typedef struct record {
     float p[3], n[3], light[3], reach; /* light: irradiance / pi; reach: R_i */
-    /* level: of its grid of cells; next: the next record in the same bucket, or -1 */
+    /* level: the level of the cell that holds the record; next: the next record in the same bucket, or -1 */
     int32_t level, next;
 } record;
 
