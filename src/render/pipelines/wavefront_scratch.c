@@ -71,7 +71,8 @@ koksma_status koksma__wavefront_reserve(koksma__queue *queue)
 static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, koksma__drawn **out)
 {
     KOKSMA__FAIL_IF(scratch->n_drawn * scratch->capacity > KOKSMA__MAX_DRAWN, KOKSMA_ARGUMENT,
-                    "more than %zu samples of this many uses: fewer samples a pixel would do", scratch->capacity);
+                    "the scene needs too many uses for %zu samples at once: fewer samples a pixel would do",
+                    scratch->capacity);
     const size_t n = 2 * (scratch->capacity + KOKSMA__LANE_STEP); /* with room for whole lanes */
     koksma__drawn *list = realloc(scratch->drawn, (scratch->n_drawn + 1) * sizeof *list);
     float *pairs = malloc(n * sizeof *pairs);
