@@ -13,7 +13,7 @@ static double value(double x)
 
 const koksma_filter koksma__filter_blackman_harris = {
     .name = "blackman-harris",
-    .title = "the Blackman-Harris window, radius 1.5",
+    .title = "the Blackman-Harris window with a radius of 1.5 pixels",
     .cite = "harris1978",
     .radius = 1.5,
     .value = value,

@@ -12,7 +12,7 @@ static double value(double x)
 
 const koksma_filter koksma__filter_gaussian = {
     .name = "gaussian",
-    .title = "a Gaussian, sigma 1/2, cut at 1.5",
+    .title = "a Gaussian of sigma 1/2 pixel, cut off at 1.5 pixels",
     .cite = "cook1986",
     .radius = 1.5,
     .value = value,

@@ -16,7 +16,7 @@ static double value(double x)
 
 const koksma_filter koksma__filter_mitchell = {
     .name = "mitchell",
-    .title = "Mitchell and Netravali's cubic, B = C = 1/3, negative beyond 8/7: use --splat",
+    .title = "Mitchell and Netravali's cubic, B = C = 1/3; negative beyond 8/7, so use --splat",
     .cite = "mitchell1988",
     .radius = 2,
     .value = value,

@@ -16,7 +16,7 @@ typedef struct koksma__integrator_flags {
     bool ambient;                /* the scene's ambient light replaces light between diffuse surfaces */
     bool branches;               /* glass sends both a reflected and a refracted ray */
     bool roulette;               /* paths of low weight end by Russian roulette */
-    koksma__light_weight weight; /* how to weight light that both light sampling and a followed lobe can find */
+    koksma__light_weight weight; /* the weight of light that both light sampling and a followed lobe can find */
     /* true if the integrator converges to a value that differs from its formula, even without a depth limit */
     bool is_biased;
     /* NULL, or three hooks: `open` computes what is needed before the image and stores it in frame->cache; `close`

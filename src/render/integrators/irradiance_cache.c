@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * irradiance-cache: distribution ray tracing that interpolates the light between diffuse surfaces from cached
- * positions (Ward, Rubinstein & Clear 1988) instead of using the scene's ambient light. A record has the irradiance E
- * at a position p_i, computed from RAYS paths over the hemisphere, and R_i, the harmonic mean of the lengths of their
- * first rays. A record may be used at p with normal n if 1/w = |p - p_i| / R_i + sqrt(1 - n.n_i) < ACCURACY, and E(p)
- * is the mean of these records weighted by w. R_i is clamped so that the record reaches between LEAST and MOST
- * pixels.
+ * The integrator `irradiance-cache` is distribution ray tracing that interpolates the light between diffuse surfaces
+ * from cached positions (Ward, Rubinstein & Clear 1988) instead of using the scene's ambient light. A record has the
+ * irradiance E at a position p_i, computed from RAYS paths over the hemisphere, and R_i, the harmonic mean of the
+ * lengths of their first rays. A record may be used at p with normal n if 1/w = |p - p_i| / R_i + sqrt(1 - n.n_i) <
+ * ACCURACY, and E(p) is the mean of these records weighted by w. R_i is clamped so that the record reaches between
+ * LEAST and MOST pixels.
  *
  * Records are made before the image, on successively finer grids of pixels. All threads compute the positions of a
  * grid that no record covers; the new records are then inserted one after the other, so that the result does not
@@ -34,7 +34,7 @@ enum { RAYS = 256, COARSEST = 16, FINEST = 2, LEVELS = 64, BUCKETS = 1 << 16, MA
 #define MOST 150.0f
 
 typedef struct record {
-    float p[3], n[3], light[3], reach; /* light: irradiance / pi; reach: R_i */
+    float p[3], n[3], light[3], reach; /* light is irradiance / pi, and reach is R_i */
     /* level: the level of the cell that holds the record; next: the next record in the same bucket, or -1 */
     int32_t level, next;
 } record;
@@ -101,7 +101,7 @@ static void look_in(const cache *c, int level, const int64_t cell[3], const floa
         const record *r = &c->records[k];
         int64_t home[3];
         cell_of(r->p, cell_size(c, level), home);
-        /* false: a record of another cell in the same bucket */
+        /* `here` is false for a record of another cell in the same bucket */
         const bool here = r->level == level && !memcmp(home, cell, sizeof home);
         const float inverse = here ? distance(r, p, n) : INFINITY;
         if (inverse < ACCURACY) {
@@ -169,7 +169,7 @@ static koksma_status enter(cache *c, const record *from)
 
 /* ---- Computing a record --------------------------------------------------------------------------------- */
 
-/* Scratch for the paths of one record. */
+/* The scratch memory for the paths of one record. */
 typedef struct record_scratch {
     void *scratch;
     koksma__values values;
@@ -265,7 +265,7 @@ koksma_status koksma__irradiance_cache_indirect(const koksma__frame *frame, cons
 typedef struct grid {
     cache *cache;
     int step, columns, rows;
-    record *found; /* records by grid position, one row per parallel task; reach 0: no new record */
+    record *found; /* one record for each grid position, with one row per parallel task; reach 0: no new record */
     float time;
 } grid;
 

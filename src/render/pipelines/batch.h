@@ -132,7 +132,8 @@ enum { KOKSMA__MAX_BATCH_LIGHTS = 256 };
    or 0 if no part of the light can be seen from p; d is the vector from p to the centre of the light, and r =
    max(|d|, reach). Distant lights have their direction in (nx, ny, nz) and power 0. */
 typedef struct koksma__batch_lights {
-    int n, whole; /* n: number of lights; whole: n rounded up to whole lanes, where added lights are dark */
+    /* n is the number of lights, and whole is n rounded up to whole lanes, where added lights are dark */
+    int n, whole;
     KOKSMA__LIGHT_LANES(cx);
     KOKSMA__LIGHT_LANES(cy);
     KOKSMA__LIGHT_LANES(cz);
@@ -143,7 +144,7 @@ typedef struct koksma__batch_lights {
     KOKSMA__LIGHT_LANES(power); /* power of a light that has a position; 0 for others */
     KOKSMA__LIGHT_LANES(reach);
     KOKSMA__LIGHT_LANES(far);   /* irradiance of a directional light on a surface that faces it */
-    KOKSMA__LIGHT_LANES(fixed); /* constant part of the estimate, for an environment */
+    KOKSMA__LIGHT_LANES(fixed); /* constant part of the estimate of an environment light */
 } koksma__batch_lights;
 
 struct koksma__surfaces;

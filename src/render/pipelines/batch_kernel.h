@@ -10,7 +10,7 @@
 #include "render/pipelines/batch.def"
 #undef KERNEL
 
-/* a multiple of the lane step: the compiler needs no remainder loop */
+/* rounds n down to the lane step, so that the compiler adds no remainder loop */
 #define STEP(n) ((n) & ~(KOKSMA__LANE_STEP - 1))
 
 /* Marks a loop over lanes whose iterations are independent: no lane reads what another lane writes. gcc gives up

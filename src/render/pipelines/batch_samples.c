@@ -9,8 +9,8 @@
  *
  *     x = m x + a mod 2^k,   x = x ^ x >> 2,   x = x rotated by (k + 1) / 2 bits,
  *
- * with 16 random bits for m, which is made odd, and 16 for a. It takes six rounds: with five, the pairs of positions
- * still differ measurably from those of a random order (docs/decisions/0040-samples-in-floats.md).
+ * Each round takes 16 random bits for m, which is made odd, and 16 for a. There are six rounds: with five, the pairs
+ * of positions still differ measurably from those of a random order (docs/decisions/0040-samples-in-floats.md).
  */
 #include <string.h>
 
@@ -90,7 +90,7 @@ void BATCH_NAME(order)(const uint32_t *words, size_t n, uint16_t *out)
         first[l] = (uint16_t)l;
     }
     if ((n & (n - 1)) == 0) {
-        for (size_t i = 0; i < n; i += VECTORS * SHORTS) { /* blocks of 64 numbers: n is at least 64 */
+        for (size_t i = 0; i < n; i += VECTORS * SHORTS) { /* a block has 64 numbers, and n is at least 64 */
             shorts x[VECTORS];
             for (int v = 0; v < VECTORS; v++, first += SHORTS) {
                 x[v] = first;

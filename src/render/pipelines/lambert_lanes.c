@@ -6,8 +6,8 @@
  *     background                                                             where the ray hits nothing,
  *     min(clamp, albedo (ambient + sum over lights of their light))          elsewhere,
  *
- * with one shadow ray per light. wavefront.c gives the same values for such scenes up to rounding, but takes several
- * times as long.
+ * Each sample takes one shadow ray per light. The pipeline of wavefront.c gives the same values for such scenes up to
+ * rounding, but takes several times as long.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -222,7 +222,7 @@ static koksma_status trace(const koksma__frame *f, void *opened, const koksma__g
 
 const koksma__pipeline koksma__pipeline_lambert_lanes = {
     .name = "lambert-lanes",
-    .title = "grey Lambert surfaces under rectangles that no ray sees, in lanes",
+    .title = "grey Lambert surfaces under invisible rectangular lights, in SIMD lanes",
     .preference = 1,
     .takes = takes,
     .culls = true,

@@ -34,7 +34,7 @@ typedef struct koksma__lane_materials {
 typedef struct koksma__surfaces {
     const koksma__hits *hits;
     const koksma__shading_material *materials; /* indexed by hits->material */
-    const koksma__lane_materials *table;       /* the same materials as arrays */
+    const koksma__lane_materials *table;       /* the materials as arrays of their properties */
     unsigned traits;                           /* bitwise or of the traits of all lanes */
     KOKSMA__LANES(int32_t, form);
     _Alignas(64) koksma__lanes out[3];
@@ -93,9 +93,10 @@ typedef struct koksma__paths {
 typedef struct koksma__vertices {
     const koksma__paths *paths;
     int n, whole;
-    bool moves, chooses; /* moves: the times of paths are read; chooses: their normals are read, to choose lights */
+    /* moves: kernels read the times of paths; chooses: kernels read the normals of paths, to choose lights */
+    bool moves, chooses;
     koksma__hits hits;
-    /* form KOKSMA__UNLIT: the ray hit nothing or a light, or the lane is unused */
+    /* the form of a lane is KOKSMA__UNLIT if its ray hit nothing or a light, or if the lane is unused */
     koksma__surfaces surfaces;
     _Alignas(64) koksma__lanes light[3]; /* light that this vertex adds to the sample of each path */
 } koksma__vertices;

@@ -5,9 +5,10 @@
  *
  *     L(x, out) = E(x, out) + integral of f(w, out) L(y, -w) cos dw
  *
- * by paths, where y is the point that the ray from x along w hits. A path is a ray and a weight beta, the product of
- * f cos / pdf of all directions so far, with which its light counts for the sample. All paths of a group advance by
- * one vertex together, so that rays and shadow rays are intersected in blocks of 64 lanes (batch.h):
+ * Here y is the point that the ray from x along w hits. The estimate is the light of random paths. A path is a ray
+ * and a weight beta, the product of f cos / pdf of all directions so far, with which its light counts for the sample.
+ * All paths of a group advance by one vertex together, so that rays and shadow rays are intersected in blocks of 64
+ * lanes (batch.h):
  *
  *     queue of paths, bounce b
  *       | closest          intersects 64 rays at once: primitive, position, normal
@@ -43,7 +44,7 @@
 #include "render/texture.h"
 #include "render/vector3.h"
 
-/* samples that are traced together; the limit bounds the queues, which branching lengthens */
+/* largest number of samples that are traced together, which bounds the queues that branching lengthens */
 enum { TOGETHER = 1024 };
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
@@ -564,7 +565,8 @@ static koksma_status trace_group(const koksma__frame *frame, void *opened, const
     for (size_t p = 0; group->count > 1 && p < group->count; p++) {
         memset(scratch->pixel_of + group->start[p], (int)p, group->start[p + 1] - group->start[p]);
     }
-    memset(scratch->is_alive, true, sizeof scratch->is_alive); /* lens and time samples are drawn for all pixels */
+    /* the lens and time samples are drawn for all pixels */
+    memset(scratch->is_alive, true, sizeof scratch->is_alive);
     for (size_t first = 0; !status && first < n; first += TOGETHER) {
         status = trace_samples(&trace, first, n - first < TOGETHER ? n : first + TOGETHER, values);
     }
@@ -580,7 +582,7 @@ static bool takes(const koksma__frame *frame)
 
 const koksma__pipeline koksma__pipeline_wavefront = {
     .name = "wavefront",
-    .title = "every scene and option: blocks of paths, one vertex at a time",
+    .title = "all scenes and options: traces blocks of paths, one vertex at a time",
     .takes = takes,
     .together = TOGETHER,
     .open = koksma__wavefront_open,

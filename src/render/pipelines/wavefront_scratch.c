@@ -52,7 +52,7 @@ koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity
 
 koksma_status koksma__wavefront_reserve(koksma__queue *queue)
 {
-    if (queue->n + KOKSMA__BLOCK > queue->capacity) { /* not by realloc, which may lose the alignment */
+    if (queue->n + KOKSMA__BLOCK > queue->capacity) { /* realloc is not used, because it may lose the alignment */
         const size_t blocks = 2 * queue->capacity / KOKSMA__BLOCK + 4, filled = queue->capacity / KOKSMA__BLOCK;
         koksma__paths *larger = aligned_alloc(64, blocks * sizeof *larger);
         KOKSMA__REQUIRE_MEMORY(larger, blocks * sizeof *larger);
@@ -73,7 +73,8 @@ static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, k
     KOKSMA__FAIL_IF(scratch->n_drawn * scratch->capacity > KOKSMA__MAX_DRAWN, KOKSMA_ARGUMENT,
                     "the scene needs too many uses for %zu samples at once: fewer samples a pixel would do",
                     scratch->capacity);
-    const size_t n = 2 * (scratch->capacity + KOKSMA__LANE_STEP); /* with room for whole lanes */
+    /* the samples of a pixel are padded to whole lanes */
+    const size_t n = 2 * (scratch->capacity + KOKSMA__LANE_STEP);
     koksma__drawn *list = realloc(scratch->drawn, (scratch->n_drawn + 1) * sizeof *list);
     float *pairs = malloc(n * sizeof *pairs);
     scratch->drawn = list ? list : scratch->drawn;

@@ -15,14 +15,14 @@
 typedef struct set {
     uint32_t use;
     bool drawn;
-    float *pairs; /* one pair per sample */
+    float *pairs; /* one pair of coordinates per sample */
 } set;
 
 typedef struct image_samples {
     const koksma_render_options *options;
     size_t n, n_sets;
-    uint32_t *first; /* where the samples of each pixel begin in `order`, and n at the end */
-    uint32_t *order; /* sample indices sorted by pixel */
+    uint32_t *first; /* the index in `order` of the first sample of each pixel, and n at the end */
+    uint32_t *order; /* indices of the samples, sorted by pixel */
     set sets[];
 } image_samples;
 
@@ -45,7 +45,7 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
     const float width = (float)s->options->width, height = (float)s->options->height;
     for (uint32_t i = s->first[pixel]; i < s->first[pixel + 1]; i++) {
         const float *pair = from->pairs + 2 * (size_t)s->order[i];
-        if (use == KOKSMA__USE_PIXEL) { /* stored in [0,1)^2, returned in film coordinates */
+        if (use == KOKSMA__USE_PIXEL) { /* film positions are stored in [0,1)^2 and returned in pixels */
             *pairs++ = pair[0] * width;
             *pairs++ = pair[1] * height;
         } else {
@@ -170,7 +170,7 @@ static size_t sort(image_samples *s)
         most = s->first[p + 1] > most ? s->first[p + 1] : most;
         s->first[p + 1] += s->first[p];
     }
-    /* from the last sample on, so that each counter moves down to the first sample of its pixel */
+    /* The loop begins with the last sample, so that each counter moves down to the first sample of its pixel. */
     for (size_t i = s->n; i-- > 0;) {
         s->order[--s->first[pixel_of(s, i) + 1]] = (uint32_t)i;
     }

@@ -20,7 +20,7 @@
 #include "render/samples/float_sets.h"
 #include "render/samples/sampler.h"
 
-/* base of the keys for the random numbers of permutations; it is above the keys of uses */
+/* base of the keys for the random numbers of permutations, above the keys of all uses */
 enum { LANE_PAIRING = 1 << 20 };
 
 /* largest number of coordinates that a thread stores of a native pattern or of groups of uses */
@@ -35,11 +35,12 @@ typedef struct pixel_samples {
        chooses; else it is NULL. */
     float *fixed[KOKSMA_N_USES];
     size_t fixed_sets[KOKSMA_N_USES];
-    int dims[KOKSMA_N_USES]; /* dimensions of the generated sets */
+    int dims[KOKSMA_N_USES]; /* number of dimensions of the generated sets */
     koksma__float_set floats[KOKSMA_N_USES];
     bool shuffles[KOKSMA_N_USES];
     koksma__place_of_use places[KOKSMA_N_USES];
-    size_t kept_first[KOKSMA_MAX_USE_GROUPS]; /* per group: the number of dimensions before its sets in the scratch */
+    /* for each group, the number of dimensions that other groups occupy before it in the scratch */
+    size_t kept_first[KOKSMA_MAX_USE_GROUPS];
 } pixel_samples;
 
 static size_t count(const koksma__sampler *sampler, uint64_t pixel)

@@ -26,8 +26,8 @@ enum {
 typedef struct koksma__sample_scratch {
     double *xs;
     float *pairs;
-    uint32_t *words; /* random words of a use */
-    uint16_t *order; /* two orders of the samples of a use */
+    uint32_t *words; /* buffer for the random words of a use */
+    uint16_t *order; /* buffers for two orders of the samples of a use */
     double *kept;
     uint64_t *kept_keys;   /* the key of the set in each slot; 0: none */
     const koksma_run *run; /* the run of the sampler, or one that is never cancelled */
@@ -35,7 +35,8 @@ typedef struct koksma__sample_scratch {
 
 typedef struct koksma__sampler {
     void *made;
-    /* checked for cancellation by any thread while a set is made, which may take seconds; NULL: never cancelled */
+    /* Any thread checks this run for cancellation while it makes a set, which may take seconds; NULL: never
+       cancelled. */
     const koksma_run *run;
     size_t most; /* largest number of samples in a pixel */
     /* coordinates per sample in `kept` of the scratch: those of all groups, or of a native pattern */
@@ -55,8 +56,8 @@ typedef struct koksma__sampler {
 typedef struct koksma__use_list {
     bool lens, time;
     int lights;        /* number of light uses per bounce */
-    bool light_choice; /* one of several lights is chosen at random */
-    /* vertices of a path; if there is more than one, each has the uses lobe, lobe-choice and roulette, too */
+    bool light_choice; /* whether one of several lights is chosen at random */
+    /* number of vertices of a path; if it is above 1, each vertex has the uses lobe, lobe-choice and roulette, too */
     int vertices;
 } koksma__use_list;
 
@@ -78,7 +79,7 @@ void koksma__sample_scratch_fini(koksma__sample_scratch *room);
 
 /* The coordinates that a use takes from the points of its set. */
 typedef struct koksma__place_of_use {
-    int group;      /* index of its group in the options; -1: none */
+    int group;      /* index in the options of the group that contains the use; -1: none */
     int first, dim; /* the first coordinate of the use, and the number of dimensions of the set */
     uint32_t lead;  /* the smallest number of the uses in the group */
 } koksma__place_of_use;

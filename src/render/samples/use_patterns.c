@@ -64,7 +64,7 @@ static koksma_status check_group(const koksma_use_group *group)
                     "a group of %d uses: it takes 2 to %d", group->n_uses, KOKSMA_N_USES);
     for (int i = 0; i < group->n_uses; i++) {
         KOKSMA__FAIL_IF(group->uses[i] < 0 || group->uses[i] >= KOKSMA_N_USES, KOKSMA_ARGUMENT,
-                        "use %d of a group: there are 0 to %d", group->uses[i], KOKSMA_N_USES - 1);
+                        "use number %d of a group: it takes 0 to %d", group->uses[i], KOKSMA_N_USES - 1);
     }
     koksma_use_group_text(group, name);
     KOKSMA__FAIL_IF(!group->pattern.pattern, KOKSMA_ARGUMENT,

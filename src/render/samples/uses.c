@@ -65,7 +65,7 @@ koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *option
         for (int i = 0; i < group->n_uses && i < KOKSMA_N_USES; i++) {
             const int other = group->uses[i];
             if (other < 0 || other >= KOKSMA_N_USES) {
-                continue; /* options that koksma__check_use_patterns has not checked */
+                continue; /* the options may not have been checked by koksma__check_use_patterns */
             }
             if (other == u) {
                 place.group = g;
@@ -148,7 +148,8 @@ koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const ko
     *room = (koksma__sample_scratch){
         .xs = malloc((2 * n + 8) * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
-        .words = aligned_alloc(64, words * sizeof *room->words), /* aligned, because kernels store whole vectors */
+        /* the words are aligned, because kernels store whole vectors */
+        .words = aligned_alloc(64, words * sizeof *room->words),
         .order = malloc(orders * sizeof *room->order),
         .kept = malloc((kept + 1) * sizeof *room->kept),
         .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),

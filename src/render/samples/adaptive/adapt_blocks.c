@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * blocks: whole blocks of the image continue or stop together (Dammertz, Hanika, Keller & Lensch 2010). With I the
- * mean of all sets of a pixel and A that of every other set, the error of a block of N pixels in an image of M pixels
- * is
+ * The method `blocks` lets whole blocks of the image continue or stop together (Dammertz, Hanika, Keller & Lensch
+ * 2010). With I the mean of all sets of a pixel and A that of every other set, the error of a block of N pixels in an
+ * image of M pixels is
  *
  *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (absolute values and I summed over channels)
  *
@@ -28,7 +28,7 @@ static const koksma_param params[] = {
 
 typedef struct block {
     int x, y, width, height;
-    uint32_t sets; /* sets of its first pixel at the time of the cut */
+    uint32_t sets; /* number of sets of its first pixel at the time of the cut */
     bool stopped;
 } block;
 

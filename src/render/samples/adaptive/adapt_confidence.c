@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * confidence: a pixel gets more samples while the uncertainty of its luminance is above the threshold. With n samples
- * of variance s^2, the uncertainty is
+ * The method `confidence`: a pixel gets more samples while the uncertainty of its luminance is above the threshold.
+ * With n samples of variance s^2, the uncertainty is
  *
  *     test=t      the half width of the mean's interval: t_(n-1),(1+level)/2  s / sqrt(n)   (Purgathofer 1987)
  *     test=chi2   the upper confidence bound of the mean's standard error (Lee, Redner & Uselton 1985):

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * contrast: the eye responds to ratios of light, so a pixel gets more samples while the contrast of its samples,
+ * The method `contrast`: the eye responds to ratios of light, so a pixel gets more samples while its samples have a
+ * high contrast
  *
- *     C = (max - min) / (max + min),
+ *     C = (max - min) / (max + min).
  *
- * is above 0.4 in red, 0.3 in green or 0.6 in blue (Mitchell 1987); grey images use the bound of green. The parameter
- * `threshold` multiplies the three bounds; 1 gives Mitchell's. More samples can only widen the range, so a pixel that
- * once exceeds the threshold gets the largest number of samples. Every pixel thus ends with one of two sample counts,
- * as in the paper, unless the budget is exhausted first.
+ * The contrast is high if it is above 0.4 in red, 0.3 in green or 0.6 in blue (Mitchell 1987); grey images use the
+ * bound of green. The parameter `threshold` multiplies the three bounds; 1 gives Mitchell's. More samples can only
+ * widen the range, so a pixel that once exceeds the threshold gets the largest number of samples. Every pixel thus
+ * ends with one of two sample counts, as in the paper, unless the budget is exhausted first.
  */
 #include <math.h>
 

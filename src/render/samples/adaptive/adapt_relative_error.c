@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * relative-error: a pixel gets more samples while the standard error of its luminance is above threshold x (mean +
- * floor). The standard error is estimated from the variance between the means of the sets, which are independent
- * replicates of the pattern. The samples of one stratified set are not independent, and their variance over n
- * overestimates the error. Sets of a sequence are also drawn independently, not continued. With k sets the estimate
- * has k - 1 degrees of freedom: with fewer than 4 sets in the first round many pixels stop by chance.
+ * The method `relative-error`: a pixel gets more samples while the standard error of its luminance is above threshold
+ * x (mean + floor). The standard error is estimated from the variance between the means of the sets, which are
+ * independent replicates of the pattern. The samples of one stratified set are not independent, and their variance
+ * over n overestimates the error. Sets of a sequence are also drawn independently, not continued. With k sets the
+ * estimate has k - 1 degrees of freedom: with fewer than 4 sets in the first round many pixels stop by chance.
  */
 #include <math.h>
 

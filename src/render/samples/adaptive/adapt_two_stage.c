@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * two-stage: the first sets (the pilot) only decide how many sets a pixel gets; the estimate uses new sets, whose
- * number is then independent of the values that are averaged, so that there is no bias (Kirk & Arvo 1991). The number
- * of sets is
+ * The method `two-stage`: the first sets (the pilot) only decide how many sets a pixel gets; the estimate uses new
+ * sets, whose number is then independent of the values that are averaged, so that there is no bias (Kirk & Arvo
+ * 1991). The number of sets is
  *
  *     k = (e / threshold)^2     with a threshold, where e = s / (m + floor) is the relative error of one set
  *     k proportional to e       with a budget, as many sets as the budget allows (Neyman 1934: the best allocation for

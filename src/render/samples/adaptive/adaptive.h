@@ -15,8 +15,8 @@
 /* The demand of a pixel for more samples. */
 typedef struct koksma__sample_demand {
     uint32_t now;   /* samples in the next round; 0: the pixel is done */
-    uint32_t later; /* number of further samples that these samples require in the last round */
-    float score;    /* priority: under a budget the highest scores are selected first */
+    uint32_t later; /* number of samples in the last round that these samples make necessary */
+    float score;    /* priority of the pixel; under a budget the highest scores are selected first */
     bool selected;  /* true: the next round draws samples of this pixel */
 } koksma__sample_demand;
 
@@ -60,7 +60,7 @@ struct koksma__adaptive {
     const koksma_adaptive_options *options;
     const koksma__adaptive_method *method;
     size_t pixels, scratch;
-    uint64_t budget, spent; /* in samples; budget UINT64_MAX: no budget */
+    uint64_t budget, spent; /* both count samples; budget UINT64_MAX: no budget */
     koksma__sampler base;   /* the sampler that draws sets of the pattern */
     koksma__sample_demand *demands;
     uint32_t *taken; /* number of samples of each pixel so far */
@@ -80,15 +80,15 @@ koksma_status koksma__adaptive_choose(koksma__adaptive *run, size_t *selected);
 typedef struct koksma__pixel_sets {
     uint32_t sets;      /* number of sets in the sums */
     uint32_t drawn;     /* number of sets that were drawn */
-    float lo[3], hi[3]; /* minimum and maximum of the samples */
+    float lo[3], hi[3]; /* minimum and maximum of the samples in each channel */
     float origin;
-    double sum[3];  /* weighted sum of the samples */
+    double sum[3];  /* weighted sum of the samples in each channel */
     double half[3]; /* unweighted sum over the sets 0, 2, 4, … */
     double all[3];
-    double sum_y, sum_yy;   /* sums of the luminances and of their squares */
+    double sum_y, sum_yy;   /* sums of the luminances of samples and of their squares */
     double sum_mean_square; /* sum of the squared mean luminances of the sets */
     double sum_w3;          /* sum of the cubed weights */
-    double moments[3][3];   /* [j][k]: sum over the samples of weight^j luminance^k */
+    double moments[3][3];   /* element [j][k] is the sum over the samples of weight^j luminance^k */
 } koksma__pixel_sets;
 
 /* The parameters of every method of this kind begin with these. */

@@ -18,7 +18,7 @@ typedef struct job {
     koksma__frame frame; /* a frame whose sampler draws the samples of a round */
     const koksma__pipeline *pipeline;
     koksma_layers *layers;
-    bool first; /* this is the first round, which sets the layers albedo, normal and depth */
+    bool first; /* true in the first round, which sets the layers albedo, normal and depth */
     size_t capacity;
     atomic_ullong rays;
 } job;
@@ -237,7 +237,7 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
         }
     }
     KOKSMA__FAIL_IF(!(adaptive->budget >= 0 && adaptive->budget <= KOKSMA_MAX_SPP), KOKSMA_ARGUMENT,
-                    "budget = %.9g: it is 0 to %d samples a pixel", adaptive->budget, KOKSMA_MAX_SPP);
+                    "budget = %.9g: it takes 0 to %d samples a pixel", adaptive->budget, KOKSMA_MAX_SPP);
     KOKSMA__FAIL_IF(adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES, KOKSMA_ARGUMENT,
                     "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
     const koksma__adaptive_method *method = adaptive->method->functions;

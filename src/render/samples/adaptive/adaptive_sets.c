@@ -48,7 +48,7 @@ static koksma_status check_patterns(const koksma__adaptive *run)
 {
     const koksma_render_options *options = run->frame->options;
     koksma_status status = KOKSMA_OK;
-    bool seen = false; /* the common pattern has been checked */
+    bool seen = false; /* whether the common pattern has been checked */
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const koksma__place_of_use place = koksma__place_of_use_at(options, u);
         const bool own = place.group >= 0 || options->patterns[u].pattern;

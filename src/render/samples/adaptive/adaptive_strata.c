@@ -66,7 +66,7 @@ koksma_status koksma__strata_open(koksma__adaptive *run)
     if (run->pixels > MAX_STRATA / spp) {
         return too_many(run);
     }
-    /* the grid, the permutation and the differences */
+    /* the scratch memory for the grid, the permutation and the differences */
     run->scratch = (2 * ((size_t)spp << 2 * s->levels) + spp) * sizeof(uint32_t);
     return open_trees(run, s);
 }
@@ -223,7 +223,7 @@ koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uin
     const koksma__tree *tree = &s->trees[pixel];
     const uint32_t probes = (uint32_t)run->options->probes;
     koksma__use_cells base, cells;
-    /* only its cells are used, to place samples in the base use */
+    /* only the cells of `base` are used, to place samples in the base use */
     koksma__use_cells_init(run, pixel, tree->base, NULL, &base);
     koksma__use_cells_init(run, pixel, use, room->words, &cells);
     for (uint32_t i = 0; i < tree->n; i++) {

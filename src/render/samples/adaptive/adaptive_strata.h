@@ -45,36 +45,38 @@ typedef struct koksma__stratum {
     uint32_t number;  /* index of the initial stratum, below m x m */
     uint16_t digits;  /* the quarter of the base use at each split, the first split in the highest digit */
     uint8_t level;    /* number of splits above this stratum */
-    uint8_t needless; /* bit k: split k of those that led to this stratum was needless */
-    bool pending;     /* its sample has not been drawn */
-    bool marked;      /* it will be split */
+    uint8_t needless; /* bit k is set if split k of those that led to this stratum was needless */
+    bool pending;     /* whether the sample of the stratum remains to be drawn */
+    bool marked;      /* whether the stratum will be split */
     float value[3], weight;
 } koksma__stratum;
 
 typedef struct koksma__tree {
     koksma__stratum *strata;
     uint32_t n, marked, splits, needless;
-    uint32_t base;          /* the use in which neighbouring strata are compared */
-    uint32_t stage;         /* KOKSMA__STAGE_TREE or KOKSMA__STAGE_LAST */
-    bool searched, carried; /* method `selective`: the base use was searched for (searched) and found (carried) */
+    uint32_t base;  /* the use in which neighbouring strata are compared */
+    uint32_t stage; /* KOKSMA__STAGE_TREE or KOKSMA__STAGE_LAST */
+    /* in the method `selective`: whether the base use was searched for, and whether it was found */
+    bool searched, carried;
 } koksma__tree;
 
 typedef struct koksma__strata {
     uint32_t m, levels;
     float threshold;
-    bool shuffled, selective; /* selective: only the cells of the base use are split */
+    bool shuffled, selective; /* selective: only the cells of the base use are split with their stratum */
     int phase, reuse;
     double below; /* threshold of the method `selective` on the contiguity ratio */
     koksma__tree *trees;
     atomic_size_t total; /* number of strata in all trees */
 } koksma__strata;
 
-/* The cells of a use in one pixel. */
+/* The cells of the strata of a pixel in one use. */
 typedef struct koksma__use_cells {
     uint32_t use;
     uint64_t seed;
     const uint32_t *permutation; /* permutation of the cells; NULL: identity */
-    /* line: the cells lie on a line; split: they are split with the stratum; turned: the phase moves them */
+    /* line: the cells lie on a line; split: the cells are split with the stratum; turned: the phase moves the
+       samples */
     bool line, split, turned;
 } koksma__use_cells;
 
