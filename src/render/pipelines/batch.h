@@ -38,10 +38,10 @@ typedef struct koksma__rays {
     KOKSMA__LANES(float, time);
 } koksma__rays;
 
-/* The closest hits: the position; the unit normal on the side of the ray's origin; `back`, 1 if that is the back
-   (the inside of a sphere, or the side opposite to a flat shape's normal); the coordinates (u, v) on flat shapes;
-   and the number of the primitive. primitive is -1 where the ray hit nothing; material is -1 there and on lights.
-   `time` is for shadow rays in scenes with motion. */
+/* The closest hits: the position; the unit normal on the side of the ray's origin; `back`, which is 1 if the ray
+   hit the back (the inside of a sphere, or the side opposite to a flat shape's normal); the coordinates (u, v) on
+   flat shapes; and the number of the primitive. primitive is -1 where the ray hit nothing; material is -1 there
+   and on lights. `time` is for shadow rays in scenes with motion. */
 typedef struct koksma__hits {
     KOKSMA__LANES(float, t);
     KOKSMA__LANES(float, px);
@@ -168,7 +168,8 @@ const koksma__batch_table *koksma__batch(void);
 /* Returns the table for an instruction set by its name; NULL if this build or machine lacks it. */
 const koksma__batch_table *koksma__batch_find(const char *isa);
 
-/* The function name of the kernel `name` in the instruction set that is being compiled, like KERNEL_NAME. */
+/* The function name of the kernel `name` in the instruction set that is being compiled, as KERNEL_NAME
+   (kernels/kernels.h) names other kernels. */
 #define BATCH_NAME(name) KOKSMA__JOIN(koksma__batch_, name, KOKSMA_ISA)
 
 #endif

@@ -19,7 +19,7 @@ typedef struct emitter {
     float area, radius;
 } emitter;
 
-/* The light of each lane, as arrays. */
+/* The emitters of all lanes, as arrays. */
 typedef struct emitters {
     _Alignas(64) koksma__lanes centre[3];
     _Alignas(64) koksma__lanes u[3];

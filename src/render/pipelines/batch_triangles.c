@@ -19,8 +19,8 @@ INLINE float larger(float a, float b)
     return a > b ? a : b;
 }
 
-/* Computes the unit normal of the triangle in lane i, whose corners are counterclockwise. The edges are scaled
-   first, because the squared area of a small triangle underflows a float. */
+/* Computes the unit normal of the triangle in lane i, whose corners are counterclockwise. The edges of the
+   triangle are scaled first, because the squared area of a small triangle underflows a float. */
 INLINE void normal_of(const koksma__landings *restrict l, int i, float *nx, float *ny, float *nz)
 {
     const float ax = l->corners[3][i] - l->corners[0][i], bx = l->corners[6][i] - l->corners[0][i];

@@ -156,8 +156,8 @@ static void note_layers(const koksma__hits *hits, const koksma__rays *rays, cons
     }
 }
 
-/* Shades samples start .. start + n - 1 of the group, whose rays hit `hits`; the last `copies` of them only fill
-   lanes and their values are not used. */
+/* Shades samples start .. start + n - 1 of the group, whose rays hit `hits`; the last `copies` of these samples
+   only fill lanes, and their values are not used. */
 static void shade_block(const koksma__frame *f, const koksma__rays *rays, const koksma__hits *hits, size_t start,
                         int n, int copies, const scratch *r, koksma__values *values)
 {

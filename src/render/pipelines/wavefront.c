@@ -5,10 +5,10 @@
  *
  *     L(x, out) = E(x, out) + integral of f(w, out) L(y, -w) cos dw
  *
- * Here y is the point that the ray from x along w hits. The estimate is the light of random paths. A path is a ray
- * and a weight beta, the product of f cos / pdf of all directions so far, with which its light counts for the sample.
- * All paths of a group advance by one vertex together, so that rays and shadow rays are intersected in blocks of 64
- * lanes (batch.h):
+ * Here y is the point that the ray from x along w hits. The tracer estimates the integral by random paths. A path is
+ * a ray and a weight beta, the product of f cos / pdf of all directions so far, with which its light counts for the
+ * sample. All paths of a group advance by one vertex together, so that rays and shadow rays are intersected in blocks
+ * of 64 lanes (batch.h):
  *
  *     queue of paths, bounce b
  *       | closest          intersects 64 rays at once: primitive, position, normal
@@ -254,7 +254,7 @@ static void bend(const koksma__map *map, const koksma__triangle *triangle, koksm
     }
 }
 
-/* Applies textures and vertex colours to lane i, whose material has some. */
+/* Applies the textures of the material and the colours of mesh vertices to lane i. */
 static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
 {
     koksma__hits *h = &v->hits;
@@ -309,7 +309,7 @@ static void note_first(koksma__values *values, const koksma__vertices *v, int i)
 
 /* ---- Going on --------------------------------------------------------------------------------------------- */
 
-/* Follows both directions, reflected and refracted, of lane i, whose material has two. */
+/* Follows both directions, reflected and refracted, at lane i, whose material has two directions. */
 static koksma_status branch(const koksma__trace *trace, const koksma__vertices *v, int i)
 {
     const koksma__surface s = koksma__surface_at(&v->surfaces, i);

@@ -82,7 +82,7 @@ static inline koksma_status koksma__wavefront_push(koksma__queue *queue, const k
     return KOKSMA_OK;
 }
 
-/* Returns the pairs of a use; pair i is for sample i. They are drawn when a path first needs the use, for the
+/* Returns the pairs of a use; pair i is for sample i. The pairs are drawn when a path first needs the use, for the
    pixels that have a path at this bounce. Errors: the sampler's, ARGUMENT (too many pairs), MEMORY. */
 koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, const float **pairs);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Draws one point set over the whole image instead of one per pixel, a question that Mitchell (1992) leaves open.
- * Each use has a set of n = spp width height points. The set of the use `pixel`, stretched over the film, determines
- * which samples each pixel has, and how many. The samples of a pixel keep the order of the pattern.
+ * Draws one point set over the whole image instead of one per pixel, which Mitchell (1992) leaves as an open
+ * question. Each use has a set of n = spp width height points. The set of the use `pixel`, stretched over the film,
+ * determines which samples each pixel has, and how many. The samples of a pixel keep the order of the pattern.
  */
 #include <stdlib.h>
 

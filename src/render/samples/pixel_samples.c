@@ -2,9 +2,9 @@
 /*
  * Draws a new point set of the pattern in every pixel. Distribution ray tracing needs a point with the dimensions of
  * all uses. Cook (1986) and Shirley (1991, section 5.5.4) build it from 2D sets, one per use, whose strata are
- * matched by random permutations ("uncorrelated jitter"): each use alone is as well spread as its pattern, and the
- * uses are independent. A pattern with native pairing has the dimensions of all uses, and the pattern of a group has
- * the dimensions of the group's uses; the coordinates of each such point stay together in one sample.
+ * matched by random permutations ("uncorrelated jitter"): the set of each use alone is as well spread as its pattern,
+ * and the uses are independent. A pattern with native pairing has the dimensions of all uses, and the pattern of a
+ * group has the dimensions of the group's uses; the coordinates of each such point stay together in one sample.
  *
  * The random words are hashes of (seed, pixel, use). float_sets.c makes the pairs of a use in floats if its pattern
  * has such a form; koksma_generate makes all others.

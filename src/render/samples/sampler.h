@@ -11,8 +11,8 @@
 
 #include "render/pipelines/batch.h"
 
-/* The numbers of the uses in uses.def. They are part of the keys of random numbers, so they never change. Lights
-   count up from LIGHT, and at bounce b the number b KOKSMA__USES_A_BOUNCE is added. */
+/* The numbers of the uses in uses.def. The numbers are part of the keys of random numbers, so they never change.
+   Lights count up from LIGHT, and at bounce b the number b KOKSMA__USES_A_BOUNCE is added. */
 enum {
 #define USE(id, number, name, dim, help) KOKSMA__USE_##id = (number),
 #include "render/samples/uses.def"

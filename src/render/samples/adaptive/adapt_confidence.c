@@ -18,7 +18,7 @@
 #include "stats/quantiles.h"
 
 enum { TEST = KOKSMA__SETS_THRESHOLD + 1, LEVEL };
-/* The factors are tabulated for 1 .. FACTORS sets; beyond, they hardly change and the last factor is used. */
+/* The factors are tabulated for up to FACTORS sets; beyond, they hardly change and the last factor is used. */
 enum { FACTORS = 1024 };
 
 static const char *const tests[] = {"t", "chi2", NULL};

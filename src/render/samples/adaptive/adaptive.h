@@ -91,7 +91,7 @@ typedef struct koksma__pixel_sets {
     double moments[3][3];   /* element [j][k] is the sum over the samples of weight^j luminance^k */
 } koksma__pixel_sets;
 
-/* The parameters of every method of this kind begin with these. */
+/* The parameters of every method that draws sets begin with these: first, most and, if there is one, threshold. */
 enum { KOKSMA__SETS_FIRST, KOKSMA__SETS_MOST, KOKSMA__SETS_THRESHOLD };
 #define KOKSMA__SETS_PARAMS(first, least)                                                                            \
     {"first", "number of point sets in the first round", first, least, 4096, NULL, true},                            \

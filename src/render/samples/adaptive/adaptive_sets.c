@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Implements the methods whose samples come in sets of the pattern with spp points each. Set k of a pixel is drawn
- * like the set of a different pixel. If the pattern is a sequence and the method allows it, the sets are instead
+ * Implements the methods whose samples come in sets of the pattern with spp points each. Each set of a pixel is drawn
+ * as if it were for a different pixel. If the pattern is a sequence and the method allows it, the sets are instead
  * consecutive blocks of one sequence, so that the samples of a pixel are always a prefix of the sequence. A group of
  * uses always has separate sets, whatever its pattern.
  */

@@ -63,8 +63,8 @@ static double value_of(const view *v, const koksma__stratum *stratum)
     return (double)(v->run->frame->channels == 1 ? stratum->value[0] : koksma__luminance3(stratum->value));
 }
 
-/* Returns the mean over all parts of the initial stratum that contains stratum i. These parts are adjacent in the
-   list. */
+/* Returns the mean over all parts of the initial stratum that contains stratum i. The parts of an initial stratum
+   are adjacent in the list. */
 static double mean_of(const view *v, uint32_t i)
 {
     const koksma__stratum *list = v->tree->strata;
@@ -146,8 +146,8 @@ static koksma_status fill_space(view *v, uint32_t use, size_t n_splits, koksma_s
     return KOKSMA_OK;
 }
 
-/* The base use comes first. The phase moves the samples of a use but not its strata, so the cells are shown
-   without the phase. */
+/* The list begins with the base use. The phase moves the samples of a use but not its strata, so the cells are
+   shown without the phase. */
 koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, koksma_strata *out)
 {
     const koksma__strata *s = run->state;

@@ -5,26 +5,22 @@
  * has one sample.
  *
  * At first there are m x m strata. Stratum i has cell i of the base use, which is the pixel or the use that causes
- * most of the variance, and one cell of every other use, depending on the pairing:
- *     aligned     the cell i in every use, so that all uses have the same neighbours ("correlated jitter"; Shirley
- *                 1991, section 5.6)
- *     shuffled    cell p(i), with a random permutation p for each pixel and use ("uncorrelated jitter")
- * A one-dimensional use has m^2 strata on a line with shuffled pairing, and the columns of the square with aligned
- * pairing.
+ * most of the variance, and one cell of every other use. Aligned pairing takes cell i in every use, so that all uses
+ * have the same neighbours ("correlated jitter"; Shirley 1991, section 5.6). Shuffled pairing takes cell p(i), with a
+ * random permutation p for each pixel and use ("uncorrelated jitter"). The cells of a one-dimensional use are m^2
+ * intervals of a line with shuffled pairing, and the columns of the square with aligned pairing.
  *
  * Aligned pairing leaves most of the product of the spaces unsampled: for example, samples in the left of the pixel
- * never see the right of a light. The parameter `phase` can correct this:
- *     fixed       no change
- *     shifted     the other uses are shifted on the torus, x -> frac(x + s) with s uniform; the mean of each pixel is
- *                 then right, but neighbouring strata across the seam differ
- *     folded      x -> |2 frac(x + s) - 1|, which has no seam
+ * never see the right of a light. The parameter `phase` can correct this. With phase=fixed the other uses stay in
+ * place. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s uniform; the mean of
+ * each pixel is then right, but neighbouring strata across the seam differ. With phase=folded the other uses are
+ * mapped by x -> |2 frac(x + s) - 1|, which has no seam.
  *
- * The parameter `reuse` decides which samples the parts of a split stratum get:
- *     kept        the old sample stays in the part that contains it; the other parts get new samples
- *     renewed     all four parts get new samples, and the old one is dropped
- *     fresh       as `kept`; when no stratum is split any more, every stratum gets a new sample for the estimate
- *                 (Kirk & Arvo 1991: samples that decide must not be counted), and the parts of a split stratum are
- *                 paired again in all uses
+ * The parameter `reuse` decides which samples the parts of a split stratum get. With reuse=kept the old sample stays
+ * in the part that contains it, and the other parts get new samples. With reuse=renewed all four parts get new
+ * samples, and the old sample is dropped. With reuse=fresh samples are first reused as with reuse=kept; when no
+ * stratum is split any more, every stratum gets a new sample for the estimate (Kirk & Arvo 1991: samples that decide
+ * must not be counted), and the parts of split strata are paired again in all uses.
  */
 #ifndef KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_STRATA_H
 #define KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_STRATA_H
@@ -107,7 +103,7 @@ int koksma__list_spaces(const koksma__use_list *there, uint32_t list[KOKSMA_MAX_
 
 /* ---- The method (adaptive_strata.c) ----------------------------------------------------------------------- */
 
-/* The parameters of every method of this kind begin with these. */
+/* The parameters of every method that splits strata begin with the three that this enumeration names. */
 enum { KOKSMA__STRATA_LEVELS, KOKSMA__STRATA_THRESHOLD, KOKSMA__STRATA_REUSE };
 extern const char *const koksma__reuse_names[];
 #define KOKSMA__STRATA_PARAMS                                                                                        \
