@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* b-spline: the box smoothed by itself three times. A partition of unity:
+/* The filter `b-spline` is the cubic B-spline, the box filter convolved three times with a box. It is a partition
+   of unity:
      |x| < 1:  2/3 - x^2 + |x|^3 / 2       1 <= |x| < 2:  (2 - |x|)^3 / 6 */
 #include <math.h>
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* blackman-harris: the window of four terms of Harris (1978), stretched to radius 1.5. No partition of unity. */
+/* The filter `blackman-harris` is the four-term window of Harris (1978), stretched to a radius of 1.5 pixels. It
+   is not a partition of unity. */
 #include <math.h>
 
 #include "render/filters/filters.h"
@@ -12,7 +13,7 @@ static double value(double x)
 
 const koksma_filter koksma__filter_blackman_harris = {
     .name = "blackman-harris",
-    .title = "the Blackman-Harris window, radius 1.5",
+    .title = "the Blackman-Harris window with a radius of 1.5 pixels",
     .cite = "harris1978",
     .radius = 1.5,
     .value = value,

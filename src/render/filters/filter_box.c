@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* box: f = 1 within the pixel. A partition of unity. */
+/* The filter `box` is 1 within the pixel and 0 elsewhere. It is a partition of unity. */
 #include <math.h>
 
 #include "render/filters/filters.h"

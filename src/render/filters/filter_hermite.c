@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* hermite: f = 1 - 3 x^2 + 2 |x|^3, the cubic of Mitchell & Netravali (1988) with B = C = 0, which interpolates as
-   Hermite's cubic with slopes of 0 does. Separable, symmetric, of width 2, never negative, and a partition of unity,
-   which is what Shirley (1991, section 5.2) asks of a pixel filter; the formula of his own filter is not known here.
- */
+/* The filter `hermite` is f = 1 - 3 x^2 + 2 |x|^3, the cubic of Mitchell & Netravali (1988) with B = C = 0, which
+   interpolates like Hermite's cubic with slopes of 0. It is separable, symmetric, of width 2, never negative and a
+   partition of unity, as Shirley (1991, section 5.2) requires of a pixel filter; the formula of Shirley's own
+   filter is not known. */
 #include <math.h>
 
 #include "render/filters/filters.h"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* mitchell: the cubic of Mitchell & Netravali (1988) with B = C = 1/3, negative from 8/7 to 2. A partition of
-   unity: |x| < 1:  (7 |x|^3 - 12 x^2 + 16/3) / 6       1 <= |x| < 2:  (-7/3 |x|^3 + 12 x^2 - 20 |x| + 32/3) / 6 */
+/* The filter `mitchell` is the cubic of Mitchell & Netravali (1988) with B = C = 1/3, negative from 8/7 to 2. It
+   is a partition of unity:
+     |x| < 1:  (7 |x|^3 - 12 x^2 + 16/3) / 6       1 <= |x| < 2:  (-7/3 |x|^3 + 12 x^2 - 20 |x| + 32/3) / 6 */
 #include <math.h>
 
 #include "render/filters/filters.h"
@@ -15,7 +16,7 @@ static double value(double x)
 
 const koksma_filter koksma__filter_mitchell = {
     .name = "mitchell",
-    .title = "Mitchell and Netravali's cubic, B = C = 1/3, negative beyond 8/7: use --splat",
+    .title = "Mitchell and Netravali's cubic, B = C = 1/3; negative beyond 8/7, so use --splat",
     .cite = "mitchell1988",
     .radius = 2,
     .value = value,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of filters, and how samples are drawn from one: |f| in 1024 cells of equal width, as cumulative sums that
- * are inverted by binary search. A cell has one weight, the sign and size of f in it, so that drawn samples integrate
- * f exactly cell by cell.
+ * The table of filters, and how positions are sampled from one filter f. |f| is tabulated in 1024 cells of equal
+ * width as cumulative sums, which are inverted by binary search. All positions in a cell have one weight, the mean of
+ * f over the cell divided by that of |f|, so that the samples integrate f exactly cell by cell.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,12 +25,12 @@ struct koksma__filter_table {
     const koksma_filter *filter;
     bool is_signed;
     double scale;               /* 1 / integral of f */
-    double cdf[CELLS + 1];      /* of |f| */
-    double positive[CELLS + 1]; /* the same of max(f, 0) */
-    float weights[CELLS];       /* of a position in each cell, drawn from |f| */
+    double cdf[CELLS + 1];      /* cumulative distribution of |f| at the left edge of each cell */
+    double positive[CELLS + 1]; /* cumulative distribution of max(f, 0) */
+    float weights[CELLS];       /* weight of a position that is drawn from |f| and lies in the cell */
 };
 
-/* Sums before each cell to shares of the last one. */
+/* Divides the sums over the cells before each cell by the sum over all cells. */
 static void normalise(double *cdf, double sum)
 {
     for (int i = 0; i < CELLS; i++) {
@@ -49,7 +49,7 @@ koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_ta
     t->filter = filter;
     for (int i = 0; i < CELLS; i++) {
         double part = 0, signed_part = 0, positive_part = 0;
-        for (int k = 0; k < PARTS; k++) { /* by midpoints */
+        for (int k = 0; k < PARTS; k++) { /* midpoint rule */
             const double f = filter->value(-filter->radius + width * (i + (k + 0.5) / PARTS));
             part += fabs(f);
             signed_part += f;
@@ -63,7 +63,7 @@ koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_ta
         positive += positive_part;
     }
     for (int i = 0; i < CELLS; i++) {
-        t->weights[i] *= (float)(sum / integral); /* 1 everywhere when f has one sign */
+        t->weights[i] *= (float)(sum / integral); /* all weights are 1 if f has one sign */
     }
     t->is_signed = integral < sum;
     normalise(t->cdf, sum);
@@ -82,7 +82,7 @@ bool koksma__filter_is_signed(const koksma__filter_table *t)
     return t->is_signed;
 }
 
-/* The position that has u of the density below it, and its cell. */
+/* Returns the position below which the cumulative distribution is u, and the cell that contains the position. */
 static float invert(const koksma__filter_table *t, const double *cdf, float u, int *cell)
 {
     int low = 0, high = CELLS;

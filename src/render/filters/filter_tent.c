@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* tent: f = 1 - |x|, the box smoothed by a box. A partition of unity. */
+/* The filter `tent` is f = 1 - |x|, a box convolved with a box. It is a partition of unity. */
 #include <math.h>
 
 #include "render/filters/filters.h"

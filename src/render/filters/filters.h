@@ -1,34 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Pixel filters f(x) f(y): evaluates them and samples positions from them (filter_table.c). */
 #ifndef KOKSMA_RENDER_FILTERS_FILTERS_H
 #define KOKSMA_RENDER_FILTERS_FILTERS_H
 
 #include <koksma/render.h>
 
-/* A filter's densities, tabulated: cells of equal width over [-radius, radius], in each the mean of |f|, or of the
-   positive part of f. */
+/* The sampling densities of a filter f, as a table: [-radius, radius] is divided into cells of equal width, and
+   each cell has the mean of |f| and that of the positive part of f. */
 typedef struct koksma__filter_table koksma__filter_table;
 
-/* Errors: MEMORY. */
+/* Makes the table of a filter. Errors: MEMORY. */
 koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_table **out);
 void koksma__filter_close(koksma__filter_table *table);
 
-/* Whether f is negative anywhere. */
+/* Returns whether f is negative anywhere. */
 bool koksma__filter_is_signed(const koksma__filter_table *table);
 
-/* u in [0,1) to a position x in [-radius, radius] with density in proportion to the cell's mean of |f|; the weight is
-   the cell's mean of f over that of |f|, scaled so that it is 1 everywhere where f has one sign and that its mean is
-   1. What is filtered with is f in 1024 steps, each the mean over a cell. */
+/* Maps u in [0,1) to a position x in [-radius, radius] whose density is proportional to the mean of |f| over each
+   cell. The weight is the cell's mean of f divided by its mean of |f|, scaled so that the mean weight is 1; if f
+   has one sign all weights are 1. The filter that results is the step function of the means of f over 1024 cells. */
 float koksma__filter_sample(const koksma__filter_table *table, float u, float *weight);
 
-/* u in [0,1) to a position with density in proportion to the positive part of f; every weight is 1. */
+/* Maps u in [0,1) to a position whose density is proportional to the positive part of f; every weight is 1. */
 float koksma__filter_sample_positive(const koksma__filter_table *table, float u);
 
-/* Draws that a pixel has all together, so that weights of both signs keep a constant: w[i] becomes
-   1 + (w[i] - mean) n / (n - 1), of mean 1. Weights that are all 1 stay so. */
+/* Balances the weights of the n samples of a pixel, so that weights of both signs preserve a constant image: w[i]
+   becomes 1 + (w[i] - mean) n / (n - 1), so that the mean weight is 1. Weights that are all 1 do not change. */
 void koksma__filter_balance(float *w, size_t n);
 
-/* f(x), scaled to integrate to 1, for -radius <= x < radius: a position on the edge between two pixels is in one of
- * them. */
+/* Returns f(x), scaled so that f integrates to 1. The result is 0 unless -radius <= x < radius, so that a position
+   on the edge between two pixels belongs to one of them. */
 float koksma__filter_value(const koksma__filter_table *table, float x);
 
 #define FILTER(name) extern const koksma_filter koksma__filter_##name;

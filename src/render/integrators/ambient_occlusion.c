@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The scene that ambient occlusion is the picture of: all surfaces are white and diffuse, no light gives light, and what
- * a ray sees that hits nothing is 1. One bounce from a surface, with the density cos / pi, is then 1 where it leaves the
- * scene, and 0 where it meets anything. Shapes, camera and the cache of the geometry are those of the scene itself.
+ * Replaces the scene by one whose path-traced image is its ambient occlusion: all surfaces become white and diffuse,
+ * all lights become black, and the background has radiance 1. A direction sampled from a surface with the density cos
+ * / pi then contributes 1 if its ray leaves the scene and 0 if the ray hits anything. The shapes, the camera and the
+ * cached geometry remain those of the original scene.
  */
 #include "render/integrators/ambient_occlusion.h"
 
@@ -29,7 +30,7 @@ koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_
         m->bsdf = &koksma__bsdf_lambert;
         m->albedo[0][0] = m->albedo[0][1] = m->albedo[0][2] = 1;
     }
-    for (size_t i = 0; i < scene->n_lights; i++) { /* their shapes stay, and hide what is behind */
+    for (size_t i = 0; i < scene->n_lights; i++) { /* the lights' shapes remain and occlude */
         koksma__light *l = &copy->lights[i];
         *l = scene->lights[i];
         memset(l->radiance, 0, sizeof l->radiance);

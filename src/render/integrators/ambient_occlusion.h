@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The scene that the integrator `ambient-occlusion` renders (ambient_occlusion.c). */
 #ifndef KOKSMA_RENDER_INTEGRATORS_AMBIENT_OCCLUSION_H
 #define KOKSMA_RENDER_INTEGRATORS_AMBIENT_OCCLUSION_H
 
 #include "render/frame.h"
 
-/* The scene that is rendered in place of a scene. Errors: MEMORY; *out is released even then. */
+/* Makes the scene that is rendered in place of `scene`. Errors: MEMORY; the caller must release *out even after an
+   error. */
 koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_scene **out);
 void koksma__ambient_occlusion_release(koksma_scene *scene);
 

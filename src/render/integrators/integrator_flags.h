@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What integrators tell the pipelines to do at a vertex. The table of them is integrators.c. */
+/* The flags and hooks by which an integrator controls the pipelines at each path vertex. integrators.c has the
+   table of integrators. */
 #ifndef KOKSMA_RENDER_INTEGRATORS_INTEGRATOR_FLAGS_H
 #define KOKSMA_RENDER_INTEGRATORS_INTEGRATOR_FLAGS_H
 
@@ -9,21 +10,23 @@
 struct koksma__frame;
 
 typedef struct koksma__integrator_flags {
-    unsigned followed; /* lobes whose directions are followed further; the others see lights only */
-    bool areas;        /* lights are sampled all over; else from their centres */
+    unsigned followed; /* lobes from which paths continue; the other lobes reflect only sampled lights */
+    bool areas;        /* true: positions on lights are sampled; false: lights count as points at their centres */
     bool shadows;
-    bool ambient;                /* the scene's ambient stands for light between diffuse surfaces */
-    bool branches;               /* glass sends two rays */
-    bool roulette;               /* dim paths end at random */
-    koksma__light_weight weight; /* of light that sampling it and a followed lobe can both find */
-    bool is_biased;              /* converges to something else than its formula, even without its depth limit */
-    /* NULL, or: what is made before the picture, kept in frame->cache; and what it says of the light that diffuse
-       surfaces send to s at a time, as irradiance / pi, added to out. */
+    bool ambient;                /* the scene's ambient light replaces light between diffuse surfaces */
+    bool branches;               /* glass sends both a reflected and a refracted ray */
+    bool roulette;               /* paths of low weight end by Russian roulette */
+    koksma__light_weight weight; /* the weight of light that both light sampling and a followed lobe can find */
+    /* true if the integrator converges to a value that differs from its formula, even without a depth limit */
+    bool is_biased;
+    /* NULL, or three hooks: `open` computes what is needed before the image and stores it in frame->cache; `close`
+       frees that; `indirect` adds to `out` the light from other diffuse surfaces at surface s and the given time,
+       as irradiance / pi. */
     koksma_status (*open)(struct koksma__frame *frame, const koksma_run *run);
     void (*close)(struct koksma__frame *frame);
     koksma_status (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float time, float out[3]);
-    /* NULL, or: the scene that is rendered in place of the one that the caller has, of diffuse surfaces and without
-       light from lights; release is called on what it made, also where it failed. */
+    /* NULL, or two hooks: `replace_scene` makes the scene that is rendered in place of the caller's, with diffuse
+       surfaces and without light from lights; `release_scene` frees its result, even after an error. */
     koksma_status (*replace_scene)(const koksma_scene *scene, koksma_scene **out);
     void (*release_scene)(koksma_scene *scene);
 } koksma__integrator_flags;

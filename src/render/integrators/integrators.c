@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of integrators. Each is a row of flags that wavefront.c follows, with its name, depth and source; an
- * integrator with an algorithm of its own has hooks in another file (irradiance_cache.c). The comment above a row has
- * its formula: E is emission, f the material, cos and cos' are at the surface and at the light, V is 1 where the
- * light is seen.
+ * The table of integrators. Each integrator is a row of flags that wavefront.c obeys, with a name, a default depth
+ * and a source; an integrator that needs an algorithm beyond the flags has hooks in another file
+ * (irradiance_cache.c). The comment above each row has the integrator's formula. In these formulas E is emission, f
+ * the BSDF, cos and cos' are the cosines at the surface and at the light, and V is 1 where the light is visible and 0
+ * elsewhere.
  */
 #include <string.h>
 
@@ -12,47 +13,50 @@
 #include "render/integrators/irradiance_cache.h"
 
 /*
- * utah: the local model. A surface reflects the scene's ambient light and what comes from the centre of each
- * light, without shadows and without seeing other surfaces; mirrors and glass are black.
+ * The integrator `utah` computes local illumination. A surface reflects the scene's ambient light and the light from
+ * the centre of each light, without shadows and without light from other surfaces; mirrors and glass are black.
  *
  *     L(x, out) = E(x, out) + albedo ambient + sum over lights of f(in, out) cos(in) irradiance from its centre
  *
- * An environment has no centre: rays see it, and no surface has light from it; that is what ambient light stands for.
+ * An environment has no centre: rays that hit nothing see it, but it does not illuminate surfaces; the ambient light
+ * replaces it.
  *
- * Source: Phong 1975; Shirley 1991. Nothing in it is random but the position in the pixel, on the lens and in time.
+ * Source: Phong 1975; Shirley 1991. Only the positions in the pixel, on the lens and in time are random.
  */
 static const koksma__integrator_flags utah = {.ambient = true};
 
 /*
- * whitted: recursive ray tracing. A shadow ray to the centre of each light; mirrors and glass send rays on, glass
- * both ways, so that rays make a tree. A branch that weighs less than 1/1000 is cut (Hall's depth control), which
- * leaves out that much of each. Many may be cut: a glass slab in a white furnace, which reflects 2 R / (1 + R) in
- * all, loses .08 % of that at 0.5 degrees, .25 % at 56 and .52 % at 89 (depth 40); path cuts none.
+ * The integrator `whitted` is recursive ray tracing. Each vertex sends a shadow ray to the centre of each light;
+ * mirrors reflect rays, and glass both reflects and refracts them, so that the rays of a sample form a tree. A branch
+ * whose weight is below 1/1000 is cut (Hall's depth control), which loses its light. Many branches may be cut: a
+ * glass slab in a white furnace, which reflects 2 R / (1 + R) in all, loses .08 % of that at 0.5 degrees, .25 % at 56
+ * and .52 % at 89 (depth 40); the integrator `path` cuts no branch.
  *
- *     L(x, out) = local light, as utah has it, with V   +   R L(y, mirrored)   +   (1 - R) L(z, refracted)
+ *     L(x, out) = local light as in utah, with V   +   R L(y, mirrored)   +   (1 - R) L(z, refracted)
  *
- * with V = 1 where the centre of the light is seen and R a mirror's reflectance or Fresnel's share. An
- * environment has no centre: as in utah, rays see it and no surface has light from it. Source: Whitted 1980.
+ * Here V, which multiplies the light from each centre, is 1 where that centre is visible and 0 elsewhere, and R is
+ * the reflectance of a mirror or the Fresnel reflectance of glass. An environment has no centre: as in `utah`, rays
+ * that hit nothing see it, but it does not illuminate surfaces. Source: Whitted 1980.
  */
 static const koksma__integrator_flags whitted = {
     .followed = KOKSMA__LOBE_SPECULAR, .shadows = true, .ambient = true, .branches = true};
 
 /*
- * distribution: distribution ray tracing. Positions on lights, on the lens, in time, and directions in glossy lobes
- * are sampled; light between diffuse surfaces is the scene's ambient.
+ * The integrator `distribution` is distribution ray tracing. Positions on lights, on the lens and in time, and
+ * directions in glossy lobes are sampled; the scene's ambient light replaces light between diffuse surfaces.
  *
  *     L(x, out) = E(x, out) + albedo ambient + sum over lights of f E_l cos cos' V A / d^2 + weight L(y, w)
  *
- * with one position on each light, of area A, at distance d, seen (V = 1) or not; and y where the mirrored,
- * refracted or glossy direction goes on. Source: Cook, Porter & Carpenter 1984; Shirley 1991, chapter 5.
+ * The sum takes one sampled position on each light of area A, at the distance d, and y is the point that the ray in
+ * the mirrored, refracted or glossy direction w hits. Source: Cook, Porter & Carpenter 1984; Shirley 1991, chapter 5.
  */
 static const koksma__integrator_flags distribution = {
     .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY, .areas = true, .shadows = true, .ambient = true};
 
 /*
- * direct: what lights give straight to surfaces, positions on lights sampled; mirrors and glass are followed. As
- * distribution, without ambient light, and with the light that glossy surfaces reflect of lights alone: the integral
- * that studies of soft shadows are about, of two dimensions for each light.
+ * The integrator `direct` computes direct illumination with sampled positions on lights; paths continue through
+ * mirrors and glass. It differs from `distribution` in two points: there is no ambient light, and glossy surfaces
+ * reflect only lights. For each light this is the two-dimensional integral of soft-shadow studies.
  *
  *     L(x, out) = E(x, out) + sum over lights of f E_l cos cos' V A / d^2 + weight L(y, w), w mirrored or refracted
  *
@@ -61,24 +65,26 @@ static const koksma__integrator_flags distribution = {
 static const koksma__integrator_flags direct = {.followed = KOKSMA__LOBE_SPECULAR, .areas = true, .shadows = true};
 
 /*
- * ambient-occlusion: how much of a white sky a surface sees, weighed by the cosine,
+ * The integrator `ambient-occlusion` computes the cosine-weighted fraction of the hemisphere above a surface that is
+ * not occluded,
  *
- *     A(x) = 1 / pi  integral over the hemisphere of V(x, w) cos(w) dw,   and 1 where the eye sees no surface:
+ *     A(x) = 1 / pi  integral over the hemisphere of V(x, w) cos(w) dw,   and 1 where the eye sees no surface.
  *
- * V is 1 where nothing is met at any distance. An integral of two dimensions that depends on shapes alone: all
- * materials and lights are as white surfaces, and shapes of lights are black. More bounces than one (--depth) add what
- * white surfaces reflect. Source: Zhukov, Iones & Kronin 1998.
+ * Here V is 1 if the ray hits nothing at any distance. A(x) is a two-dimensional integral that depends on shapes
+ * alone: all surfaces are white and diffuse, and the shapes of lights are black. With more than one bounce (--depth)
+ * light reflected by white surfaces is added. Source: Zhukov, Iones & Kronin 1998.
  */
 static const koksma__integrator_flags ambient_occlusion = {.followed = KOKSMA__LOBE_DIFFUSE,
                                                            .replace_scene = koksma__ambient_occlusion_scene,
                                                            .release_scene = koksma__ambient_occlusion_release};
 
 /*
- * path: all light paths (Kajiya 1986), one direction on from each vertex. Lights are sampled at each vertex and
- * met by reflected rays, the two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a
- * path whose weight is below 1 goes on with that probability, which keeps the mean. Unbiased with two exceptions: paths
- * end at the depth limit; and no path finds the light that reaches a surface by a mirror or glass from lights that
- * rays can't meet (points, directional lights, lights that are not `visible`).
+ * The integrator `path` is path tracing (Kajiya 1986), which samples one direction at each vertex. Lights are sampled
+ * at each vertex and also hit by reflected rays; the power heuristic combines both (Veach 1997, section 9.2). From
+ * the fifth vertex on, a path whose weight is below 1 survives with that probability (Russian roulette), which
+ * preserves the mean. The result is unbiased with two exceptions: paths end at the depth limit, and no path finds
+ * light that a mirror or glass casts on a surface from lights that rays cannot hit (points, directional lights,
+ * lights that are not `visible`).
  */
 #define PATH                                                                                                         \
     .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE, .areas = true, .shadows = true,  \
@@ -86,15 +92,18 @@ static const koksma__integrator_flags ambient_occlusion = {.followed = KOKSMA__L
 static const koksma__integrator_flags path = {PATH};
 
 /*
- * path-balance, path-light, path-bsdf: path with other weights, for studies of the strategies (Veach 1997, section 9.2):
- * the balance heuristic p / (p + q); lights that rays can meet by sampling them alone, but for what mirrors and glass show;
- * and by reflected rays alone. What rays can't meet is sampled by all. They have the mean of path at any depth.
+ * The integrators `path-balance`, `path-light` and `path-bsdf` are `path` with other weights, to study the sampling
+ * strategies (Veach 1997, section 9.2). The integrator `path-balance` uses the balance heuristic p / (p + q). The
+ * integrator `path-light` finds lights that rays can hit by light sampling alone, except in mirrors and glass;
+ * `path-bsdf` finds them by reflected rays alone. All three integrators sample lights that rays cannot hit. All three
+ * have the same mean as `path` at any depth.
  */
 static const koksma__integrator_flags path_balance = {PATH, .weight = KOKSMA__WEIGHT_BALANCE};
 static const koksma__integrator_flags path_light = {PATH, .weight = KOKSMA__WEIGHT_ONE};
 static const koksma__integrator_flags path_bsdf = {PATH, .weight = KOKSMA__WEIGHT_ZERO};
 
-/* irradiance-cache: as distribution, with light between diffuse surfaces from the cache instead of ambient light. */
+/* The integrator `irradiance-cache` is `distribution` with interpolated light between diffuse surfaces
+   (irradiance_cache.c) instead of ambient light. */
 static const koksma__integrator_flags irradiance_cache = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY,
                                                           .areas = true,
                                                           .shadows = true,
@@ -109,11 +118,11 @@ static const koksma_integrator rows[] = {
     {"distribution", "soft shadows, lens, motion, glossy reflection", "cook1984 shirley1991", 6, &distribution},
     {"path", "path tracing with next-event estimation; caustics of visible lights only", "kajiya1986 veach1997", 16,
      &path},
-    {"path-balance", "path with the balance heuristic in place of the power heuristic", "kajiya1986 veach1997", 16,
-     &path_balance},
-    {"path-light", "path with lights found by sampling them alone", "kajiya1986 veach1997", 16, &path_light},
-    {"path-bsdf", "path with lights found by reflected rays alone", "kajiya1986 veach1997", 16, &path_bsdf},
-    {"direct", "soft shadows of lights alone; mirrors and glass", "shirley1996", 6, &direct},
+    {"path-balance", "path tracing with the balance heuristic in place of the power heuristic",
+     "kajiya1986 veach1997", 16, &path_balance},
+    {"path-light", "path tracing that finds lights by light sampling alone", "kajiya1986 veach1997", 16, &path_light},
+    {"path-bsdf", "path tracing that finds lights by reflected rays alone", "kajiya1986 veach1997", 16, &path_bsdf},
+    {"direct", "soft shadows, mirrors and glass; no ambient light", "shirley1996", 6, &direct},
     {"ambient-occlusion", "how much of a white sky surfaces see; shapes only", "zhukov1998", 1, &ambient_occlusion},
     {"irradiance-cache", "diffuse light between surfaces, interpolated", "ward1988", 6, &irradiance_cache},
 };

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * irradiance-cache: distribution ray tracing in which the light between diffuse surfaces is not the scene's ambient
- * but interpolated from positions where it was computed (Ward, Rubinstein & Clear 1988). A record is the irradiance
- * E at a position, from RAYS paths over the hemisphere, and R, the harmonic mean of the distances that they go. It
- * may be used at p with normal n when 1/w = |p - p_i| / R_i + sqrt(1 - n.n_i)  <  ACCURACY, and E(p) is the mean of
- * such records by w. R is kept between what LEAST and MOST pixels show at the position.
+ * The integrator `irradiance-cache` is distribution ray tracing that interpolates the light between diffuse surfaces
+ * from cached positions (Ward, Rubinstein & Clear 1988) instead of using the scene's ambient light. A record has the
+ * irradiance E at a position p_i, computed from RAYS paths over the hemisphere, and R_i, the harmonic mean of the
+ * lengths of their first rays. A record may be used at p with normal n if 1/w = |p - p_i| / R_i + sqrt(1 - n.n_i) <
+ * ACCURACY, and E(p) is the mean of these records weighted by w. R_i is clamped so that the record reaches between
+ * LEAST and MOST pixels.
  *
- * Records are made before the picture, on ever finer grids of pixels: those positions of a grid that no record
- * covers are computed by all threads, and entered one after the other, so that threads change nothing. A position of
- * the picture that no record covers (in a mirror, say) is computed for itself. Biased by the interpolation, in open
- * scenes by as much as a third of the indirect light (at 192 x 144 pixels). Light that mirrors or glass throw from a
- * light on a diffuse surface is left out: the few rays of a record that find it would make one position far too
- * bright and others dark. A depth of 0 has no records, for there is no light between surfaces.
+ * Records are made before the image, on successively finer grids of pixels. All threads compute the positions of a
+ * grid that no record covers; the new records are then inserted one after the other, so that the result does not
+ * depend on the threads. While the image is rendered, a position that no record covers (in a mirror, say) gets a
+ * temporary record. The interpolation is biased, in open scenes by as much as a third of the indirect light (at 192 x
+ * 144 pixels). Light that mirrors or glass cast from a light on a diffuse surface is left out: the few rays of a
+ * record that find it would make one position far too bright and others dark. At depth 0 there are no records,
+ * because there is no light between surfaces.
  */
 #include "render/integrators/irradiance_cache.h"
 
@@ -32,19 +34,20 @@ enum { RAYS = 256, COARSEST = 16, FINEST = 2, LEVELS = 64, BUCKETS = 1 << 16, MA
 #define MOST 150.0f
 
 typedef struct record {
-    float p[3], n[3], light[3], reach; /* light: irradiance / pi; reach: R */
-    int32_t level, next;               /* of its bucket, or -1 */
+    float p[3], n[3], light[3], reach; /* light is irradiance / pi, and reach is R_i */
+    /* level: the level of the cell that holds the record; next: the next record in the same bucket, or -1 */
+    int32_t level, next;
 } record;
 
 typedef struct cache {
-    koksma__frame paths; /* the frame, with path tracing and samples of its own */
+    koksma__frame paths; /* a copy of the frame that traces paths with its own samples */
     koksma_render_options options;
     record *records;
     size_t n, capacity;
-    float smallest; /* cell of level 0; level k has 2^k of it */
+    float smallest; /* the size of a cell at level 0; a cell at level k is 2^k times as large */
     bool used[LEVELS];
-    int32_t buckets[BUCKETS]; /* the last record of each, or -1 */
-    float pixel;              /* size of a pixel at distance 1 */
+    int32_t buckets[BUCKETS]; /* the last record of each bucket, or -1 */
+    float pixel;              /* the size of a pixel at distance 1 */
 } cache;
 
 static const koksma__integrator_flags path_rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY |
@@ -77,12 +80,12 @@ static void cell_of(const float p[3], float size, int64_t cell[3])
     }
 }
 
-/* 1/w. */
+/* Returns 1/w of a record at position p with normal n. */
 static float distance(const record *r, const float p[3], const float n[3])
 {
     const float d[3] = {p[0] - r->p[0], p[1] - r->p[1], p[2] - r->p[2]};
     const float cosine = koksma__dot3(n, r->n);
-    /* A record in front of the position sees other things (Ward's test). */
+    /* Reject a record in front of the position: it has different surroundings (test of Ward et al.). */
     const float mean[3] = {n[0] + r->n[0], n[1] + r->n[1], n[2] + r->n[2]};
     if (koksma__dot3(d, mean) < -0.1f * r->reach) {
         return INFINITY;
@@ -90,7 +93,7 @@ static float distance(const record *r, const float p[3], const float n[3])
     return sqrtf(koksma__dot3(d, d)) / r->reach + sqrtf(cosine < 1 ? 1 - cosine : 0);
 }
 
-/* Adds the records of one cell that may be used. */
+/* Adds the records of one cell that may be used at p to the weighted sum. */
 static void look_in(const cache *c, int level, const int64_t cell[3], const float p[3], const float n[3],
                     float sum[4])
 {
@@ -98,7 +101,8 @@ static void look_in(const cache *c, int level, const int64_t cell[3], const floa
         const record *r = &c->records[k];
         int64_t home[3];
         cell_of(r->p, cell_size(c, level), home);
-        const bool here = r->level == level && !memcmp(home, cell, sizeof home); /* else another cell in the bucket */
+        /* `here` is false for a record of another cell in the same bucket */
+        const bool here = r->level == level && !memcmp(home, cell, sizeof home);
         const float inverse = here ? distance(r, p, n) : INFINITY;
         if (inverse < ACCURACY) {
             const float w = 1 / (inverse > 1e-4f ? inverse : 1e-4f);
@@ -110,8 +114,9 @@ static void look_in(const cache *c, int level, const int64_t cell[3], const floa
     }
 }
 
-/* False when no record covers the position. A cell is twice as wide as its records reach, so that those which do lie
-   in the position's own cell or in the nearer neighbour along each axis. */
+/* Interpolates the light at a position; returns false if no record covers the position. A cell is at least twice
+   as wide as its records reach, so that the records that cover a position lie in its cell or, along each axis, in
+   the nearer neighbour. */
 static bool look_up(const cache *c, const float p[3], const float n[3], float out[3])
 {
     float sum[4] = {0, 0, 0, 0};
@@ -164,7 +169,7 @@ static koksma_status enter(cache *c, const record *from)
 
 /* ---- Computing a record --------------------------------------------------------------------------------- */
 
-/* Scratch for the paths of one record. */
+/* The scratch memory for the paths of one record. */
 typedef struct record_scratch {
     void *scratch;
     koksma__values values;
@@ -194,7 +199,7 @@ static koksma_status open_scratch(const cache *c, record_scratch *d)
     return status;
 }
 
-/* E / pi at (p, n) on a primitive, and R. key: of the position's random numbers. */
+/* Computes the record of surface s: irradiance / pi and R_i. key selects the random numbers of the position. */
 static koksma_status compute(const cache *c, record_scratch *d, uint64_t key, const koksma__surface *s, float time,
                              record *out)
 {
@@ -260,11 +265,12 @@ koksma_status koksma__irradiance_cache_indirect(const koksma__frame *frame, cons
 typedef struct grid {
     cache *cache;
     int step, columns, rows;
-    record *found; /* a row of the grid a task; reach 0: nothing to enter */
+    record *found; /* one record for each grid position, with one row per parallel task; reach 0: no new record */
     float time;
 } grid;
 
-/* The diffuse position behind a pixel's middle, through a pinhole; false for none. */
+/* Finds the surface behind a pixel's centre, as seen through a pinhole; returns false if that is not a diffuse
+   surface. */
 static bool look(const cache *c, int x, int y, float time, koksma__surface *s, float *far)
 {
     const koksma__frame *f = &c->paths;

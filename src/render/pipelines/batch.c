@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which compilation of the lane loops runs: that of the instruction set that koksma__kernels() has chosen
- * (KOKSMA_KERNELS overrides it). All give the same bits.
+ * Selects the compilation of the lane loops for the instruction set that koksma__kernels() has chosen (the
+ * environment variable KOKSMA_KERNELS overrides the choice). All compilations give the same bits.
  */
 #include "render/pipelines/batch.h"
 

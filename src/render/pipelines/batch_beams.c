@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Samples of lights for blocks of points, and what rays see of an environment. Each form of light has one loop, for a
- * light that all lanes share, or for lanes with lights of their own; kinds without a form are sampled point by point.
- * Texels of an environment are looked up between loops over lanes, so that a block's misses of the cache overlap.
+ * Samples lights for blocks of points, and looks up the environment for blocks of rays. Each form of light
+ * (rectangle, disk, cone, parallel, environment) has one loop, which handles either one light that all lanes share or
+ * a different light in each lane; kinds of light without a form are sampled point by point. Texels of an environment
+ * are looked up between loops over lanes, so that the cache misses of a block overlap.
  */
 #include <math.h>
 #include <string.h>
@@ -12,13 +13,13 @@
 #include "render/pipelines/batch_kernel.h"
 #include "render/pipelines/vertices.h"
 
-/* What the loops read of a light. */
+/* The properties of a light that the loops read. */
 typedef struct emitter {
     koksma__v3 centre, u, v, normal, radiance;
     float area, radius;
 } emitter;
 
-/* The lights of all lanes. */
+/* The emitters of all lanes, as arrays. */
 typedef struct emitters {
     _Alignas(64) koksma__lanes centre[3];
     _Alignas(64) koksma__lanes u[3];
@@ -51,7 +52,7 @@ static void put(koksma__v3 v, int i, koksma__lanes *to)
 
 #define AT(a, i) ((koksma__v3){(a)[0][i], (a)[1][i], (a)[2][i]})
 
-/* The emitter of lane i: one for all, if there is one. */
+/* Returns the emitter of lane i: `one` if all lanes share it, else the one of the lane. */
 INLINE emitter pick(const emitter *one, const emitters *restrict each, int i)
 {
     return one ? *one : (emitter){AT(each->centre, i),   AT(each->u, i), AT(each->v, i), AT(each->normal, i),
@@ -125,7 +126,7 @@ INLINE void parallel_beams(const emitter *one, const emitters *restrict each, co
 
 /* ---- Environments --------------------------------------------------------------------------------------------- */
 
-/* Radiance and density along w. */
+/* Looks up the radiance of the environment and its sampling density along the directions w. */
 static void look_around(const koksma__environment *e, const koksma__lanes *restrict w, int n,
                         koksma__lanes *restrict radiance, float *restrict pdf)
 {
@@ -156,13 +157,14 @@ static void look_around(const koksma__environment *e, const koksma__lanes *restr
     }
 }
 
-/* Cumulative tables, one a lane, with their coarse numbers. */
+/* One cumulative distribution per lane, with its coarse table (every KOKSMA__ENVIRONMENT_STEP-th number). */
 typedef struct tables {
     const float *cdf[KOKSMA__BLOCK], *coarse[KOKSMA__BLOCK];
 } tables;
 
-/* The cells of n tables of this many cells that hold u, and where in them: binary searches of the coarse numbers in
-   step, whose misses of the cache overlap, and then how many of the 15 numbers after are not above u. */
+/* Finds, in each of n tables of `cells` cells, the cell that contains u and the position of u within it. All lanes
+   search the coarse tables by bisection in step, so that their cache misses overlap; then each counts how many of
+   the next 15 numbers of the full table are at most u. */
 static void find(const tables *t, int32_t cells, const float *u, int n, int32_t *found, float *within)
 {
     KOKSMA__LANES(int32_t, high);
@@ -191,7 +193,8 @@ static void find(const tables *t, int32_t cells, const float *u, int n, int32_t 
     }
 }
 
-/* Positions in the image by importance; lanes that sample all directions alike have any. */
+/* Samples positions in the environment image by importance; the results of lanes that sample all directions
+   uniformly are not used. */
 static void place(const koksma__environment *e, const koksma__lanes *restrict u, int n, float *restrict x,
                   float *restrict y)
 {
@@ -254,7 +257,7 @@ void BATCH_NAME(around)(const struct koksma__environment *e, const koksma__rays 
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         const koksma__v3 d = koksma__v3_unit((koksma__v3){rays->dx[i], rays->dy[i], rays->dz[i]});
-        const int missed = hit[i] < 0; /* the others look up, all at one texel */
+        const int missed = hit[i] < 0; /* the other lanes look up one common texel */
         w[0][i] = missed ? d.x : 0;
         w[1][i] = missed ? d.y : 1;
         w[2][i] = missed ? d.z : 0;

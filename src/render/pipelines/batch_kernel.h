@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* For the files that are compiled once for each instruction set: the loops' names there, and what they are written
-   with. */
+/* Included by the files that are compiled once for each instruction set: declares the kernels under their names
+   for this instruction set, and macros for loops over lanes. */
 #ifndef KOKSMA_RENDER_PIPELINES_BATCH_KERNEL_H
 #define KOKSMA_RENDER_PIPELINES_BATCH_KERNEL_H
 
@@ -10,16 +10,18 @@
 #include "render/pipelines/batch.def"
 #undef KERNEL
 
-#define STEP(n) ((n) & ~(KOKSMA__LANE_STEP - 1)) /* tells the compiler that there is no remainder */
+/* rounds n down to the lane step, so that the compiler adds no remainder loop */
+#define STEP(n) ((n) & ~(KOKSMA__LANE_STEP - 1))
 
-/* Before a loop over lanes: what it writes in one lane it reads in no other. gcc gives up checking that for many arrays. */
+/* Marks a loop over lanes whose iterations are independent: no lane reads what another lane writes. gcc gives up
+   checking this for loops over many arrays. */
 #if defined(__GNUC__) && !defined(__clang__)
 #define LANES_APART _Pragma("GCC ivdep")
 #else
 #define LANES_APART
 #endif
 
-/* Functions that are compiled once for each value of an argument. */
+/* Forces inlining of functions that are compiled once for each value of a constant argument. */
 #define INLINE static inline __attribute__((always_inline))
 
 #endif

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * How much each light may give to a point: the estimate of batch.h, which never is 0 where anything can come, of all
- * lights at one point, and for choosing a light at each of a block of points. Cosines are at least LEAST, because a light whose centre is at the horizon is half above it.
+ * Estimates how much light each light may give to a point, by the formula of koksma__batch_lights (batch.h):
+ * `estimate` for all lights at one point, `choose` to select one light at each point of a block. An estimate is never
+ * 0 for a light that can reach the point: cosines are at least LEAST, because a light whose centre is at the horizon
+ * is half above it.
  */
 #include <math.h>
 
 #include "render/pipelines/batch_kernel.h"
 
-#define LEAST 0.05f /* of a cosine where any position of a light is above the horizon */
+#define LEAST 0.05f /* lower bound of a cosine where any position of a light is above the horizon */
 
-/* Of light i at a point. */
+/* Returns the estimate of light i at a point. */
 INLINE float estimate_at(const koksma__batch_lights *restrict l, int i, float px, float py, float pz, float nx,
                          float ny, float nz)
 {
@@ -44,8 +46,9 @@ float BATCH_NAME(estimate)(const koksma__batch_lights *l, const float p[3], cons
     return total;
 }
 
-/* The lanes are points here: one light after the other is estimated at all of them, and then taken by the inverse of
-   the cumulative sums at u total; the last one that can be, where rounding eats the rest. */
+/* In this kernel each lane is a point. Each light in turn is estimated at all points; then the inverse of the
+   cumulative sums at u total selects a light. If rounding exhausts the sums, the last light with a positive
+   estimate is selected. */
 void BATCH_NAME(choose)(const koksma__batch_lights *l, const koksma__hits *restrict h, const float *restrict u, int n,
                         float (*restrict estimates)[KOKSMA__BLOCK], int32_t *restrict light,
                         float *restrict probability)

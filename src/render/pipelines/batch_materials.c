@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Materials on blocks of surfaces: value and density of given directions, and sampling. Each form of material has one
- * loop over the lanes, which keeps what it computes in the lanes of its form; a block that has no lane of a form skips
- * its loop. Materials without a form are asked ray by ray.
+ * Evaluates and samples materials on blocks of surfaces. Each form of material (Lambert, lobes, facets) has one loop
+ * over the lanes, which stores results only in the lanes of its form; a block that has no lane of a form skips its
+ * loop. Materials without a form are evaluated one ray at a time.
  */
 #include <math.h>
 #include <string.h>
@@ -14,7 +14,8 @@
 
 /* ---- Surfaces ----------------------------------------------------------------------------------------------- */
 
-/* Which of a checker's albedos the lanes have: 1 in every other square. */
+/* Finds in which square of a checker each lane lies: odd[i] is 1 in every other square, which has the second
+   albedo. */
 static void find_squares(const koksma__lane_materials *t, const koksma__hits *restrict h, const int32_t *restrict at,
                          int n, int32_t *restrict odd)
 {
@@ -89,7 +90,8 @@ static void lambert_values(const koksma__surfaces *restrict s, const koksma__lan
     }
 }
 
-/* Which lobes are asked for, as factors; of directions Lambert's gets the part fixed + shared koksma__surfaces.diffuse. */
+/* The requested lobes as factors 0 or 1, and the probability of sampling a direction from Lambert's lobe, which is
+   fixed + shared koksma__surfaces.diffuse. */
 typedef struct lobe_shares {
     float diffuse, glossy, fixed, shared;
 } lobe_shares;
@@ -175,7 +177,8 @@ static void values(const koksma__surfaces *s, const koksma__lanes *w, unsigned l
 
 /* ---- Light that is reflected ---------------------------------------------------------------------------------- */
 
-/* Adds to reflected; a visible light is weighed against what `values` has as the density of meeting it. */
+/* Adds the weighted light of the beams to `reflected`. The light of a visible light is weighted against the
+   density in `values`, with which a reflected ray would hit it. */
 INLINE void weigh(const koksma__light_lanes *restrict l, const koksma__beams *restrict b,
                   const koksma__bsdf_values *restrict values, koksma__light_weight weight, int n,
                   koksma__lanes *restrict reflected)
@@ -199,7 +202,8 @@ int BATCH_NAME(reflect)(const struct koksma__surfaces *s, const struct koksma__l
                         const struct koksma__beams *restrict b, unsigned followed, koksma__light_weight weight, int n,
                         koksma__shadows *restrict shadows, float (*restrict reflected)[KOKSMA__BLOCK])
 {
-    const unsigned shown = KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY; /* specular lobes have no value */
+    /* specular lobes cannot be evaluated for a given direction */
+    const unsigned shown = KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY;
     koksma__bsdf_values found;
     int lit = 0;
     LANES_APART

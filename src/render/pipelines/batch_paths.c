@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Blocks of paths on their way: the pairs of their samples, the light that they carry, roulette, and the paths that go on
-   to the next bounce, closed up so that lanes stay full. */
+/* Operations on blocks of paths: camera rays, the sample pairs of paths, the light that they carry, Russian
+   roulette, and the compaction of paths that continue to the next bounce, which keeps lanes full. */
 #include <string.h>
 
 #include "render/lanes3.h"
@@ -135,7 +135,8 @@ INLINE void move(const void *restrict from, const int32_t *restrict order, int n
     }
 }
 
-/* Lanes order[0], ... order[n - 1] to the lanes of `to` from `at` on. Times and normals go along where they are read. */
+/* Copies the lanes order[0], ... order[n - 1] to the lanes of `to` from `at` on. Times and normals are copied only
+   if later kernels read them. */
 static void move_all(const koksma__vertices *restrict v, const koksma__directions *restrict d,
                      const int32_t *restrict order, int n, koksma__paths *restrict to, int at)
 {

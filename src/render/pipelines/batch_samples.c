@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The samples of a pixel in lanes: random orders, pairs in such an order, and random places in cells.
+ * SIMD kernels for the samples of a pixel: random orders, pairs in such an order, random positions in cells, and the
+ * points of nets.
  *
- * Few samples are put in order by the shuffle of Fisher and Yates, each of the n! orders being as likely. More are by a
- * bijection of the k-bit numbers below the next power of two, as Kensler (2013) has it; numbers that it takes beyond n
- * go through it again. Of its rounds,
+ * Up to KOKSMA__SHUFFLED samples are put in order by the Fisher-Yates shuffle, which makes each of the n! orders
+ * equally likely. More samples are permuted by a bijection of the k-bit numbers below the next power of two, as by
+ * Kensler (2013); numbers that it maps to n or beyond are mapped again. Each round of the bijection computes
  *
  *     x = m x + a mod 2^k,   x = x ^ x >> 2,   x = x rotated by (k + 1) / 2 bits,
  *
- * each has 16 random bits for m, which is odd, and for a. Five rounds are enough for the pairs of positions to be like
- * those of a random order (docs/decisions/0040-samples-in-floats.md); it has seven.
+ * Each round takes 16 random bits for m, which is made odd, and 16 for a. There are six rounds: with five, the pairs
+ * of positions still differ measurably from those of a random order (docs/decisions/0040-samples-in-floats.md).
  */
 #include <string.h>
 
@@ -29,9 +30,9 @@ enum { BYTES = 16 };
 #endif
 
 typedef uint16_t shorts __attribute__((vector_size(BYTES)));
-typedef uint64_t longs __attribute__((vector_size(BYTES))); /* on which gcc joins logical operations */
+typedef uint64_t longs __attribute__((vector_size(BYTES))); /* gcc combines logical operations on this type */
 
-/* Random words come 32 bytes at a time at least, from which a load of more would have to wait. */
+/* The random words were stored 32 bytes at a time; a wider load would have to wait for these stores. */
 typedef uint32_t octet __attribute__((vector_size(32)));
 typedef int32_t ints __attribute__((vector_size(32)));
 typedef float floats __attribute__((vector_size(32)));
@@ -49,7 +50,8 @@ static void shuffle_few(const uint32_t *words, uint32_t n, uint16_t *out)
     }
 }
 
-/* A few vectors at once: the steps of one wait for each other. Bits from k on are only taken off what moves down. */
+/* Applies the bijection to several vectors at once, because the steps of one vector depend on each other. Bits
+   from k on need not be cleared in between: they are only masked off where a right shift would move them down. */
 INLINE void walk(const uint32_t *words, int bits, int vectors, shorts *x)
 {
     const uint16_t turn = (uint16_t)((bits + 1) / 2), back = (uint16_t)(bits - turn),
@@ -88,7 +90,7 @@ void BATCH_NAME(order)(const uint32_t *words, size_t n, uint16_t *out)
         first[l] = (uint16_t)l;
     }
     if ((n & (n - 1)) == 0) {
-        for (size_t i = 0; i < n; i += VECTORS * SHORTS) { /* of 64 numbers: n is 64 at least */
+        for (size_t i = 0; i < n; i += VECTORS * SHORTS) { /* a block has 64 numbers, and n is at least 64 */
             shorts x[VECTORS];
             for (int v = 0; v < VECTORS; v++, first += SHORTS) {
                 x[v] = first;
@@ -112,7 +114,7 @@ void BATCH_NAME(order)(const uint32_t *words, size_t n, uint16_t *out)
     }
 }
 
-/* Two pairs a store: loops over lanes read them next. */
+/* Stores two pairs at a time, because loops over lanes read them next. */
 void BATCH_NAME(gather)(const float *from, const uint16_t *order, size_t n, float *to)
 {
     typedef double two __attribute__((vector_size(16)));
@@ -189,7 +191,7 @@ void BATCH_NAME(jitter)(const float *corners, const uint32_t *words, const float
     }
 }
 
-/* Lane l is lane[l] of v before; lane numbers are below 8. */
+/* Permutes the lanes of v: lane l becomes the old lane number lane[l], which is below 8. */
 INLINE void permute_lanes(const octet *lane, octet *v)
 {
 #if defined(__AVX2__)
@@ -204,14 +206,14 @@ INLINE void permute_lanes(const octet *lane, octet *v)
 #endif
 }
 
-/* Numbers 2^level + i from those at i ^ partner. */
+/* Computes the numbers 2^level + i from the numbers i ^ partner in v. */
 INLINE void grow_lanes(const octet *words, int level, octet *v)
 {
     const uint32_t low = UINT32_MAX >> level >> 1;
     *v = ((*v & ~low) ^ (low + 1)) | *words >> (uint32_t)(level + 1);
 }
 
-/* The first eight numbers: lane i >= 2^level is from lane i ^ (2^level + partner). */
+/* Computes the first eight numbers: lane i >= 2^level is derived from lane i ^ (2^level + partner). */
 INLINE void grow_eight(const octet *words, const uint32_t *partners, octet *v)
 {
     const octet lane = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -226,7 +228,7 @@ INLINE void grow_eight(const octet *words, const uint32_t *partners, octet *v)
     }
 }
 
-/* A column of n numbers of 32 bits: grow.h. Reads and writes whole eights. */
+/* Computes a column of n 32-bit numbers by the algorithm of grow.h; reads and writes whole vectors of eight. */
 INLINE void grow(const uint32_t *words, const uint32_t *partners, size_t n, uint32_t *v)
 {
     octet x, w;

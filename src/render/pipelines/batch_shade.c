@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The camera, materials and lights on a block of rays, and samples on their way into a block.
- * What a light gives at a hit, from one position on it: power cos cos' / distance^2 (description.h), without square
- * square roots: power (n.d) (-n'.d) / (d.d)^2
+ * Kernels for blocks of rays (the camera, albedos, and light from rectangles) and for sample sets (conversion to
+ * floats, shuffling, means). The light at a hit from one position on a light is power cos cos' / distance^2
+ * (description.h), computed without square roots as power (n.d) (-n'.d) / (d.d)^2.
  */
 #include <math.h>
 #include <string.h>
@@ -46,7 +46,7 @@ static void albedo_checker(const koksma__batch_material *material, int32_t id, c
 void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__hits *hits, int n, float *albedo)
 {
     int32_t most = -1;
-    uint32_t least = UINT32_MAX; /* -1 is the largest unsigned number */
+    uint32_t least = UINT32_MAX; /* as an unsigned number, material -1 is the largest */
     for (int i = 0; i < STEP(n); i++) {
         const int32_t m = hits->material[i];
         albedo[i] = 0;

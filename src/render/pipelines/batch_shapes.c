@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Analytic shapes against a block of rays: the loops of each shape's kind (src/render/shapes) in turn, for the closest
- * hits and for shadows, and the loop that completes hits on flat shapes.
+ * Intersects blocks of rays with analytic shapes, for the closest hits and for shadows: calls the loops of each
+ * shape's kind (src/render/shapes) in turn, and completes hits on flat shapes.
  */
 #include <math.h>
 
 #include "render/pipelines/batch_kernel.h"
 #include "render/shapes/shapes.h"
 
-/* By koksma__batch_shape.kind. */
+/* Indexed by koksma__batch_shape.kind. */
 static const koksma__shape_type *const types[] = {
 #define SHAPE(name) &KOKSMA__SHAPE(name),
 #define COMPOUND(name) NULL,
@@ -16,7 +16,7 @@ static const koksma__shape_type *const types[] = {
 #include "render/shapes/shapes.def"
 };
 
-/* Position, normal and coordinates of the lanes that hit flat shape s; all: every lane does. */
+/* Computes the position, normal and coordinates of the lanes that hit flat shape s; all: every lane hit it. */
 INLINE void finish_flat(const koksma__batch_shape *s, const koksma__rays *restrict r, int n, koksma__hits *restrict h,
                         bool all)
 {
@@ -115,7 +115,7 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
     }
     for (size_t k = 0; k < shapes->n; k++) {
         const koksma__batch_shape *s = &shapes->shapes[k];
-        /* a light's surface has no material */
+        /* a shape without a material is the surface of a light */
         types[s->kind]->shade(s, hits, s->material < 0 && shadows->aimed ? shadows->aimed : nowhere, n, shadows);
     }
 }

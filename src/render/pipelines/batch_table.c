@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of one instruction set; compiled once for each, with KOKSMA_ISA set to its name. */
+/* Defines the kernel table of one instruction set. This file is compiled once for each instruction set, with
+   KOKSMA_ISA set to its name. */
 #include "render/pipelines/batch.h"
 
 #define KERNEL(result, name, arguments) result BATCH_NAME(name) arguments;

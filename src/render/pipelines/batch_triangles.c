@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rays that end or start on triangles. A position is made from the corners, (1 - u - v) a + u b + v c, not from the
- * ray, so that it is as exact as they are.
+ * Computes hit positions on triangles, and offsets the origins of rays that start on triangles. A hit position is
+ * computed from the corners, (1 - u - v) a + u b + v c, and not from the ray, so that it is as exact as the corners.
  *
- * A ray that starts on a triangle starts a little off it, on the side where it goes: 2^-20 of the largest coordinate
- * of the triangle, which is 16 units in its last place and more than the error of a position on it. So it meets
- * neither its own triangle nor those that share its edges (the idea is of Waechter & Binder 2019, the measure is
- * not).
+ * The origin of a ray that starts on a triangle is moved along the normal, to the side to which the ray goes, by
+ * 2^-20 of the largest coordinate of the triangle. That is 16 units in the last place of that coordinate, more than
+ * the error of a position on the triangle, so the ray hits neither its own triangle nor those that share its edges.
+ * (The idea is that of Waechter & Binder 2019, the size of the offset is not.)
  */
 #include <math.h>
 
@@ -19,8 +19,8 @@ INLINE float larger(float a, float b)
     return a > b ? a : b;
 }
 
-/* The unit normal of lane i, counterclockwise; the edges are scaled first, because the square of a small triangle's
-   area is too small for a float. */
+/* Computes the unit normal of the triangle in lane i, whose corners are counterclockwise. The edges of the
+   triangle are scaled first, because the squared area of a small triangle underflows a float. */
 INLINE void normal_of(const koksma__landings *restrict l, int i, float *nx, float *ny, float *nz)
 {
     const float ax = l->corners[3][i] - l->corners[0][i], bx = l->corners[6][i] - l->corners[0][i];

@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Direct light on grey Lambert surfaces under rectangles that no one sees, through a pinhole, all in lanes (Cook,
- * Porter & Carpenter 1984). A sample is background                                                      where the ray
- * hits nothing, min(clamp, albedo (ambient + sum over lights of their light))  elsewhere, one shadow ray a
- * light. It is what wavefront.c gives for such scenes, several times faster; the two differ by rounding.
+ * A fast pipeline for direct light on grey Lambert surfaces from rectangular lights that no ray can see, through a
+ * pinhole camera, entirely in SIMD lanes (Cook, Porter & Carpenter 1984). The value of a sample is
+ *
+ *     background                                                             where the ray hits nothing,
+ *     min(clamp, albedo (ambient + sum over lights of their light))          elsewhere,
+ *
+ * Each sample takes one shadow ray per light. The pipeline of wavefront.c gives the same values for such scenes up to
+ * rounding, but takes several times as long.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -14,9 +18,10 @@
 
 typedef struct scratch {
     koksma__sample_scratch draw;
-    float *positions; /* one array a light */
+    float *positions; /* sampled positions on lights, one array per light */
     size_t capacity;
-    /* The shapes that a group of pixels may see, their indices, and which group they are of. */
+    /* The shapes that a group of pixels may see (`shapes`, copied to `list`), their indices (`seen`), and that
+       group (`first`, `count`). */
     koksma__batch_shapes shapes;
     koksma__batch_shape *list;
     size_t *seen, first, count;
@@ -71,7 +76,7 @@ static koksma_status open_scratch(const koksma__frame *frame, size_t capacity, v
 
 /* ---- What a group sees ------------------------------------------------------------------------------------ */
 
-/* The shapes in sight of the group's pixels, as far as the filter moves their samples. */
+/* Finds the shapes that the group of pixels may see, including the margin by which the filter moves samples. */
 static void look(const koksma__frame *f, scratch *r, const koksma__group *group)
 {
     if (r->count && r->first == group->first && r->count == group->count) {
@@ -125,7 +130,7 @@ static bool is_empty(const koksma__frame *f, void *opened, const koksma__group *
 
 /* ---- Samples ------------------------------------------------------------------------------------------------ */
 
-/* The samples of the lights are drawn when the first ray of the group hits something. */
+/* Draws the samples of all lights; it is called when the first ray of a group hits something. */
 static koksma_status draw_lights(const koksma__frame *f, const koksma__group *group, scratch *r)
 {
     koksma_status status = KOKSMA_OK;
@@ -151,8 +156,8 @@ static void note_layers(const koksma__hits *hits, const koksma__rays *rays, cons
     }
 }
 
-/* Shades samples start .. start + n - 1 of the group, whose hits are `hits`; the last `copies` of them only fill
-   lanes, and their values are not used. */
+/* Shades samples start .. start + n - 1 of the group, whose rays hit `hits`; the last `copies` of these samples
+   only fill lanes, and their values are not used. */
 static void shade_block(const koksma__frame *f, const koksma__rays *rays, const koksma__hits *hits, size_t start,
                         int n, int copies, const scratch *r, koksma__values *values)
 {
@@ -162,7 +167,7 @@ static void shade_block(const koksma__frame *f, const koksma__rays *rays, const 
     for (int i = 0; i < n; i++) {
         sum[i] = (float)f->scene->ambient[0];
     }
-    shadows.aimed = NULL; /* no one sees the lights */
+    shadows.aimed = NULL; /* the lights have no surfaces that could block shadow rays */
     f->batch->albedo(f->materials, hits, n, albedo);
     for (size_t l = 0; l < f->lights.n; l++) {
         const float *positions = r->positions + 2 * (l * r->capacity + start);
@@ -217,7 +222,7 @@ static koksma_status trace(const koksma__frame *f, void *opened, const koksma__g
 
 const koksma__pipeline koksma__pipeline_lambert_lanes = {
     .name = "lambert-lanes",
-    .title = "grey Lambert surfaces under rectangles that no ray sees, in lanes",
+    .title = "grey Lambert surfaces under invisible rectangular lights, in SIMD lanes",
     .preference = 1,
     .takes = takes,
     .culls = true,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of pipelines, and which of them renders a picture: of those that take it, the one of highest preference.
- */
+/* The table of pipelines, and the choice of the pipeline for an image: the pipeline with the highest preference of
+   those that accept the frame. */
 #include "render/pipelines/pipelines.h"
 #include "core/status.h"
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Blocks of path vertices in lanes: what wavefront.c hands to batch_materials.c and batch_beams.c. */
+/* The structures for blocks of path vertices in SIMD lanes, which wavefront.c passes to the kernels of
+   batch_materials.c, batch_beams.c and batch_paths.c. */
 #ifndef KOKSMA_RENDER_PIPELINES_VERTICES_H
 #define KOKSMA_RENDER_PIPELINES_VERTICES_H
 
@@ -9,9 +10,9 @@
 
 typedef float koksma__lanes[KOKSMA__BLOCK];
 
-enum { KOKSMA__UNLIT = -1 }; /* the form of a lane that met nothing, or a light */
+enum { KOKSMA__UNLIT = -1 }; /* the form of a lane whose ray hit nothing or a light */
 
-/* Traits of a material: 1 << form, its lobes << KOKSMA__LOBES_AT, and others. */
+/* The trait bits of a material: 1 << form, its lobes << KOKSMA__LOBES_AT, and the flags below. */
 enum {
     KOKSMA__LOBES_AT = 8,
     KOKSMA__TAKES_CHOICE = 1 << 16,
@@ -19,34 +20,38 @@ enum {
     KOKSMA__IS_CHECKER = 1 << 18
 };
 
-/* What blocks look up of materials, an array a number, by the material's index + 1; entry 0 is no material. */
+/* The properties of materials that kernels look up, one array per property, indexed by the material + 1; entry 0
+   means no material. */
 typedef struct koksma__lane_materials {
     int32_t *form, *traits;
     float *albedo[2][3], *parameters[4], *diffuse;
-    float *u[3], *v[3]; /* of a checker, at (u, v): floor(u[0] u + u[1] v + u[2]), and the same of v */
+    /* The square of a checker at (u, v) has column floor(u[0] u + u[1] v + u[2]) and row floor(v[0] u + v[1] v +
+       v[2]). */
+    float *u[3], *v[3];
 } koksma__lane_materials;
 
-/* The surfaces that rays hit, seen from where these came. */
+/* The surfaces that rays hit; `out` is the direction back along each ray. */
 typedef struct koksma__surfaces {
     const koksma__hits *hits;
-    const koksma__shading_material *materials; /* by hits->material */
-    const koksma__lane_materials *table;       /* the same in arrays */
-    unsigned traits;                           /* of all, ored */
+    const koksma__shading_material *materials; /* indexed by hits->material */
+    const koksma__lane_materials *table;       /* the materials as arrays of their properties */
+    unsigned traits;                           /* bitwise or of the traits of all lanes */
     KOKSMA__LANES(int32_t, form);
     _Alignas(64) koksma__lanes out[3];
     _Alignas(64) koksma__lanes albedo[3];
-    _Alignas(64) koksma__lanes parameters[4];  /* of lobes and facets */
-    _Alignas(64) koksma__lanes diffuse;        /* of lobes: koksma__shading_material.derived */
-    float local[KOKSMA__BLOCK][KOKSMA__LOCAL]; /* of lanes with images whose kinds have texture() */
+    _Alignas(64) koksma__lanes parameters[4]; /* parameters of materials of the forms LOBES and FACETS */
+    _Alignas(64) koksma__lanes diffuse;       /* koksma__shading_material.derived of materials of the form LOBES */
+    /* result of texture() in the lanes whose material has images and whose BSDF has texture() */
+    float local[KOKSMA__BLOCK][KOKSMA__LOCAL];
 } koksma__surfaces;
 
-/* Material times cosine, and the density. */
+/* The values of BSDFs times the cosine, and their sampling densities. */
 typedef struct koksma__bsdf_values {
     _Alignas(64) koksma__lanes value[3];
     _Alignas(64) koksma__lanes pdf;
 } koksma__bsdf_values;
 
-/* koksma__scatter in lanes; kept 0: the light is lost. */
+/* Sampled directions: koksma__scatter in lanes. kept 0: the path ends. */
 typedef struct koksma__directions {
     _Alignas(64) koksma__lanes w[3];
     _Alignas(64) koksma__lanes weight[3];
@@ -54,16 +59,17 @@ typedef struct koksma__directions {
     KOKSMA__LANES(int32_t, kept);
 } koksma__directions;
 
-/* The light that each vertex samples, or -1, with which probability. same: all lanes have this one, or -1. */
+/* The light that each vertex samples, or -1, and the probability of its choice. `same` is the light of all lanes
+   if they share one, else -1. */
 typedef struct koksma__light_lanes {
     const koksma__shading_light *lights;
     int same;
-    bool centres; /* lights count as points at their centres */
+    bool centres; /* lights are treated as points at their centres */
     KOKSMA__LANES(int32_t, light);
     _Alignas(64) koksma__lanes probability;
 } koksma__light_lanes;
 
-/* koksma__beam in lanes; lit 0: nothing comes. */
+/* Sampled light: koksma__beam in lanes. lit 0: no light arrives. */
 typedef struct koksma__beams {
     _Alignas(64) koksma__lanes d[3];
     _Alignas(64) koksma__lanes w[3];
@@ -73,7 +79,7 @@ typedef struct koksma__beams {
     KOKSMA__LANES(int32_t, visible);
 } koksma__beams;
 
-/* A block of paths, in lanes. */
+/* A block of paths in lanes, with the fields of koksma__path (wavefront.h). */
 typedef struct koksma__paths {
     koksma__rays rays;
     _Alignas(64) koksma__lanes beta[3];
@@ -83,18 +89,20 @@ typedef struct koksma__paths {
     KOKSMA__LANES(uint32_t, sample);
 } koksma__paths;
 
-/* A block of vertices, at the ends of a block of paths. */
+/* A block of vertices, where the rays of a block of paths end. */
 typedef struct koksma__vertices {
     const koksma__paths *paths;
     int n, whole;
-    bool moves, chooses; /* the times of paths are read; the normals that they leave, for choosing a light */
+    /* moves: kernels read the times of paths; chooses: kernels read the normals of paths, to choose lights */
+    bool moves, chooses;
     koksma__hits hits;
-    koksma__surfaces surfaces;           /* form KOKSMA__UNLIT: a miss, a light, or beyond n */
-    _Alignas(64) koksma__lanes light[3]; /* that the paths carry to their samples from here */
+    /* the form of a lane is KOKSMA__UNLIT if its ray hit nothing or a light, or if the lane is unused */
+    koksma__surfaces surfaces;
+    _Alignas(64) koksma__lanes light[3]; /* light that this vertex adds to the sample of each path */
 } koksma__vertices;
 
-/* What the camera has beside koksma__batch_camera: a lens, whose points are offsets from its centre in units of its
-   radius; a shutter; and where the eye goes in a unit of time. */
+/* The properties of a camera that koksma__batch_camera lacks: a lens, whose points are offsets from its centre in
+   units of its radius; a shutter; and the motion of the eye per unit of time. */
 typedef struct koksma__lens {
     float radius, focus, right[3], down[3], motion[3], open, interval;
 } koksma__lens;
@@ -104,7 +112,7 @@ static inline unsigned koksma__lobes_of(const koksma__surfaces *s)
     return s->traits >> KOKSMA__LOBES_AT & 0xff;
 }
 
-/* Surface i, ray by ray. */
+/* Returns the surface of lane i, for materials that are evaluated one ray at a time. */
 static inline koksma__surface koksma__surface_at(const koksma__surfaces *s, int i)
 {
     const koksma__hits *h = s->hits;

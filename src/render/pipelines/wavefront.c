@@ -1,33 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The wavefront path tracer: any scene by any integrator (Laine, Karras & Aila 2013 have the idea for GPUs). It
- * estimates, for each sample of the film, the rendering equation (Kajiya 1986)
+ * The wavefront path tracer, which renders any scene with any integrator (Laine, Karras & Aila 2013 describe the idea
+ * for GPUs). For each sample of the film it estimates the rendering equation (Kajiya 1986)
  *
- *     L(x, out) = E(x, out) + integral of f(w, out) L(y, -w) cos dw,        y: what the ray from x along w meets
+ *     L(x, out) = E(x, out) + integral of f(w, out) L(y, -w) cos dw
  *
- * by paths. A path is a ray with the weight beta that its light has for the sample: the product of f cos / pdf of all
- * directions so far. Instead of following one path to its end, all paths of a group take one step together, so that
- * rays are intersected in blocks of 64 lanes (batch.h) and shadow rays too:
+ * Here y is the point that the ray from x along w hits. The tracer estimates the integral by random paths. A path is
+ * a ray and a weight beta, the product of f cos / pdf of all directions so far, with which its light counts for the
+ * sample. All paths of a group advance by one vertex together, so that rays and shadow rays are intersected in blocks
+ * of 64 lanes (batch.h):
  *
  *     queue of paths, bounce b
- *       | closest          64 rays at once: which primitive, where, which normal
- *       | emission         a ray that meets a light, or misses all, adds its light:    sum += beta L m
- *       | lights           at each vertex one sample of each light, or of a chosen one; 64 shadow rays at once
- *       | scatter          each vertex draws a direction (or both of glass) from its material
+ *       | closest          intersects 64 rays at once: primitive, position, normal
+ *       | emission         a ray that hits a light, or hits nothing, adds light:    sum += beta L m
+ *       | lights           each vertex samples every light, or a chosen one; 64 shadow rays at once
+ *       | scatter          each vertex samples a direction (or takes both of glass) from its material
  *     queue of paths, bounce b + 1
  *
- * Two queues take turns until one is empty. Paths only end or branch, and their order never depends on threads, so a
- * sample's light is summed in the order of its vertices and bits are equal for any number of threads.
+ * The two queues alternate until one is empty. Paths only end or branch, and their order does not depend on the
+ * threads, so that the light of a sample is summed in a fixed order and the bits are equal for any number of threads.
  *
- * Light that both steps could find, by sampling the light and by a reflected ray that meets it, is shared by the
- * power heuristic (Veach 1997, section 9.2): each is weighed by m = p^2 / (p^2 + q^2), with p the density by which it
- * was found and q that of the other way; the two m of one direction add to 1. A path carries the density of its last
- * direction for this (0 after a mirror, whose light no sampling finds: m = 1). Integrators may have other weights: the
- * balance heuristic, or 1 and 0. Where lobes alone find the light, paths take one ray more, past the depth limit, which
- * finds what sampling the lights of the last vertex would have: all weights have the same mean, at any depth.
+ * Light that both strategies can find, by sampling the light and by a reflected ray that hits it, is weighted by the
+ * power heuristic (Veach 1997, section 9.2): m = p^2 / (p^2 + q^2), where p is the density of the strategy that found
+ * the light and q that of the other strategy; the two weights m of one direction add up to 1. For this a path carries
+ * the density of its last direction (0 after a mirror, because no light sampling finds its light: m = 1). Integrators
+ * may use other weights: the balance heuristic, 1 or 0. If only lobes may find the light, paths take one more ray
+ * past the depth limit, which replaces the light samples of the last vertex, so that all weights have the same mean
+ * at any depth.
  *
- * What is random comes from uses (samples/uses.def): lobe, lobe choice, lights and roulette of vertex b have keys of
- * their own, so that the patterns under study, not the tracer, decide how vertices are stratified.
+ * All random numbers come from uses (samples/uses.def). Lobe, lobe choice, lights and roulette have different keys at
+ * each vertex b, so that the patterns under study decide how vertices are stratified, and not the tracer.
  */
 #include "render/pipelines/wavefront.h"
 
@@ -42,7 +44,8 @@
 #include "render/texture.h"
 #include "render/vector3.h"
 
-enum { TOGETHER = 1024 }; /* samples that are followed together: bounds the queues, which branching makes long */
+/* largest number of samples that are traced together, which bounds the queues that branching lengthens */
+enum { TOGETHER = 1024 };
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
 
@@ -60,7 +63,7 @@ static koksma__lens lens_of(const koksma__camera *camera)
     return lens;
 }
 
-/* Points on the lens of radius 1. */
+/* Maps pairs to points on a lens of radius 1. */
 static void map_to_lens(const koksma__frame *frame, const float *pairs, int n, koksma__lanes x, koksma__lanes y)
 {
     const koksma_warp *map = frame->scene->camera.lens_map;
@@ -81,7 +84,7 @@ static void map_to_lens(const koksma__frame *frame, const float *pairs, int n, k
     }
 }
 
-/* Paths from the eye; positions, lens points and times have copies up to whole lanes. */
+/* Starts paths at the eye. The positions, lens points and times are padded with copies up to whole lanes. */
 static koksma_status start_paths(const koksma__trace *trace, const koksma__values *values, size_t first, size_t end)
 {
     const koksma__frame *frame = trace->frame;
@@ -124,12 +127,12 @@ static koksma__v3 direction_at(const koksma__paths *p, int i)
     return koksma__v3_unit((koksma__v3){p->rays.dx[i], p->rays.dy[i], p->rays.dz[i]});
 }
 
-/* The part of the light that counts for a ray which met a light by its own direction, weighed against sampling that
-   light, whose density for the direction is pdf. */
+/* Returns the weight of light that a ray found by hitting a light, against sampling that light, whose density for
+   the direction is pdf. */
 static float met_weight(const koksma__frame *frame, const koksma__paths *p, int i, size_t light, float pdf)
 {
     if (!(p->pdf[i] > 0)) {
-        return p->pdf[i] < 0 ? 0 : 1; /* 1: from the eye or a mirror, no other way to see it */
+        return p->pdf[i] < 0 ? 0 : 1; /* 1: from the eye or a mirror, where light sampling cannot find the light */
     }
     const float o[3] = {p->rays.ox[i], p->rays.oy[i], p->rays.oz[i]}, n[3] = {p->n[0][i], p->n[1][i], p->n[2][i]};
     const float sampled = pdf * koksma__light_probability(frame, o, n, (int)light);
@@ -152,7 +155,7 @@ static void add_scaled(koksma__vertices *v, int i, const float value[3], float s
     }
 }
 
-/* What environments send against the rays that hit nothing. */
+/* Adds the light of environments to the paths whose rays hit nothing. */
 static void add_misses(const koksma__frame *frame, koksma__vertices *v)
 {
     const koksma__lights *lights = &frame->lights;
@@ -195,7 +198,8 @@ static void add_emission(const koksma__frame *frame, koksma__vertices *v, int i)
     }
 }
 
-/* The same of a light whose surface reflects, too: it may be smooth, and its texture dims it. */
+/* Adds the emission of a light whose surface also reflects: its normals may be interpolated, and a texture may dim
+   it. */
 static void add_glow(const koksma__frame *frame, koksma__vertices *v, int i)
 {
     const koksma__hits *hits = &v->hits;
@@ -217,7 +221,8 @@ static void add_glow(const koksma__frame *frame, koksma__vertices *v, int i)
     add_scaled(v, i, radiance, met_weight(frame, v->paths, i, (size_t)light, pdf));
 }
 
-/* The normal of an image: x along u, y across, z outwards; where a ray would see its back, the surface's stays. */
+/* Replaces the normal of a hit by that of a normal map: x along u, y across, z outwards. The surface's normal
+   stays where the ray would see the back of the new one. */
 static void bend(const koksma__map *map, const koksma__triangle *triangle, koksma__vertices *v, int i)
 {
     koksma__hits *h = &v->hits;
@@ -249,7 +254,7 @@ static void bend(const koksma__map *map, const koksma__triangle *triangle, koksm
     }
 }
 
-/* What images and the colours of vertices say of lane i, whose material has some. */
+/* Applies the textures of the material and the colours of mesh vertices to lane i. */
 static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
 {
     koksma__hits *h = &v->hits;
@@ -287,7 +292,7 @@ static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
     }
 }
 
-/* What the eye sees first, for the layers. */
+/* Stores the albedo, normal and depth of the first hit for the layers. */
 static void note_first(koksma__values *values, const koksma__vertices *v, int i)
 {
     const koksma__hits *h = &v->hits;
@@ -304,7 +309,7 @@ static void note_first(koksma__values *values, const koksma__vertices *v, int i)
 
 /* ---- Going on --------------------------------------------------------------------------------------------- */
 
-/* Both directions of lane i, where its material has two that this integrator follows. */
+/* Follows both directions, reflected and refracted, at lane i, whose material has two directions. */
 static koksma_status branch(const koksma__trace *trace, const koksma__vertices *v, int i)
 {
     const koksma__surface s = koksma__surface_at(&v->surfaces, i);
@@ -326,8 +331,8 @@ static koksma_status branch(const koksma__trace *trace, const koksma__vertices *
     return status;
 }
 
-/* Lobes that go on from here. The ray past the depth limit stands for samples of lights, which specular lobes don't
-   reflect. */
+/* Returns the lobes whose directions continue from this vertex. The ray past the depth limit replaces light
+   samples, which specular lobes do not reflect. */
 static unsigned followed_at(const koksma__trace *trace)
 {
     const koksma__frame *frame = trace->frame;
@@ -337,7 +342,7 @@ static unsigned followed_at(const koksma__trace *trace)
                : frame->flags->followed & ~(unsigned)KOKSMA__LOBE_SPECULAR;
 }
 
-/* The pairs that the lanes' directions take: (u[0], u[1]), and u[2] for the choice of a lobe. */
+/* Draws the random numbers for the directions: (u[0], u[1]) for the direction, and u[2] for the choice of a lobe. */
 static koksma_status draw_directions(const koksma__trace *trace, const koksma__vertices *v, koksma__lanes u[3])
 {
     const unsigned lobes = koksma__lobes_of(&v->surfaces) & followed_at(trace);
@@ -355,8 +360,8 @@ static koksma_status draw_directions(const koksma__trace *trace, const koksma__v
     return KOKSMA_OK;
 }
 
-/* Ends some of the paths at random, whose weights are below 1; the others get brighter. A path that has lost nothing
-   goes on: ending it would only add variance. */
+/* Ends some paths with weights below 1 by Russian roulette and increases the weights of the survivors. A path with
+   a weight of 1 or more continues, because ending it would only add variance. */
 static koksma_status play_roulette(const koksma__trace *trace, const koksma__vertices *v, koksma__directions *to)
 {
     const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
@@ -390,7 +395,7 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
     if (batch->weigh(v->paths, v->whole, &to) && flags->roulette && trace->bounce >= 4) {
         KOKSMA__TRY(play_roulette(trace, v, &to));
     }
-    /* paths that start on a diffuse surface (of a record of the irradiance cache) see no lights in mirrors */
+    /* paths that start on a diffuse surface (for a record of the irradiance cache) do not see lights in mirrors */
     for (int i = 0; trace->first > 0 && i < v->n; i++) {
         to.pdf[i] = to.pdf[i] > 0 ? to.pdf[i] : -1;
     }
@@ -401,7 +406,7 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
 
 /* ---- One block -------------------------------------------------------------------------------------------- */
 
-/* Ambient light, and what the integrator knows of the light between diffuse surfaces. */
+/* Adds ambient light, and the light between diffuse surfaces that the integrator provides. */
 static koksma_status add_local(const koksma__frame *frame, koksma__vertices *v)
 {
     for (int i = 0; (frame->flags->ambient || frame->flags->indirect) && i < v->n; i++) {
@@ -426,7 +431,7 @@ static koksma_status add_local(const koksma__frame *frame, koksma__vertices *v)
     return KOKSMA_OK;
 }
 
-/* Copies of the last path, up to whole lanes. */
+/* Fills the unused lanes with copies of the last path. */
 static void fill_lanes(koksma__paths *p, int n, int whole)
 {
     for (int i = n; i < whole; i++) {
@@ -502,13 +507,13 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
     const float clamp = (float)frame->scene->clamp;
     for (size_t i = 0; i < n; i++) {
         for (int k = 0; k < frame->channels; k++) {
-            const float value = sums[3 * i + (size_t)k]; /* what is no number stays none */
+            const float value = sums[3 * i + (size_t)k]; /* a NaN is kept */
             values->rgb[i * (size_t)frame->channels + (size_t)k] = value > clamp ? clamp : value;
         }
     }
 }
 
-/* Which pixels of the group have a path left. */
+/* Marks the pixels of the group that have a path left. */
 static void mark_alive(const koksma__group *group, koksma__wavefront_scratch *scratch, const koksma__queue *queue)
 {
     memset(scratch->is_alive, group->count == 1, sizeof scratch->is_alive);
@@ -537,7 +542,7 @@ koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *val
     return status;
 }
 
-/* Samples first .. end - 1 of the group, through all their bounces. */
+/* Traces samples first .. end - 1 of the group through all their bounces. */
 static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t end, koksma__values *values)
 {
     trace->scratch->queues[0].n = 0;
@@ -560,7 +565,8 @@ static koksma_status trace_group(const koksma__frame *frame, void *opened, const
     for (size_t p = 0; group->count > 1 && p < group->count; p++) {
         memset(scratch->pixel_of + group->start[p], (int)p, group->start[p + 1] - group->start[p]);
     }
-    memset(scratch->is_alive, true, sizeof scratch->is_alive); /* the lens and time of all */
+    /* the lens and time samples are drawn for all pixels */
+    memset(scratch->is_alive, true, sizeof scratch->is_alive);
     for (size_t first = 0; !status && first < n; first += TOGETHER) {
         status = trace_samples(&trace, first, n - first < TOGETHER ? n : first + TOGETHER, values);
     }
@@ -576,7 +582,7 @@ static bool takes(const koksma__frame *frame)
 
 const koksma__pipeline koksma__pipeline_wavefront = {
     .name = "wavefront",
-    .title = "every scene and option: blocks of paths, one vertex at a time",
+    .title = "all scenes and options: traces blocks of paths, one vertex at a time",
     .takes = takes,
     .together = TOGETHER,
     .open = koksma__wavefront_open,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What wavefront.c (paths) and wavefront_lights.c (lights at their vertices) share with wavefront_scratch.c. */
+/* The structures and functions that wavefront.c (paths), wavefront_lights.c (light at vertices) and
+   wavefront_scratch.c (memory and samples) share. */
 #ifndef KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
 #define KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
 
@@ -7,25 +8,25 @@
 #include "render/frame.h"
 #include "render/pipelines/vertices.h"
 
-/* Pairs that a task may keep of all uses: 1 GiB. */
+/* The largest number of pairs that a task may store, over all uses: 1 GiB. */
 #define KOKSMA__MAX_DRAWN ((size_t)1 << 27)
 
-/* A ray on its way, and what its light will count for its sample. */
+/* A path: its current ray and the weight `beta` with which light along the ray counts for the sample. */
 typedef struct koksma__path {
     float o[3], d[3], beta[3];
-    float n[3]; /* of the surface that it leaves */
-    float pdf;  /* of its direction; 0: from a mirror, or from the eye; -1: it must not see lights */
+    float n[3]; /* normal of the surface where the ray starts */
+    float pdf;  /* sampling density of the direction; 0 from a mirror or the eye, -1 if the ray must not see lights */
     float time;
-    int32_t from; /* the primitive that it starts on, or -1 */
+    int32_t from; /* the primitive on which the ray starts, or -1 */
     uint32_t sample;
 } koksma__path;
 
 typedef struct koksma__queue {
     koksma__paths *blocks;
-    size_t n, capacity; /* paths; capacity in whole blocks */
+    size_t n, capacity; /* n is the number of paths; capacity is the number of paths for which there is memory */
 } koksma__queue;
 
-/* The pairs of a use. */
+/* The sample pairs of a use. */
 typedef struct koksma__drawn {
     uint32_t use;
     bool done;
@@ -37,26 +38,26 @@ typedef struct koksma__wavefront_scratch {
     koksma__drawn *drawn;
     size_t n_drawn, capacity;
     koksma__queue queues[2];
-    float *sums;                         /* 3 a sample */
-    uint8_t *pixel_of;                   /* of a sample: which of the group */
-    bool is_alive[KOKSMA__GROUP_PIXELS]; /* pixels of the group with a path at this bounce */
+    float *sums;                         /* light of each sample, 3 numbers per sample */
+    uint8_t *pixel_of;                   /* for each sample, the index of its pixel in the group */
+    bool is_alive[KOKSMA__GROUP_PIXELS]; /* tells which pixels of the group have a path at this bounce */
     koksma__vertices *vertices;
-    float (*estimates)[KOKSMA__BLOCK]; /* of each light, for choosing one */
+    float (*estimates)[KOKSMA__BLOCK]; /* estimates of the light from each light source, to choose one */
 } koksma__wavefront_scratch;
 
-/* One group at one bounce. */
+/* The tracing of one group at one bounce. */
 typedef struct koksma__trace {
     const koksma__frame *frame;
     koksma__wavefront_scratch *scratch;
     const koksma__group *group;
     koksma__queue *next;
-    int bounce, first; /* the bounce at which paths started: 0 at the eye */
+    int bounce, first; /* first is the bounce at which the paths started, 0 for paths from the eye */
 } koksma__trace;
 
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out);
 void koksma__wavefront_close(void *opened);
 
-/* Makes room for a block of paths more. Errors: MEMORY. */
+/* Ensures that the queue has capacity for one more block of paths. Errors: MEMORY. */
 koksma_status koksma__wavefront_reserve(koksma__queue *queue);
 
 static inline koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path)
@@ -81,18 +82,18 @@ static inline koksma_status koksma__wavefront_push(koksma__queue *queue, const k
     return KOKSMA_OK;
 }
 
-/* The pairs of a use: pair i is sample i's. They are drawn when a path first needs the use, in the pixels that have a
-   path at this bounce. Errors: the sampler's, ARGUMENT (too many), MEMORY. */
+/* Returns the pairs of a use; pair i is for sample i. The pairs are drawn when a path first needs the use, for the
+   pixels that have a path at this bounce. Errors: the sampler's, ARGUMENT (too many pairs), MEMORY. */
 koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, const float **pairs);
 
-/* Follows the paths that are in the first queue, at trace->bounce, to their ends; their light is added to the sums of
-   their samples. */
+/* Traces the paths in the first queue from trace->bounce until they end, and adds their light to the sums of their
+   samples. */
 koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *values);
 
-/* Adds what the lights give at the vertices to their light. */
+/* Samples lights at the vertices and adds the light that the vertices reflect. */
 koksma_status koksma__wavefront_light(const koksma__trace *trace, koksma__vertices *v, koksma__values *values);
 
-/* The probability that light `light` is among those that a vertex at p with normal n samples. */
+/* Returns the probability that a vertex at p with normal n samples light `light`. */
 float koksma__light_probability(const koksma__frame *frame, const float p[3], const float n[3], int light);
 
 #endif

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What lights give at a block of vertices: a position on each, or on one that is chosen, and a shadow ray there.
- * The choice (Shirley 1991, section 5.4; Shirley, Wang & Zimmerman 1996) is in proportion to what each light
- * would give without shadows, so one shadow ray a vertex is enough for many of them; the estimate is divided by the
- * probability. Light that a followed lobe would meet by itself too is weighed as the integrator's flags have it.
+ * Samples direct light for a block of vertices: a position on each light, or on one chosen light, and a shadow ray to
+ * it. With KOKSMA_LIGHTS_ONE a light is chosen with a probability proportional to its estimated light without shadows
+ * (Shirley 1991, section 5.4; Shirley, Wang & Zimmerman 1996), so that one shadow ray per vertex suffices for many
+ * lights; the sampled light is divided by the probability. Other options choose uniformly or in proportion to the
+ * power of the lights. Light that a ray along a followed lobe can also find is weighted as the flags of the
+ * integrator say.
  */
 #include <string.h>
 
@@ -52,7 +54,8 @@ float koksma__light_probability(const koksma__frame *frame, const float p[3], co
     }
 }
 
-/* One light a vertex, with the positions us[2 sample], …; what it gives, shaded, is added. us NULL: centres. */
+/* Samples one light per vertex at the positions us[2 sample], … and adds the unblocked light that the vertices
+   reflect. us NULL: the centres of the lights. */
 static void add_samples(const koksma__trace *trace, koksma__vertices *v, const koksma__light_lanes *l,
                         const float *us, koksma__values *values)
 {

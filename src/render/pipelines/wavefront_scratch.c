@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a task of the wavefront tracer owns: two queues of paths in blocks of lanes, sums of light, and the samples that
- * it has drawn. The samples of a use are drawn when the first path needs them, for the pixels of the group that have a
- * path left, and kept for the bounce: which uses a picture needs depends on what its rays meet.
+ * The memory of a task of the wavefront tracer: two queues of paths in blocks of lanes, sums of light, and the
+ * samples drawn so far. The samples of a use are drawn when the first path needs them, for the pixels of the group
+ * that have a path left, and are stored for the bounce, because the uses that an image needs depend on what its rays
+ * hit.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -51,7 +52,7 @@ koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity
 
 koksma_status koksma__wavefront_reserve(koksma__queue *queue)
 {
-    if (queue->n + KOKSMA__BLOCK > queue->capacity) { /* realloc does not keep the alignment */
+    if (queue->n + KOKSMA__BLOCK > queue->capacity) { /* realloc is not used, because it may lose the alignment */
         const size_t blocks = 2 * queue->capacity / KOKSMA__BLOCK + 4, filled = queue->capacity / KOKSMA__BLOCK;
         koksma__paths *larger = aligned_alloc(64, blocks * sizeof *larger);
         KOKSMA__REQUIRE_MEMORY(larger, blocks * sizeof *larger);
@@ -70,8 +71,10 @@ koksma_status koksma__wavefront_reserve(koksma__queue *queue)
 static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, koksma__drawn **out)
 {
     KOKSMA__FAIL_IF(scratch->n_drawn * scratch->capacity > KOKSMA__MAX_DRAWN, KOKSMA_ARGUMENT,
-                    "more than %zu samples of this many uses: fewer samples a pixel would do", scratch->capacity);
-    const size_t n = 2 * (scratch->capacity + KOKSMA__LANE_STEP); /* pixels are drawn up to whole lanes */
+                    "the scene needs too many uses for %zu samples at once: fewer samples a pixel would do",
+                    scratch->capacity);
+    /* the samples of a pixel are padded to whole lanes */
+    const size_t n = 2 * (scratch->capacity + KOKSMA__LANE_STEP);
     koksma__drawn *list = realloc(scratch->drawn, (scratch->n_drawn + 1) * sizeof *list);
     float *pairs = malloc(n * sizeof *pairs);
     scratch->drawn = list ? list : scratch->drawn;
@@ -84,8 +87,8 @@ static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, k
     return KOKSMA_OK;
 }
 
-/* Runs of pixels that have paths, from the first to the last: copies that fill the lanes of one run lie where the next
-   will be drawn, or where nothing is. */
+/* Draws the samples of each run of consecutive pixels that have paths, from the first run to the last: the copies
+   that fill the lanes of one run are overwritten by the next run, or lie where no sample is. */
 static koksma_status draw_alive(const koksma__trace *trace, uint32_t use, float *pairs)
 {
     koksma__wavefront_scratch *scratch = trace->scratch;

@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Point sets of a pixel made in floats. A rendered image needs a set for each pixel and use, whose numbers end as
- * floats; koksma_generate makes doubles of 53 random bits, one set a call. The patterns below have a form of their own
- * here, with the same distribution: of one random word a coordinate, in lanes, in the order that the pairing wants.
- * Each other pattern, or parameter, is drawn by koksma_generate.
+ * Generates the point sets of a pixel in single precision. A rendered image needs a point set for each pixel and use,
+ * in floats; koksma_generate makes doubles from 53 random bits, one set per call. The patterns in this file have a
+ * float form of the same distribution: each coordinate takes one random word, loops run over SIMD lanes, and the
+ * points come in the order that the pairing needs. koksma_generate draws all other patterns, and these patterns with
+ * other parameters.
  *
- * A coordinate is a multiple of 2^-24 (all of them below 1 are floats), cells begin at the first multiple that lies in
- * them, and all have the same number of multiples. So a point is in its cell exactly, and the last of the 2^24 m
- * remainders is lost: the mean of a coordinate in m cells is off by less than 2^-24.
+ * A coordinate is a multiple of 2^-24 below 1, which a float represents exactly. A cell begins at the first multiple
+ * that lies in it, and all m cells have the same number of multiples, so that every point lies in its cell; the
+ * remaining 2^24 mod m multiples are never drawn, which changes the mean of a coordinate in m cells by less than
+ * 2^-24.
  *
- * A random pattern and cells in two coordinates: corner + scale word. n-rooks: two orders of the same strata. Correlated
- * multi-jitter (Kensler 2013): the corners are permuted by columns and by rows, then the points are put in a random
- * order. Nets: stochastic generation of Owen's scrambling (patterns/shared/grow.h).
+ * The patterns `random` and `jittered` compute corner + scale x word in each coordinate. The pattern `n-rooks` takes
+ * the same strata in two orders, one per coordinate. Correlated multi-jitter (Kensler 2013) permutes the corners by
+ * columns and by rows, then puts the points in a random order. Nets are Owen-scrambled by stochastic generation
+ * (patterns/shared/grow.h).
  */
 #include "render/samples/float_sets.h"
 
@@ -28,13 +31,14 @@ static const float nowhere[2] = {0, 0};
 
 /* ---- Cells ---------------------------------------------------------------------------------------------------- */
 
-/* The first multiple of 2^-24 in cell c of m. */
+/* Returns the first multiple of 2^-24 in cell c of m. */
 static float corner_of(size_t c, size_t m)
 {
     return (float)((((uint64_t)c << 24) + m - 1) / m) * 0x1p-24f;
 }
 
-/* Below 2^24 times this is below the width of a cell of m. */
+/* Returns the factor that maps 24-bit words to offsets within a cell of m: the product stays below the width of
+   the cell. */
 static float scale_of(size_t m)
 {
     const double last = (double)((1u << 24) / m - 1), most = 0x1p24 - 1;
@@ -48,7 +52,7 @@ static koksma_status make_corners(koksma__float_set *set, size_t numbers)
     return set->corners ? KOKSMA_OK : koksma__fail_memory(numbers * sizeof *set->corners);
 }
 
-/* Pairs of numbers, each pair twice the same stratum of n. */
+/* Fills the corners for a Latin pattern: both numbers of pair i are the start of stratum i of n. */
 static koksma_status make_strata(koksma__float_set *set)
 {
     const koksma_status status = make_corners(set, 2 * set->n);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Point sets of a pixel made in floats: see float_sets.c. */
+/* Generates the point sets of a pixel in single precision; float_sets.c explains how. */
 #ifndef KOKSMA_RENDER_SAMPLES_FLOAT_SETS_H
 #define KOKSMA_RENDER_SAMPLES_FLOAT_SETS_H
 
@@ -7,7 +7,7 @@
 
 #include "render/pipelines/batch.h"
 
-/* What a thread needs for a set of n points: 2 n + 16 words, n pairs, n + 64 positions. */
+/* The scratch memory of a thread for a set of n points: 2 n + 16 words, n pairs, and n + 64 indices. */
 typedef struct koksma__float_scratch {
     uint32_t *fractions;
     float *pairs;
@@ -16,30 +16,30 @@ typedef struct koksma__float_scratch {
 
 typedef struct koksma__float_set koksma__float_set;
 
-/* Makes a set: set->words random words, the order of its points or NULL for the pattern's own, and offset, which is
-   added to all points. */
+/* Generates a set from set->words random words. `order` is the order of its points, or NULL for that of the
+   pattern; `offset` is added to all points. */
 typedef void koksma__float_draw(const koksma__float_set *set, const koksma__batch_table *batch, const uint32_t *words,
                                 const uint16_t *order, const float offset[2], const koksma__float_scratch *scratch,
                                 float *pairs);
 
-/* The float form of a pattern for sets of n points in the plane, or on the line (y = 0). */
+/* The float form of a pattern for sets of n points in the plane or on the line (where y = 0). */
 struct koksma__float_set {
-    koksma__float_draw *draw; /* NULL: the pattern has none */
+    koksma__float_draw *draw; /* NULL: there is no float form */
     size_t n, words;
     int dim;
-    bool in_random_order; /* it takes an order even where the points are not shuffled for the pairing */
-    float *corners;       /* pairs: of cells, or twice the same stratum */
-    float scale[2];       /* of a random number below 2^24 in a cell */
+    bool in_random_order; /* `draw` takes an order even where the pairing does not shuffle the points */
+    float *corners;       /* pairs: the corners of cells, or the start of one stratum twice */
+    float scale[2];       /* factor from a 24-bit word to an offset within a cell */
     size_t columns, rows;
     uint32_t partners[2][32];
 };
 
-/* The set's draw is NULL where the pattern, these parameters or this n have no float form. Errors: the pattern's,
-   MEMORY. */
+/* Initialises the float form of a pattern. set->draw is NULL if the pattern with these parameters and this n has
+   none. Errors: the pattern's, MEMORY. */
 koksma_status koksma__float_set_init(const koksma_spec *spec, size_t n, int dim, koksma__float_set *set);
 void koksma__float_set_fini(koksma__float_set *set);
 
-/* The name of float form i; NULL past the last. */
+/* Returns the pattern name of float form i; NULL past the last one. */
 const char *koksma__float_set_name(size_t i);
 
 #endif

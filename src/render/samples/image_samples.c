@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * One pattern over the whole image, without regard to pixels: the question that Mitchell (1992) leaves open. A use
- * has n = spp width height points; those of the use `pixel`, stretched over the film, say which samples a pixel has,
- * and how many. Samples of a pixel keep the pattern's order.
+ * Draws one point set over the whole image instead of one per pixel, which Mitchell (1992) leaves as an open
+ * question. Each use has a set of n = spp width height points. The set of the use `pixel`, stretched over the film,
+ * determines which samples each pixel has, and how many. The samples of a pixel keep the order of the pattern.
  */
 #include <stdlib.h>
 
@@ -10,19 +10,19 @@
 #include "core/status.h"
 #include "render/samples/sampler.h"
 
-#define MAX_NUMBERS ((size_t)1 << 28) /* floats that an image's samples may take: 1 GiB */
+#define MAX_NUMBERS ((size_t)1 << 28) /* largest number of floats for the samples of an image: 1 GiB */
 
 typedef struct set {
     uint32_t use;
     bool drawn;
-    float *pairs; /* in the order of samples */
+    float *pairs; /* one pair of coordinates per sample */
 } set;
 
 typedef struct image_samples {
     const koksma_render_options *options;
     size_t n, n_sets;
-    uint32_t *first; /* of each pixel, in `order`; one more at the end */
-    uint32_t *order; /* samples by pixel */
+    uint32_t *first; /* the index in `order` of the first sample of each pixel, and n at the end */
+    uint32_t *order; /* indices of the samples, sorted by pixel */
     set sets[];
 } image_samples;
 
@@ -45,7 +45,7 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
     const float width = (float)s->options->width, height = (float)s->options->height;
     for (uint32_t i = s->first[pixel]; i < s->first[pixel + 1]; i++) {
         const float *pair = from->pairs + 2 * (size_t)s->order[i];
-        if (use == KOKSMA__USE_PIXEL) { /* kept over the film, and wanted there */
+        if (use == KOKSMA__USE_PIXEL) { /* film positions are stored in [0,1)^2 and returned in pixels */
             *pairs++ = pair[0] * width;
             *pairs++ = pair[1] * height;
         } else {
@@ -76,7 +76,8 @@ static float below_one(double x)
     return f < last ? f : last;
 }
 
-/* Sample i of the set is point permutation[i]; permutation NULL: i. */
+/* Stores the coordinates of one use as floats. Sample i is point permutation[i] of the set, or point i if
+   permutation is NULL. */
 static void keep(const double *xs, int dim, int first, bool two, size_t n, const uint32_t *permutation, float *pairs)
 {
     for (size_t i = 0; i < n; i++) {
@@ -86,8 +87,8 @@ static void keep(const double *xs, int dim, int first, bool two, size_t n, const
     }
 }
 
-/* A random order of the set with this key, or *out = NULL where the pattern's own order is kept: that of the
-   positions on the film, which say in which pixel a sample is. */
+/* Draws a random order for the set with this key. *out is NULL where the pattern's order is kept: without shuffled
+   pairing, and for the film positions, which determine the pixel of each sample. */
 static koksma_status draw_order(const image_samples *s, uint32_t set_key, uint32_t **out)
 {
     *out = NULL;
@@ -101,7 +102,8 @@ static koksma_status draw_order(const image_samples *s, uint32_t set_key, uint32
     return *out ? KOKSMA_OK : koksma__fail_memory(s->n * sizeof **out);
 }
 
-/* The set of a use; where it is in a group, also those of the other uses that take their coordinates from it. */
+/* Makes the set of a use. If the use is in a group, the other uses of the group that share the set get their
+   coordinates, too. */
 static koksma_status make_set(image_samples *s, const koksma_run *run, set *to)
 {
     const koksma_render_options *options = s->options;
@@ -150,13 +152,13 @@ static size_t pixel_of(const image_samples *s, size_t sample)
 {
     const float *pair = s->sets[0].pairs + 2 * sample;
     const float width = (float)s->options->width, height = (float)s->options->height;
-    const float x = pair[0] * width, y = pair[1] * height; /* rounding may reach the far side */
+    const float x = pair[0] * width, y = pair[1] * height; /* rounding may give x = width or y = height */
     const size_t column = x < width ? (size_t)x : (size_t)width - 1,
                  row = y < height ? (size_t)y : (size_t)height - 1;
     return row * (size_t)s->options->width + column;
 }
 
-/* Samples by pixel (counting sort): order is by pixel, then as the pattern has it. The most that a pixel has. */
+/* Sorts the samples by pixel with a stable counting sort, and returns the largest number of samples in a pixel. */
 static size_t sort(image_samples *s)
 {
     const size_t pixels = (size_t)s->options->width * (size_t)s->options->height;
@@ -168,7 +170,8 @@ static size_t sort(image_samples *s)
         most = s->first[p + 1] > most ? s->first[p + 1] : most;
         s->first[p + 1] += s->first[p];
     }
-    for (size_t i = s->n; i-- > 0;) { /* from the end: each pixel's first moves down to its place */
+    /* The loop begins with the last sample, so that each counter moves down to the first sample of its pixel. */
+    for (size_t i = s->n; i-- > 0;) {
         s->order[--s->first[pixel_of(s, i) + 1]] = (uint32_t)i;
     }
     for (size_t p = 0; p < pixels; p++) {
@@ -178,7 +181,7 @@ static size_t sort(image_samples *s)
     return most;
 }
 
-/* The uses that there are, at every vertex; list NULL: only counts. */
+/* Lists the uses at every vertex and returns their number; with list NULL it only counts. */
 static size_t list_uses(const koksma__use_list *uses, set *list)
 {
     size_t n = 0;

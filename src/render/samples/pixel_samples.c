@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A pattern afresh in every pixel. Distribution ray tracing needs a point in as many dimensions as there are uses.
- * Cook (1986) and Shirley (1991, section 5.5.4) build it from 2D sets, one a use, whose strata are matched by random
- * permutations ("uncorrelated jitter"): each use alone is as well spread as its pattern, and no use knows of another.
- * A native pattern has all the dimensions itself, and the pattern of a group of uses has those of the group; a point
- * of either is moved as a whole.
+ * Draws a new point set of the pattern in every pixel. Distribution ray tracing needs a point with the dimensions of
+ * all uses. Cook (1986) and Shirley (1991, section 5.5.4) build it from 2D sets, one per use, whose strata are
+ * matched by random permutations ("uncorrelated jitter"): the set of each use alone is as well spread as its pattern,
+ * and the uses are independent. A pattern with native pairing has the dimensions of all uses, and the pattern of a
+ * group has the dimensions of the group's uses; the coordinates of each such point stay together in one sample.
  *
- * Random words are hashes of (seed, pixel, use). The pairs of a use are made in floats where its pattern has a form for
- * that (float_sets.c), and by koksma_generate elsewhere.
+ * The random words are hashes of (seed, pixel, use). float_sets.c makes the pairs of a use in floats if its pattern
+ * has such a form; koksma_generate makes all others.
  */
 #include <stdlib.h>
 
@@ -20,23 +20,27 @@
 #include "render/samples/float_sets.h"
 #include "render/samples/sampler.h"
 
-enum { LANE_PAIRING = 1 << 20 }; /* keys the random numbers of permutations; above the keys of uses */
+/* base of the keys for the random numbers of permutations, above the keys of all uses */
+enum { LANE_PAIRING = 1 << 20 };
 
-#define MAX_KEPT ((size_t)1 << 27) /* numbers that a thread keeps of a native pattern, or of groups of uses */
+/* largest number of coordinates that a thread stores of a native pattern or of groups of uses */
+#define MAX_KEPT ((size_t)1 << 27)
 
 typedef struct pixel_samples {
     const koksma_render_options *options;
     const koksma__batch_table *batch;
     koksma__use_list uses;
-    /* By use. The pairs of a deterministic pattern are made once, and the sets that a family of files (file_names.h)
-       has, of which a pixel's seed chooses one; else NULL. */
+    /* The arrays below are indexed by use. `fixed` has point sets that are made only once: the one set of a
+       deterministic pattern, or all sets of a family of files (file_names.h), from which the seed of a pixel
+       chooses; else it is NULL. */
     float *fixed[KOKSMA_N_USES];
     size_t fixed_sets[KOKSMA_N_USES];
-    int dims[KOKSMA_N_USES]; /* of the sets that are generated */
+    int dims[KOKSMA_N_USES]; /* number of dimensions of the generated sets */
     koksma__float_set floats[KOKSMA_N_USES];
     bool shuffles[KOKSMA_N_USES];
     koksma__place_of_use places[KOKSMA_N_USES];
-    size_t kept_first[KOKSMA_MAX_USE_GROUPS]; /* where a room keeps the sets of a group: dimensions before its own */
+    /* for each group, the number of dimensions that other groups occupy before it in the scratch */
+    size_t kept_first[KOKSMA_MAX_USE_GROUPS];
 } pixel_samples;
 
 static size_t count(const koksma__sampler *sampler, uint64_t pixel)
@@ -54,7 +58,7 @@ static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, 
     return koksma_generate(spec, seed, run, &points);
 }
 
-/* Numbers to pairs, from the last so that it can be done in place. */
+/* Expands numbers to pairs (x, 0) in place, from the last one on. */
 static void widen(double *xs, size_t n)
 {
     for (size_t i = n; i-- > 0;) {
@@ -63,7 +67,7 @@ static void widen(double *xs, size_t n)
     }
 }
 
-/* The coordinates of a use out of points that have several, as pairs. */
+/* Extracts the coordinates of one use, as pairs, from points with more coordinates. */
 static void take_out(const double *points, size_t n, int dim, int first, bool two, double *pairs)
 {
     for (size_t i = 0; i < n; i++, points += dim) {
@@ -87,7 +91,7 @@ static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pi
     const koksma__place_of_use *place = &samples->places[koksma__use_index(use)];
     const size_t n = (size_t)options->spp, slot = pixel % sampler->kept_slots;
     const uint32_t set_key = koksma__set_key(place, use);
-    const uint64_t key = (pixel << 20 | set_key) + 1; /* 0: nothing */
+    const uint64_t key = (pixel << 20 | set_key) + 1; /* 0 is the key of an empty slot */
     uint64_t *kept = &room->kept_keys[slot * sampler->kept_sets + (size_t)place->group];
     double *set = room->kept + n * (slot * (size_t)sampler->kept_dim + samples->kept_first[place->group]);
     if (*kept != key) {
@@ -104,7 +108,7 @@ static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pi
     return KOKSMA_OK;
 }
 
-/* A fresh set of a use, plus offset. */
+/* Draws a new set for a use and adds the offset. */
 static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
                               koksma__sample_scratch *room, float *pairs)
 {
@@ -128,7 +132,7 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
     return status;
 }
 
-/* Pairs in the order of a pixel and the set with this key. */
+/* Permutes pairs by the random order of this pixel and set key. */
 static void put_in_order(const pixel_samples *samples, uint64_t pixel, uint32_t set_key, const float *from,
                          koksma__sample_scratch *room, float *pairs)
 {
@@ -145,7 +149,8 @@ static void put_in_order(const pixel_samples *samples, uint64_t pixel, uint32_t 
     }
 }
 
-/* A set made in floats: its words are those of its order, if it takes one, and then its own. */
+/* Draws a set in floats. The random words begin with those of its order, if it has one; the words of its points
+   follow. */
 static void draw_floats(const pixel_samples *samples, const koksma__float_set *set, uint64_t pixel, uint32_t use,
                         bool shuffles, const float offset[2], koksma__sample_scratch *room, float *pairs)
 {
@@ -229,7 +234,7 @@ static void release(koksma__sampler *sampler)
     *sampler = (koksma__sampler){0};
 }
 
-/* The pairs of one set's coordinates from `first` on; *fixed keeps them. */
+/* Allocates *fixed and fills it with the pairs of one use, whose coordinates begin at `first`. */
 static koksma_status keep_fixed(const double *set, size_t n, int dim, int first, bool two, float **fixed)
 {
     static const float nowhere[2] = {0, 0};
@@ -245,7 +250,7 @@ static koksma_status keep_fixed(const double *set, size_t n, int dim, int first,
     return status;
 }
 
-/* Reads all sets of n points that a family of files has, so that no pixel opens a file. */
+/* Reads all sets of n points of a family of files, so that no pixel has to open a file. */
 static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, float **fixed, size_t *n_sets)
 {
     static const float nowhere[2] = {0, 0};
@@ -284,7 +289,7 @@ static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, floa
     return status;
 }
 
-/* Draws one set in dims dimensions; *fixed keeps it when the pattern is deterministic. */
+/* Draws one set in dims dimensions to check the pattern; stores it in *fixed if the pattern is deterministic. */
 static koksma_status try_set(const koksma_render_options *options, const koksma_spec *spec, int dims, float **fixed,
                              size_t *n_sets)
 {
@@ -347,7 +352,7 @@ static koksma_status check_kept(size_t n, int dim, const char *of)
                : KOKSMA_OK;
 }
 
-/* Draws one set of a group; the pairs of its uses are kept when its pattern is deterministic. */
+/* Draws one set of a group to check its pattern; if the pattern is deterministic, stores the pairs of its uses. */
 static koksma_status try_group(pixel_samples *samples, int g)
 {
     const koksma_render_options *options = samples->options;
@@ -370,7 +375,7 @@ static koksma_status try_group(pixel_samples *samples, int g)
     return status;
 }
 
-/* Only groups on whose uses something is spent are drawn. */
+/* Checks the groups that have at least one use that the image needs. */
 static koksma_status try_groups(koksma__sampler *sampler, pixel_samples *samples)
 {
     const koksma_use_group *groups = samples->options->groups;

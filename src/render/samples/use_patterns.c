@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which pattern serves which use, as a text: "random;lens=sobol;pixel+time=scan-time" has a common pattern, one of a
- * single use and one of a group. A part begins with the uses before '=', if any; ';' ends a part where another begins
- * behind it, so that a path may have a ';'. The canonical text has all patterns in their own canonical form.
+ * Parses, checks and prints the text that assigns patterns to uses: "random;lens=sobol;pixel+time=scan-time" has a
+ * common pattern, a pattern for one use and a pattern for a group of uses. A part begins with the names of its uses
+ * and '=', if any. A ';' ends a part only where the next part names uses, so that a path may contain a ';'. The
+ * canonical text prints each pattern in canonical form.
  */
 #include <stdio.h>
 #include <string.h>
@@ -33,7 +34,8 @@ void koksma_use_group_text(const koksma_use_group *group, char *text)
     }
 }
 
-/* "pixel+lens has 4 dimensions (pixel 2, lens 2), and scan-time only 3; ..." */
+/* The message says, for example, that pixel+lens need 4 dimensions (pixel 2, lens 2) and that scan-time has only
+   3. */
 static koksma_status fail_dimensions(const koksma_use_group *group)
 {
     const koksma_pattern *p = group->pattern.pattern;
@@ -62,7 +64,7 @@ static koksma_status check_group(const koksma_use_group *group)
                     "a group of %d uses: it takes 2 to %d", group->n_uses, KOKSMA_N_USES);
     for (int i = 0; i < group->n_uses; i++) {
         KOKSMA__FAIL_IF(group->uses[i] < 0 || group->uses[i] >= KOKSMA_N_USES, KOKSMA_ARGUMENT,
-                        "use %d of a group: there are 0 to %d", group->uses[i], KOKSMA_N_USES - 1);
+                        "use number %d of a group: it takes 0 to %d", group->uses[i], KOKSMA_N_USES - 1);
     }
     koksma_use_group_text(group, name);
     KOKSMA__FAIL_IF(!group->pattern.pattern, KOKSMA_ARGUMENT,
@@ -72,7 +74,7 @@ static koksma_status check_group(const koksma_use_group *group)
                                                                                           : KOKSMA_OK;
 }
 
-/* How many patterns a use has. */
+/* Returns how many patterns are assigned to a use, alone or in groups. */
 static int patterns_of(const koksma_render_options *options, int u)
 {
     int n = options->patterns[u].pattern != NULL;
@@ -84,7 +86,7 @@ static int patterns_of(const koksma_render_options *options, int u)
     return n;
 }
 
-/* What native pairing has no place for: a pattern of some uses only. */
+/* Native pairing has one pattern for all uses: fails if a use or group has another pattern. */
 static koksma_status check_native(const koksma_render_options *options)
 {
     char name[KOKSMA_MAX_SPEC] = "";
@@ -167,7 +169,7 @@ static bool is_of_names(char c)
     return (c >= 'a' && c <= 'z') || c == '-' || c == '+';
 }
 
-/* The length of the text before '=', which names uses; 0: the part names none. */
+/* Returns the length of the names of uses before '='; 0 if the part names no use. */
 static size_t length_of_uses(const char *part)
 {
     size_t n = 0;
@@ -177,7 +179,7 @@ static size_t length_of_uses(const char *part)
     return part[n] == '=' ? n : 0;
 }
 
-/* The ';' that ends the part, or the end of the text. */
+/* Returns the ';' that ends the part, or the end of the text. */
 static const char *end_of_part(const char *part)
 {
     const char *end = strchr(part, ';');
@@ -219,7 +221,8 @@ static koksma_status parse_uses(const char *part, const char *text, size_t lengt
     return KOKSMA_OK;
 }
 
-/* Each group takes two of the uses at least and no use is in two, so that there is room for one more. */
+/* Adds a parsed part to the options. There is always space for one more group, because each group takes at least
+   two uses and no use is in two groups. */
 static koksma_status add_group(const char *part, const koksma_use_group *group, koksma_render_options *options)
 {
     int g = 0;
@@ -267,7 +270,7 @@ koksma_status koksma_render_patterns(const char *text, koksma_render_options *op
         KOKSMA__FAIL_IF(length >= sizeof part, KOKSMA_ARGUMENT, "'%.20s...' is longer than %zu characters", text,
                         sizeof part - 1);
         memcpy(part, text, length);
-        while (*end && length && part[length - 1] == ' ') { /* blanks before a ';' */
+        while (*end && length && part[length - 1] == ' ') { /* skip blanks before a ';' */
             length--;
         }
         part[length] = '\0';
@@ -279,7 +282,7 @@ koksma_status koksma_render_patterns(const char *text, koksma_render_options *op
     return KOKSMA_OK;
 }
 
-/* Appends ";name=pattern". */
+/* Appends ";name=pattern" to the text. */
 static void append(char *text, const char *name, const koksma_spec *spec)
 {
     const size_t used = strlen(text);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Uses: what sample dimensions are spent on. The table of uses, the group that each is in and the dimensions of a pattern
- * that it takes, and the scratch memory for drawing samples.
+ * Implements uses, the purposes for which sample dimensions are drawn: the table of uses, the group of each use, the
+ * dimensions of a pattern that a use takes, and the scratch memory for drawing samples.
  */
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@
 #include "core/status.h"
 #include "render/samples/sampler.h"
 
-/* The index of a use's number in the list; the numbers of all lights share the last. */
+/* Converts the number of a use to its index in the table; all lights share the last index. */
 #define POSITION(number) ((number) < KOKSMA__USE_LIGHT ? (number) : KOKSMA_N_USES - 1)
 
 static const koksma_use uses_table[] = {
@@ -65,7 +65,7 @@ koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *option
         for (int i = 0; i < group->n_uses && i < KOKSMA_N_USES; i++) {
             const int other = group->uses[i];
             if (other < 0 || other >= KOKSMA_N_USES) {
-                continue; /* koksma__check_use_patterns has not seen these options */
+                continue; /* the options may not have been checked by koksma__check_use_patterns */
             }
             if (other == u) {
                 place.group = g;
@@ -81,7 +81,8 @@ koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *option
     return (koksma__place_of_use){.group = -1, .dim = uses_table[u].dim};
 }
 
-/* Only the uses of lights are several at a vertex, and only the first of them shares its set. */
+/* Among the uses of a vertex only lights can occur several times, and only the first light shares the set of a
+   group. */
 uint32_t koksma__set_key(const koksma__place_of_use *place, uint32_t use)
 {
     return place->group < 0 || use % KOKSMA__USES_A_BOUNCE > KOKSMA__USE_LIGHT
@@ -107,7 +108,8 @@ bool koksma__use_is_there(const koksma__use_list *uses, int u)
     }
 }
 
-/* A vertex has: the lights, which of them, lobe, lobe choice, roulette. */
+/* In a native pattern each vertex has, in this order, the dimensions of its lights, light choice, lobe, lobe
+   choice and roulette. */
 int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
 {
     const int vertex = (int)(use / KOKSMA__USES_A_BOUNCE), number = (int)(use % KOKSMA__USES_A_BOUNCE);
@@ -146,7 +148,8 @@ koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const ko
     *room = (koksma__sample_scratch){
         .xs = malloc((2 * n + 8) * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
-        .words = aligned_alloc(64, words * sizeof *room->words), /* vectors are written, and parts of them read */
+        /* the words are aligned, because kernels store whole vectors */
+        .words = aligned_alloc(64, words * sizeof *room->words),
         .order = malloc(orders * sizeof *room->order),
         .kept = malloc((kept + 1) * sizeof *room->kept),
         .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * blocks: whole blocks of the image go on or stop together (Dammertz, Hanika, Keller & Lensch 2010). I is the mean of
- * all sets of a pixel, A that of every other one; the error of a block of N pixels, out of an image of M, is
+ * The method `blocks` lets whole blocks of the image continue or stop together (Dammertz, Hanika, Keller & Lensch
+ * 2010). With I the mean of all sets of a pixel and A that of every other set, the error of a block of N pixels in an
+ * image of M pixels is
  *
  *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (absolute values and I summed over channels)
  *
- * A block stops when e is below the threshold; below 256 times the threshold it is cut across its longer side, where
- * the errors of the two parts are nearest, while parts of `side` pixels are possible. Without a threshold every block
- * is cut after each round in which it was selected, and the budget goes to those with the largest error a pixel.
+ * A block stops when e is below the threshold. Below 256 times the threshold a block is cut across its longer side,
+ * at the position where the errors of the two parts are most nearly equal, unless a part would have fewer than `side`
+ * pixels. Without a threshold every block is cut after each round in which it was selected, and the budget goes to
+ * the blocks with the largest error per pixel.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -19,14 +21,14 @@ enum { SIDE = KOKSMA__SETS_THRESHOLD + 1 };
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(2, 2),
-    {"threshold", "error of a block; 0: none, the budget decides", 0, 0, 1e6, NULL, false},
-    {"side", "of a block in pixels, at least", 8, 1, 65536, NULL, true},
+    {"threshold", "a block stops below this error; 0: only the budget limits", 0, 0, 1e6, NULL, false},
+    {"side", "smallest side of a block in pixels", 8, 1, 65536, NULL, true},
     {0},
 };
 
 typedef struct block {
     int x, y, width, height;
-    uint32_t sets; /* of its first pixel when it was cut out */
+    uint32_t sets; /* number of sets of its first pixel at the time of the cut */
     bool stopped;
 } block;
 
@@ -64,7 +66,7 @@ static double pixel_error(const koksma__adaptive *run, int x, int y)
     return off > 0 ? off / sqrt(fmax(sum, 1e-6)) : 0;
 }
 
-/* Of the pixels of a part of a block. */
+/* Returns the sum of the errors of the pixels in a rectangle. */
 static double sum_errors(const koksma__adaptive *run, int x, int y, int width, int height)
 {
     double sum = 0;
@@ -147,7 +149,7 @@ static void plan(koksma__adaptive *run)
 
 static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
-    (void)run; /* plan does */
+    (void)run; /* demands are set by plan() */
     (void)pixel;
     (void)scratch;
     (void)demand;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * confidence: more while the samples leave too much doubt of the pixel's luminance. With n samples of variance s^2,
+ * The method `confidence`: a pixel gets more samples while the uncertainty of its luminance is above the threshold.
+ * With n samples of variance s^2, the uncertainty is
  *
  *     test=t      the half width of the mean's interval: t_(n-1),(1+level)/2  s / sqrt(n)   (Purgathofer 1987)
  *     test=chi2   the upper confidence bound of the mean's standard error (Lee, Redner & Uselton 1985):
  *                 sqrt((n - 1) s^2 / chi2_(n-1),(1-level) / n)
  *
- * is above the threshold. Both suppose independent samples of a normal law; stratified samples err less than they
- * say.
+ * Both tests assume independent samples from a normal distribution; stratified samples have a smaller error than the
+ * tests estimate.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,18 +18,20 @@
 #include "stats/quantiles.h"
 
 enum { TEST = KOKSMA__SETS_THRESHOLD + 1, LEVEL };
-enum { FACTORS = 1024 }; /* for 1 .. FACTORS sets; beyond, where they hardly change, the last one is used */
+/* The factors are tabulated for up to FACTORS sets; beyond, they hardly change and the last factor is used. */
+enum { FACTORS = 1024 };
 
 static const char *const tests[] = {"t", "chi2", NULL};
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(1, 1),
-    {"threshold", "luminance; 0: none, the budget decides", 0, 0, 1e6, NULL, false},
-    {"test", "of the mean's interval, or of the bound of its variance", 0, 0, 1, tests, true},
-    {"level", "of confidence", 0.9, 0.5, 0.9999, NULL, false},
+    {"threshold", "uncertainty of luminance below which a pixel stops; 0: only the budget limits", 0, 0, 1e6, NULL,
+     false},
+    {"test", "confidence interval of the mean (t), or bound of its standard error (chi2)", 0, 0, 1, tests, true},
+    {"level", "confidence level", 0.9, 0.5, 0.9999, NULL, false},
     {0},
 };
 
-/* What s / sqrt(n) is multiplied with, n samples. */
+/* Returns the factor by which s / sqrt(n) is multiplied for n samples. */
 static double factor(const koksma__adaptive *run, double n)
 {
     const double level = run->options->params[LEVEL];
@@ -55,7 +58,7 @@ static koksma_status open(koksma__adaptive *run)
 {
     const koksma_status status = koksma__sets_open(run);
     KOKSMA__FAIL_IF(!status && run->demands[0].now < 2, KOKSMA_N,
-                    "confidence: 2 samples are needed at first: a larger spp, or first=2");
+                    "confidence: the first round needs 2 samples; use a larger spp, or first=2");
     double *factors = status ? NULL : malloc((FACTORS + 1) * sizeof *factors);
     run->extra = factors;
     if (!status && !factors) {
@@ -78,7 +81,7 @@ static const koksma__adaptive_method method = {.open = open,
 
 const koksma_adaptive koksma__adaptive_confidence = {
     .name = "confidence",
-    .title = "more until a confidence interval is narrow",
+    .title = "more samples until a confidence interval is narrow",
     .cite = "lee1985 purgathofer1987",
     .params = params,
     .functions = &method,

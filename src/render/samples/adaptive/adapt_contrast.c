@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * contrast: the eye's response to light is a matter of ratios, and so a pixel gets more samples while the contrast
- * of those that it has,
+ * The method `contrast`: the eye responds to ratios of light, so a pixel gets more samples while its samples have a
+ * high contrast
  *
- *     C = (max - min) / (max + min),
+ *     C = (max - min) / (max + min).
  *
- * is above 0.4 in red, 0.3 in green or 0.6 in blue (Mitchell 1987); a grey pixel is judged as green. `threshold`
- * scales the three: 1 is Mitchell's. More samples only widen the range, so a pixel that once exceeds the threshold
- * gets the largest number of samples. Pixels end with one of two sample counts, as in the paper, unless the budget
- * runs out first.
+ * The contrast is high if it is above 0.4 in red, 0.3 in green or 0.6 in blue (Mitchell 1987); grey images use the
+ * bound of green. The parameter `threshold` multiplies the three bounds; 1 gives Mitchell's. More samples can only
+ * widen the range, so a pixel that once exceeds the threshold gets the largest number of samples. Every pixel thus
+ * ends with one of two sample counts, as in the paper, unless the budget is exhausted first.
  */
 #include <math.h>
 
@@ -16,7 +16,7 @@
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(1, 1),
-    {"threshold", "in units of Mitchell's; 0: none, the budget decides", 0, 0, 1e6, NULL, false},
+    {"threshold", "factor on the bounds of Mitchell; 0: only the budget limits", 0, 0, 1e6, NULL, false},
     {0},
 };
 
@@ -32,7 +32,7 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__s
         score = fmax(score, contrast / bounds[run->frame->channels == 1 ? 1 : k]);
     }
     if (score > run->options->params[KOKSMA__SETS_THRESHOLD]) {
-        /* those with fewer samples first, so that a budget spreads */
+        /* pixels with fewer samples come first, so that the budget is spread */
         koksma__sets_demand(run, pixel, 1, score / p->sets, demand);
     }
 }
@@ -46,7 +46,7 @@ static const koksma__adaptive_method method = {.open = koksma__sets_open,
 
 const koksma_adaptive koksma__adaptive_contrast = {
     .name = "contrast",
-    .title = "more where the contrast of the samples is high",
+    .title = "more samples where their contrast is high",
     .cite = "mitchell1987",
     .params = params,
     .functions = &method,

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * hierarchical: strata are split where neighbours differ (Kajiya 1986), in all uses together (Shirley 1991, section
- * 5.6). With pairing=aligned neighbours in the pixel are neighbours in every use; with pairing=shuffled they are not,
- * and strata are split because of uses in which they lie far apart (figure 5.36).
- * Known: where nothing varies nothing is split. The estimate is biased, because the values that decide are counted;
- * with reuse=fresh, and phase=shifted or folded when aligned, it is not.
+ * The method `hierarchical`: strata are split where neighbours differ (Kajiya 1986), in all uses together (Shirley
+ * 1991, section 5.6). With pairing=aligned, neighbours in the pixel are neighbours in every use. With
+ * pairing=shuffled they are not, and strata are also split because they differ in uses where they lie far apart
+ * (figure 5.36). Where values do not vary no stratum is split. The estimate is biased, because the values that decide
+ * also count; it is unbiased with reuse=fresh, if aligned strata also have phase=shifted or phase=folded.
  */
 #include "render/samples/adaptive/adaptive_strata.h"
 
@@ -16,8 +16,8 @@ static const char *const phases[] = {
 
 static const koksma_param params[] = {
     KOKSMA__STRATA_PARAMS,
-    {"pairing", "of the uses' strata", 0, 0, 1, pairings, true},
-    {"phase", "of the other uses' squares when aligned", KOKSMA__PHASE_FIXED, 0, 2, phases, true},
+    {"pairing", "how the strata of different uses are paired", 0, 0, 1, pairings, true},
+    {"phase", "how the other uses are moved with aligned pairing", KOKSMA__PHASE_FIXED, 0, 2, phases, true},
     {0},
 };
 
@@ -45,7 +45,7 @@ static const koksma__adaptive_method method = {.open = open,
 
 const koksma_adaptive koksma__adaptive_hierarchical = {
     .name = "hierarchical",
-    .title = "strata that differ from a neighbour are split, in all uses together",
+    .title = "splits strata that differ from a neighbour, in all uses together",
     .cite = "kajiya1986 shirley1991",
     .params = params,
     .own_samples = true,

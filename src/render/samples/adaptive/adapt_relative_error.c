@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * relative-error: more while the standard error of the pixel's luminance is above threshold x (mean + floor). It is
- * taken from the spread of the means of the sets, which are independent replicates of the pattern: samples of one
- * stratified set are not, and their variance over n says too much. Sets of a sequence are drawn afresh,
- * too, not continued. From k sets it has k - 1 degrees of freedom: with fewer than 4 at first many pixels stop by
- * luck.
+ * The method `relative-error`: a pixel gets more samples while the standard error of its luminance is above threshold
+ * x (mean + floor). The standard error is estimated from the variance between the means of the sets, which are
+ * independent replicates of the pattern. The samples of one stratified set are not independent, and their variance
+ * over n overestimates the error. Sets of a sequence are also drawn independently, not continued. With k sets the
+ * estimate has k - 1 degrees of freedom: with fewer than 4 sets in the first round many pixels stop by chance.
  */
 #include <math.h>
 
@@ -14,7 +14,7 @@ enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1 };
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(4, 2),
-    {"threshold", "standard error over (mean + floor); 0: none, the budget decides", 0, 0, 1e6, NULL, false},
+    {"threshold", "standard error over (mean + floor); 0: only the budget limits", 0, 0, 1e6, NULL, false},
     {"floor", "luminance below which errors count as absolute", 0.01, 1e-9, 1e9, NULL, false},
     {0},
 };
@@ -40,7 +40,7 @@ static const koksma__adaptive_method method = {.fresh = true,
 
 const koksma_adaptive koksma__adaptive_relative_error = {
     .name = "relative-error",
-    .title = "more until the sets' means agree, relative to the pixel's brightness",
+    .title = "more samples until the means of the sets agree, relative to the pixel's brightness",
     .cite = "-",
     .params = params,
     .functions = &method,

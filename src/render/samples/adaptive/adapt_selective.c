@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * selective: splits strata only in the use that causes most of the pixel's variance, a question that Shirley 1991,
- * section 5.6, leaves open. The uses are paired by random permutations, so neighbouring strata of one use are not
- * neighbours in another, and only in the use that causes the variance do neighbours have similar values. Geary's
- * contiguity ratio (1954) measures this from the first m x m values v, without further samples: over the P pairs of
- * neighbouring cells (columns and rows) of a use
+ * The method `selective` splits strata only in the use that causes most of the pixel's variance, a choice that
+ * Shirley 1991, section 5.6, leaves open. Random permutations pair the uses, so neighbouring strata of one use are
+ * not neighbours in another, and only in the use that causes the variance do neighbours have similar values. Geary's
+ * contiguity ratio (1954) measures this similarity from the first m x m values v, without further samples. Over the P
+ * pairs of neighbouring cells (columns and rows) of a use the ratio is
  *
  *     c = (sum over pairs (v_i - v_j)^2 / P)  /  (2 s^2),     s^2 the variance of all values
  *
- * has mean 1 when the values lie on the cells in a random order, and goes to 0 when the use explains them. The
- * pixel's base use is that with the smallest c, if c is below `below`; else nothing is split. Then it works as
- * `hierarchical` does, but compares neighbours and quarters cells in the base use only. In the other uses each part
- * keeps the whole cell, so that the parts cover the stratum; four parts that quarter several uses at once would
- * not. Candidates: pixel, lens, time, and of the first two vertices the first lights and the lobe.
+ * The ratio c has mean 1 if the values lie on the cells in random order, and tends to 0 if the use explains the
+ * values. The base use of a pixel is the one with the smallest c, if c is at most the parameter `below`; else no
+ * stratum is split. The method then works like `hierarchical`, but compares neighbours and quarters cells in the base
+ * use only. In the other uses each part keeps the whole cell, so that the parts cover the stratum, which four parts
+ * quartered in several uses at once would not. The candidates for the base use are the pixel, the lens and time, and
+ * the first lights and the lobe of the first two vertices.
  */
 #include "render/samples/adaptive/adaptive_strata.h"
 #include "render/vector3.h"
@@ -21,7 +22,7 @@ enum { BELOW = KOKSMA__STRATA_REUSE + 1 };
 
 static const koksma_param params[] = {
     KOKSMA__STRATA_PARAMS,
-    {"below", "contiguity ratio that the use must have", 0.8, 0, 2, NULL, false},
+    {"below", "largest contiguity ratio at which a use is split", 0.8, 0, 2, NULL, false},
     {0},
 };
 
@@ -41,7 +42,7 @@ static double square(float a, float b)
     return ((double)a - (double)b) * ((double)a - (double)b);
 }
 
-/* The mean square of neighbours' differences, over 2. y: the values in the order of the use's cells. */
+/* Returns half the mean squared difference of neighbours. y: the values in the order of the cells of the use. */
 static double roughness(const float *y, uint32_t n, uint32_t width)
 {
     double sum = 0;
@@ -70,8 +71,8 @@ static double variance(const float *y, uint32_t n)
     return n > 1 ? (squares - sum * sum / n) / (n - 1) : 0;
 }
 
-/* The base use of a pixel whose first values are in its strata; false: no use carries the variance. scratch has 2
-   m^2 words. */
+/* Finds the base use of a pixel from its first values; returns false if no use causes the variance. The buffers
+   `permutation` and `y` have room for m^2 numbers each. */
 static bool find_base(koksma__adaptive *run, size_t pixel, uint32_t *permutation, float *y)
 {
     const koksma__strata *s = run->state;
@@ -81,7 +82,7 @@ static bool find_base(koksma__adaptive *run, size_t pixel, uint32_t *permutation
     double least = s->below;
     bool found = false;
     for (int u = koksma__list_spaces(&run->frame->uses, uses) - 1; u >= 0;
-         u--) { /* of equals the pixel wins, which is first */
+         u--) { /* the loop counts down, so that among uses with equal ratios the first one, the pixel, is chosen */
         koksma__use_cells cells;
         koksma__use_cells_init(run, pixel, uses[u], permutation, &cells);
         for (uint32_t i = 0; i < n; i++) {
@@ -126,7 +127,7 @@ static const koksma__adaptive_method method = {.open = open,
 
 const koksma_adaptive koksma__adaptive_selective = {
     .name = "selective",
-    .title = "strata that differ from a neighbour are split, in the use that carries the variance",
+    .title = "splits strata that differ from a neighbour, in the use that causes most of the variance",
     .cite = "shirley1991 geary1954",
     .params = params,
     .own_samples = true,

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * two-stage: the first sets only decide how many sets the pixel gets, and the estimate is from those, which are
- * fresh. The numbers of samples are then independent of the values that are averaged, and there is no bias (Kirk &
- * Arvo 1991).
+ * The method `two-stage`: the first sets (the pilot) only decide how many sets a pixel gets; the estimate uses new
+ * sets, whose number is then independent of the values that are averaged, so that there is no bias (Kirk & Arvo
+ * 1991). The number of sets is
  *
- *     with a threshold   k = (e / threshold)^2 sets, e = s / (m + floor) the relative error that one set has
- *     with a budget      k proportional to e, as many as it has room for (Neyman 1934: the best allocation for sums
- *                        of squared relative errors)
+ *     k = (e / threshold)^2     with a threshold, where e = s / (m + floor) is the relative error of one set
+ *     k proportional to e       with a budget, as many sets as the budget allows (Neyman 1934: the best allocation for
+ *                               sums of squared relative errors)
  *
- * s is the standard deviation of the sets' means, m their mean. A few sets can agree by luck; so where the samples
- * are not all equal, e^2 is averaged with that of the image, which weighs as `prior` degrees of freedom. Every pixel
- * gets one fresh set at least.
+ * Here s is the standard deviation of the means of the pilot sets and m is their mean. A few sets can agree by
+ * chance; so unless the samples of a pixel are all equal, e^2 is averaged with the mean e^2 of the image, which has
+ * the weight of `prior` degrees of freedom. Every pixel gets at least one new set.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -22,9 +22,9 @@ enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1, PRIOR };
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(4, 2),
-    {"threshold", "standard error over (mean + floor); 0: none, the budget decides", 0, 0, 1e6, NULL, false},
+    {"threshold", "standard error over (mean + floor); 0: only the budget limits", 0, 0, 1e6, NULL, false},
     {"floor", "luminance below which errors count as absolute", 0.01, 1e-9, 1e9, NULL, false},
-    {"prior", "degrees of freedom that the mean error of the image weighs", 1, 0, 1e6, NULL, false},
+    {"prior", "weight of the mean error of the image, in degrees of freedom", 1, 0, 1e6, NULL, false},
     {0},
 };
 
@@ -36,7 +36,7 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__s
     (void)demand;
 }
 
-/* The squared relative error of one set, from the pilot alone. */
+/* Returns the squared relative error of one set, estimated from the pilot. */
 static double square_of(const koksma__adaptive *run, size_t pixel)
 {
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
@@ -45,7 +45,7 @@ static double square_of(const koksma__adaptive *run, size_t pixel)
     return error * error * p->sets;
 }
 
-/* extra: relative errors of one set, by pixel. */
+/* Computes the relative error of one set for each pixel, to be stored in run->extra. */
 static void find_errors(const koksma__adaptive *run, double *errors)
 {
     const double prior = run->options->params[PRIOR];
@@ -65,7 +65,7 @@ static void find_errors(const koksma__adaptive *run, double *errors)
     }
 }
 
-/* Sets of a pixel for a scale: 1 at least, `most` at most. */
+/* Returns the number of sets of a pixel for this scale, from 1 to the parameter `most`. */
 static double sets_for(const koksma__adaptive *run, size_t pixel, double scale)
 {
     const double *errors = run->extra;
@@ -84,7 +84,7 @@ static double total_for(const koksma__adaptive *run, double scale)
     return total * (double)koksma__set_size(run);
 }
 
-/* The largest scale that the budget allows; what each pixel's one set costs is in `spent` already. */
+/* Finds the largest scale that the budget allows; the cost of one set per pixel is already in `spent`. */
 static double find_scale(const koksma__adaptive *run)
 {
     const double ones = (double)run->pixels * (double)koksma__set_size(run);
@@ -111,8 +111,8 @@ static koksma_status open(koksma__adaptive *run)
     return status || run->extra ? status : koksma__fail_memory(run->pixels * sizeof(double));
 }
 
-/* The pilot is dropped when what replaces it is there, and not before: of a picture that is interrupted in between
-   it is all that there is. */
+/* Drops the pilot of a pixel only when its new sets arrive, so that an image that is interrupted before still has
+   the pilot. */
 static void take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
 {
     koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
@@ -143,7 +143,7 @@ static const koksma__adaptive_method method = {.fresh = true,
 
 const koksma_adaptive koksma__adaptive_two_stage = {
     .name = "two-stage",
-    .title = "first sets decide, fresh ones are counted: no bias",
+    .title = "the first sets decide, and only new sets count: no bias",
     .cite = "kirk1991 neyman1934",
     .params = params,
     .functions = &method,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * One picture in rounds. In a round the samples of the selected pixels are drawn, traced and added. After it each
- * selected pixel demands more samples or is done, by its own values. adaptive_choose.c then selects the pixels of the
- * next round: all that demand samples, or, under a budget, those with the highest scores. All of it is a function of
- * pixel and round, never of threads.
+ * Adaptive sampling renders an image in rounds. In each round the samples of the selected pixels are drawn, traced
+ * and added. Each selected pixel then demands more samples or is done, judging by its own values. adaptive_choose.c
+ * selects the pixels of the next round: all that demand samples or, under a budget, those with the highest scores.
+ * The result is a function of pixel and round and does not depend on the threads.
  */
 #ifndef KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
 #define KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
@@ -12,39 +12,46 @@
 
 #include "render/frame.h"
 
-/* How many more samples a pixel demands. */
+/* The demand of a pixel for more samples. */
 typedef struct koksma__sample_demand {
     uint32_t now;   /* samples in the next round; 0: the pixel is done */
-    uint32_t later; /* samples of the last round that these bring about */
-    float score;    /* under a budget the highest come first */
-    bool selected;  /* for the next round */
+    uint32_t later; /* number of samples in the last round that these samples make necessary */
+    float score;    /* priority of the pixel; under a budget the highest scores are selected first */
+    bool selected;  /* true: the next round draws samples of this pixel */
 } koksma__sample_demand;
 
 typedef struct koksma__adaptive koksma__adaptive;
 
-/* A method. Functions of a pixel are called by any thread, one at a time for each pixel. */
+/* An adaptive method. Any thread may call the functions that take a pixel, but only one thread at a time for each
+   pixel. */
 typedef struct koksma__adaptive_method {
-    bool fresh; /* sets that are independent of each other, also of patterns that could be continued */
-    bool pilot; /* the first sets only decide */
-    koksma_status (*open)(
-        koksma__adaptive *run); /* also sets the demands of the first round, which selects all pixels */
+    bool fresh; /* sets are drawn independently, even from patterns that could be continued */
+    bool pilot; /* the samples of the first sets only determine the demands */
+    /* Allocates the state and sets the demands of the first round, which selects all pixels. */
+    koksma_status (*open)(koksma__adaptive *run);
     void (*close)(koksma__adaptive *run);
-    /* NULL, or what is done before the samples of a selected pixel are drawn. Errors: MEMORY. */
+    /* NULL, or prepares a selected pixel before its samples are drawn. Errors: MEMORY. */
     koksma_status (*prepare)(koksma__adaptive *run, size_t pixel);
-    /* The pairs of this round's samples of a pixel. */
+    /* Draws the pairs of a pixel's samples in this round. */
     koksma_status (*draw)(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room, float *pairs);
-    /* The values of the samples that the pixel demanded, and their weights as drawn from the filter (filters.h; NULL: all 1).
-       Methods decide by the values as they are; in the result weights count as film.c says. */
+    /* Receives the values of the samples that the pixel demanded, and the filter weights of these samples
+       (filters.h; NULL: all 1). Methods decide by the unweighted values; the result uses the weights as film.c
+       describes. */
     void (*take)(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
-    /* What the pixel demands next; *demand is zero before. scratch has run->scratch bytes. */
+    /* Determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
+       bytes. */
     void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
-    void (*plan)(koksma__adaptive *run); /* NULL, or between rounds: looks at the whole image, may change demands */
-    void (*last)(koksma__adaptive *run); /* NULL, or when no pixel is selected any more: demands of one more round */
-    /* NULL, or the number of probes that a selected pixel's splits take; draw and take are then called for those. */
+    /* NULL, or called between rounds: may examine the whole image and change demands */
+    void (*plan)(koksma__adaptive *run);
+    /* NULL, or called when no pixel is selected any more: sets demands for one last round */
+    void (*last)(koksma__adaptive *run);
+    /* NULL, or returns the number of probes for the splits of a selected pixel; in a round of probes, draw and
+       take process the probes. */
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
-    double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]); /* returns the variance */
-    /* NULL, or a pixel's strata for a picture. Errors: MEMORY. */
+    /* computes the value of a pixel and returns its variance */
+    double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]);
+    /* NULL, or describes the strata of a pixel for a figure. Errors: MEMORY. */
     koksma_status (*show)(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
 } koksma__adaptive_method;
 
@@ -53,43 +60,43 @@ struct koksma__adaptive {
     const koksma_adaptive_options *options;
     const koksma__adaptive_method *method;
     size_t pixels, scratch;
-    uint64_t budget, spent; /* samples; budget UINT64_MAX: none */
-    koksma__sampler base;   /* draws sets of the pattern */
+    uint64_t budget, spent; /* both count samples; budget UINT64_MAX: no budget */
+    koksma__sampler base;   /* the sampler that draws sets of the pattern */
     koksma__sample_demand *demands;
-    uint32_t *taken; /* samples of a pixel so far */
-    bool probing;    /* this round is for probes only */
-    void *state;     /* the method's: koksma__pixel_sets of every pixel, or koksma__strata */
-    void *extra;     /* its own, for malloc; NULL: none */
+    uint32_t *taken; /* number of samples of each pixel so far */
+    bool probing;    /* this round draws only probes */
+    void *state;     /* state of the method: koksma__pixel_sets of every pixel, or koksma__strata */
+    void *extra;     /* further memory of the method, freed by the engine; NULL: none */
     koksma_adaptive_report report;
 };
 
-/* Selects the pixels of the next round; *selected: how many. Errors: MEMORY. */
+/* Selects the pixels of the next round and sets *selected to their number. Errors: MEMORY. */
 koksma_status koksma__adaptive_choose(koksma__adaptive *run, size_t *selected);
 
 /* ---- Methods whose samples are sets of the pattern ------------------------------------------------------- */
 
-/* What is known of a pixel from its sets; luminances are less `origin`, the first one, so that equal values have
-   variance 0. */
+/* Statistics of the sets of a pixel. `origin`, the luminance of the first sample, is subtracted from all
+   luminances, so that equal values have variance 0. */
 typedef struct koksma__pixel_sets {
-    uint32_t sets;      /* in the sums */
-    uint32_t drawn;     /* all that were drawn */
-    float lo[3], hi[3]; /* over the samples */
+    uint32_t sets;      /* number of sets in the sums */
+    uint32_t drawn;     /* number of sets that were drawn */
+    float lo[3], hi[3]; /* minimum and maximum of the samples in each channel */
     float origin;
-    double sum[3];  /* weighed */
-    double half[3]; /* of sets 0, 2, 4, …, not weighed; as `all` */
+    double sum[3];  /* weighted sum of the samples in each channel */
+    double half[3]; /* unweighted sum over the sets 0, 2, 4, … */
     double all[3];
-    double sum_y, sum_yy;   /* of the samples' luminances */
-    double sum_mean_square; /* of the sets' mean luminances, squared */
-    double sum_w3;          /* of the cubes of weights */
-    double moments[3][3];   /* [j][k]: sums of weight^j luminance^k, sample by sample */
+    double sum_y, sum_yy;   /* sums of the luminances of samples and of their squares */
+    double sum_mean_square; /* sum of the squared mean luminances of the sets */
+    double sum_w3;          /* sum of the cubed weights */
+    double moments[3][3];   /* element [j][k] is the sum over the samples of weight^j luminance^k */
 } koksma__pixel_sets;
 
-/* Every such method's parameters begin with these two. */
+/* The parameters of every method that draws sets begin with these: first, most and, if there is one, threshold. */
 enum { KOKSMA__SETS_FIRST, KOKSMA__SETS_MOST, KOKSMA__SETS_THRESHOLD };
 #define KOKSMA__SETS_PARAMS(first, least)                                                                            \
-    {"first", "sets of the pattern at first", first, least, 4096, NULL, true},                                       \
+    {"first", "number of point sets in the first round", first, least, 4096, NULL, true},                            \
     {                                                                                                                \
-        "most", "sets that a pixel gets at most", 64, 1, 1 << 16, NULL, true                                         \
+        "most", "largest number of point sets of a pixel", 64, 1, 1 << 16, NULL, true                                \
     }
 
 koksma_status koksma__sets_open(koksma__adaptive *run);
@@ -102,15 +109,16 @@ double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb
 koksma__pixel_sets *koksma__sets_of(const koksma__adaptive *run, size_t pixel);
 size_t koksma__set_size(const koksma__adaptive *run);
 
-/* Sets *demand to `sets` more sets, or to as many as the pixel may still have. */
+/* Sets *demand to `sets` more sets, or to as many as the pixel may still take. */
 void koksma__sets_demand(const koksma__adaptive *run, size_t pixel, double sets, double score,
                          koksma__sample_demand *demand);
 
-/* Of the samples' luminance: its mean, and the variance of a sample as if they were independent. */
+/* Return the mean luminance of the samples, and the variance of the luminance of a sample as if the samples were
+   independent. */
 double koksma__sets_mean(const koksma__adaptive *run, const koksma__pixel_sets *p);
 double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_sets *p);
 
-/* The standard error of the mean luminance, from the spread of the sets' means. */
+/* Returns the standard error of the mean luminance, estimated from the variance between the means of the sets. */
 double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pixel_sets *p);
 
 #define ADAPTIVE(name) extern const koksma_adaptive koksma__adaptive_##name;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Selects the pixels that get samples in the next round: all that demand some, or under a budget those where samples
-   reduce the error most. */
+/* Selects the pixels that receive samples in the next round: all that demand samples or, under a budget, those
+   where samples reduce the error most. */
 #include <stdlib.h>
 
 #include "core/status.h"
@@ -19,12 +19,13 @@ static int by_score(const void *a, const void *b)
     if (p->score != q->score) {
         return p->score > q->score ? -1 : 1;
     }
-    /* equals in an order without pattern: pixels times an odd number modulo 2^32 */
+    /* equal scores are ordered without a visible pattern: by the pixel times an odd number modulo 2^32 */
     return p->pixel * 2654435761u < q->pixel * 2654435761u ? -1 : 1;
 }
 
-/* Under a budget a round selects a quarter of the pixels that demand samples, the highest scores first: later rounds
-   then choose by more samples. A pixel that demands more than is left of the budget is passed over. */
+/* Under a budget a round selects a quarter of the pixels that demand samples, in descending order of score, so
+   that later rounds choose with more information. A pixel that demands more than the rest of the budget is
+   skipped. */
 static void select_best(koksma__adaptive *run, candidate *list, size_t n, size_t *selected)
 {
     qsort(list, n, sizeof *list, by_score);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rounds: draws the samples of the selected pixels, sends them through the pipeline, gives their values to the
-   method, and makes the picture. */
+/* Runs the rounds of adaptive sampling: draws the samples of the selected pixels, traces them with the pipeline,
+   passes their values to the method, and writes the image. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -15,10 +15,10 @@ enum { PIXELS_A_TASK = 128 };
 
 typedef struct job {
     koksma__adaptive *run;
-    koksma__frame frame; /* with the sampler of rounds */
+    koksma__frame frame; /* a frame whose sampler draws the samples of a round */
     const koksma__pipeline *pipeline;
     koksma_layers *layers;
-    bool first; /* round: its albedo, normal and depth are kept */
+    bool first; /* true in the first round, which sets the layers albedo, normal and depth */
     size_t capacity;
     atomic_ullong rays;
 } job;
@@ -67,7 +67,7 @@ static void keep_layers(const job *j, const koksma__values *v, size_t pixel, siz
     j->layers->depth.pixels[pixel] = hits ? (float)(sums[6] / (double)hits) : 0;
 }
 
-/* Values of a pixel to the method, and what it wants next. */
+/* Passes the values of a pixel to the method and asks for its next demand. */
 static void hand_over(const job *j, room *r, const koksma__group *group, size_t p)
 {
     koksma__adaptive *run = j->run;
@@ -150,7 +150,7 @@ static koksma_status render_round(job *j, const koksma_run *how)
     size_t most = (size_t)j->frame.options->spp;
     for (size_t p = 0; p < run->pixels; p++) {
         const size_t n = run->demands[p].selected ? run->taken[p] + count(&j->frame.sampler, p) : 0;
-        most = n > most ? n : most; /* a continued sequence is drawn from its start */
+        most = n > most ? n : most; /* a sequence that is continued is generated from its start */
     }
     j->frame.sampler.most = most;
     j->capacity = koksma__group_capacity(&j->frame, most);
@@ -237,7 +237,7 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
         }
     }
     KOKSMA__FAIL_IF(!(adaptive->budget >= 0 && adaptive->budget <= KOKSMA_MAX_SPP), KOKSMA_ARGUMENT,
-                    "budget = %.9g: it is 0 to %d samples a pixel", adaptive->budget, KOKSMA_MAX_SPP);
+                    "budget = %.9g: it takes 0 to %d samples a pixel", adaptive->budget, KOKSMA_MAX_SPP);
     KOKSMA__FAIL_IF(adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES, KOKSMA_ARGUMENT,
                     "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
     const koksma__adaptive_method *method = adaptive->method->functions;
@@ -252,7 +252,7 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
     return KOKSMA_OK;
 }
 
-/* What the first round costs is spent whatever the budget is; the budget must have it. */
+/* The first round is always rendered; the budget must allow for its cost. */
 static koksma_status open_run(koksma__adaptive *run)
 {
     run->demands = calloc(run->pixels, sizeof *run->demands);

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Where the sample of a stratum lies in each use: a walk from one of the m x m cells down the splits, in the base
- * use and the other use together. Every random number is a hash of (seed, pixel, use, node), a node being a stratum
- * that is or was; so nothing has to be remembered.
+ * Computes the position of a stratum's sample in each use by a walk from one of the m x m initial cells down the
+ * splits, in the base use and the other use together. Every random number is a hash of (seed, pixel, use, node),
+ * where a node is a current or former stratum, so that no positions need to be stored.
  *
- * With `kept` a stratum that is split into four hands its sample on to the part that contains it: part b in the base
- * use, and quarter c in another use. There part k gets quarter k ^ b ^ c: part b gets c, and the other three parts get
- * the other three quarters. Shuffled, those three change places at random.
+ * With reuse=kept, a stratum that is split into four passes its sample on to the part that contains it: part b in the
+ * base use, and quarter c in another use. In the other use part k gets quarter k ^ b ^ c, so that part b gets c and
+ * the other three parts get the other three quarters. With shuffled pairing those three quarters are permuted at
+ * random.
  *
- * With `fresh` the samples of the last stage must be independent of those by which strata were split. k ^ b ^ c
- * would always pair the quarters (b, c) again, where the sample lay that caused the split. So in the last stage part
- * k gets one of the four quarters with equal probability, drawn anew. The mean over the parts is then unbiased for
- * the stratum, whatever the tree.
+ * With reuse=fresh, the samples of the last stage must be independent of those by which strata were split. k ^ b ^ c
+ * would always pair the quarters (b, c) again, which contain the sample that caused the split. So in the last stage
+ * part k gets one of the four quarters with equal probability, drawn again. The mean over the parts is then unbiased
+ * for the stratum, whatever the tree.
  */
 #include <math.h>
 #include <string.h>
@@ -19,7 +20,7 @@
 #include "core/random.h"
 #include "render/samples/adaptive/adaptive_strata.h"
 
-/* A position on the way down: a cell, and the sample's offset in it. */
+/* The current position of a walk: a cell, and the offset of the sample in that cell. */
 typedef struct spot {
     uint32_t cell[2];
     double x[2];
@@ -51,7 +52,7 @@ static void enter(const koksma__use_cells *use, int quarter, uint32_t cell[2])
     }
 }
 
-/* The offset in the quarter that it lies in. */
+/* Converts the offset in a cell to the offset in the quarter that contains it. */
 static void zoom(const koksma__use_cells *use, int quarter, double x[2])
 {
     if (use->line) {
@@ -70,7 +71,8 @@ static spot start(const koksma__strata *s, const koksma__use_cells *use, uint32_
     return at;
 }
 
-/* Which quarter of the other use part k of a node gets. b, c: where the node's sample lies. */
+/* Returns the quarter of the other use that part k of a node gets. b and c are the quarters of the two uses that
+   contain the node's sample. */
 static int partner(const koksma__strata *s, const koksma__use_cells *use, uint64_t node, bool last, int k, int b,
                    int c)
 {
@@ -86,8 +88,8 @@ static int partner(const koksma__strata *s, const koksma__use_cells *use, uint64
     return renewed || last ? order[k] ^ (int)koksma__below(r.w[1], 4) : order[k ^ b] ^ c;
 }
 
-/* Descends from the root to a stratum in the base use, and in `use` too unless it is NULL. last: the stratum is of
-   the last stage. */
+/* Descends from the root to a stratum in the base use, and also in `use` unless it is NULL. last: the stratum is
+   one of the last stage. */
 static void walk(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
                  const koksma__stratum *stratum, bool last, spot *at_base, spot *at_use)
 {

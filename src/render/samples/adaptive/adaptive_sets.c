@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Samples in sets of the pattern, spp in each. Set k of a pixel is drawn as if it were of another pixel; or, when the
- * pattern is a sequence and the method allows it, the sets are the blocks of one sequence, so that whatever a pixel
- * stops at it has a prefix of it. A group of uses has sets of its own, whatever its pattern.
+ * Implements the methods whose samples come in sets of the pattern with spp points each. Each set of a pixel is drawn
+ * as if it were for a different pixel. If the pattern is a sequence and the method allows it, the sets are instead
+ * consecutive blocks of one sequence, so that the samples of a pixel are always a prefix of the sequence. A group of
+ * uses always has separate sets, whatever its pattern.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +15,7 @@
 #include "render/samples/adaptive/adaptive.h"
 #include "render/vector3.h"
 
-enum { LANE_CONTINUED = 1 << 21 }; /* above the uses and the lane of pairings: keys of the shuffles */
+enum { LANE_CONTINUED = 1 << 21 }; /* keys of the shuffles, above those of the uses and of the pairings */
 
 /* ---- Open and close --------------------------------------------------------------------------------------- */
 
@@ -27,7 +28,8 @@ static bool continues(const koksma__adaptive *run, int u)
            options->pairing != KOKSMA_PAIRING_NATIVE;
 }
 
-/* Whether two seeds give the same points: what a pattern claims depends on its parameters. */
+/* Finds out whether two seeds give the same points, by generating both sets: the claims of a pattern cannot decide
+   this, because they depend on its parameters. */
 static koksma_status compare_sets(const koksma_spec *spec, size_t n, int dim, bool *same)
 {
     koksma_points one = {0}, two = {0};
@@ -41,12 +43,12 @@ static koksma_status compare_sets(const koksma_spec *spec, size_t n, int dim, bo
     return status;
 }
 
-/* A second set must be another one. */
+/* Fails if a pattern gives the same points for every set. */
 static koksma_status check_patterns(const koksma__adaptive *run)
 {
     const koksma_render_options *options = run->frame->options;
     koksma_status status = KOKSMA_OK;
-    bool seen = false; /* the pattern of the uses that have none of their own */
+    bool seen = false; /* whether the common pattern has been checked */
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const koksma__place_of_use place = koksma__place_of_use_at(options, u);
         const bool own = place.group >= 0 || options->patterns[u].pattern;
@@ -57,7 +59,7 @@ static koksma_status check_patterns(const koksma__adaptive *run)
         const int dim = place.group >= 0 ? place.dim : 2;
         bool same = false;
         if ((seen && !own) || !koksma__use_is_there(&run->frame->uses, u) || continues(run, u)) {
-            continue; /* successive sets of a sequence differ anyway */
+            continue; /* successive blocks of a sequence differ */
         }
         seen |= !own;
         if (p->min_dim <= dim && p->max_dim >= dim) {
@@ -78,8 +80,9 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
     const double samples = (double)run->frame->options->spp * (first + most);
     KOKSMA__TRY(check_patterns(run));
     KOKSMA__FAIL_IF(most < first || samples > KOKSMA_MAX_SPP, KOKSMA_ARGUMENT,
-                    "%s: first=%.0f and most=%.0f sets of %d samples: it takes first to most, and %d samples", name,
-                    first, most, run->frame->options->spp, KOKSMA_MAX_SPP);
+                    "%s: first=%.0f and most=%.0f sets of %d samples: most must be at least first, and both together "
+                    "at most %d samples",
+                    name, first, most, run->frame->options->spp, KOKSMA_MAX_SPP);
     KOKSMA__FAIL_IF(!run->options->budget && !(params[KOKSMA__SETS_THRESHOLD] > 0), KOKSMA_ARGUMENT,
                     "%s: it takes a threshold, or a budget, or both", name);
     run->state = calloc(run->pixels, sizeof(koksma__pixel_sets));
@@ -109,7 +112,8 @@ size_t koksma__set_size(const koksma__adaptive *run)
 
 /* ---- Samples ---------------------------------------------------------------------------------------------- */
 
-/* Sets first .. first + count - 1 as blocks of one sequence in two dimensions, each shuffled in itself. */
+/* Draws the sets first .. first + count - 1 as blocks of one two-dimensional sequence; each block is shuffled
+   separately. */
 static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint32_t use, size_t first, size_t count,
                                  koksma__sample_scratch *room, float *pairs)
 {
@@ -208,7 +212,7 @@ void koksma__sets_demand(const koksma__adaptive *run, size_t pixel, double sets,
     *demand = (koksma__sample_demand){.now = (uint32_t)(more * (double)koksma__set_size(run)), .score = (float)score};
 }
 
-/* ---- What they say ---------------------------------------------------------------------------------------- */
+/* ---- Statistics --------------------------------------------------------------------------------------- */
 
 static double samples_of(const koksma__adaptive *run, const koksma__pixel_sets *p)
 {
@@ -236,8 +240,8 @@ double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pi
     return k > 1 ? sqrt(fmax(p->sum_mean_square - k * mean * mean, 0) / ((k - 1) * k)) : 0;
 }
 
-/* The value and the variance of film.c for a filter with negative lobes: sample i has the weight v_i = a w_i + b in
-   the pixel, and the sums of v^j y^k follow from those of w^j y^k. */
+/* Computes the value and the variance of a pixel as film.c does for a filter with negative lobes: sample i has the
+   weight v_i = a w_i + b in the pixel, and the sums of v^j y^k follow from those of w^j y^k. */
 static double signed_result(const koksma__pixel_sets *p, double n, double rgb[3])
 {
     const double(*m)[3] = p->moments, mean_w = m[1][0] / n, a = n > 1 ? 1 / (n - 1) : 0, b = 1 / n - a * mean_w;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The strata of a pixel as the square of each use has them, for figures such as 5.35 and 5.36 of Shirley 1991, and
- * which of the splits that made them were needless. A split is found again from the strata: of all the parts of a
- * stratum that was split `level` times one has only zeros as its further digits, and represents it.
+ * Describes the strata of a pixel in the unit square of each use, for figures such as 5.35 and 5.36 of Shirley 1991,
+ * and marks the splits that were needless. Splits are reconstructed from the strata: among all parts of a stratum
+ * that was split at depth `level`, exactly one has only zeros as its further digits, and it represents the split.
  */
 #include <math.h>
 #include <stdio.h>
@@ -35,7 +35,7 @@ int koksma__list_spaces(const koksma__use_list *there, uint32_t list[KOKSMA_MAX_
     return n;
 }
 
-/* What a space is made from. */
+/* The data from which the picture of one use is made. */
 typedef struct view {
     const koksma__adaptive *run;
     const koksma__strata *s;
@@ -43,7 +43,7 @@ typedef struct view {
     koksma__use_cells base, cells;
 } view;
 
-/* The box of a stratum, in units of the square; stage: which pairing of the parts. */
+/* Computes the box of a stratum in the unit square; stage selects the pairing of the parts. */
 static void box_of(const view *v, const koksma__stratum *stratum, uint32_t stage, double *x, double *y, double *width,
                    double *height)
 {
@@ -63,7 +63,8 @@ static double value_of(const view *v, const koksma__stratum *stratum)
     return (double)(v->run->frame->channels == 1 ? stratum->value[0] : koksma__luminance3(stratum->value));
 }
 
-/* The mean over all parts of the stratum that stratum i came from. Its parts lie together. */
+/* Returns the mean over all parts of the initial stratum that contains stratum i. The parts of an initial stratum
+   are adjacent in the list. */
 static double mean_of(const view *v, uint32_t i)
 {
     const koksma__stratum *list = v->tree->strata;
@@ -93,8 +94,8 @@ static void fill_strata(const view *v, koksma_space *space)
     }
 }
 
-/* The strata at depth `level` that were split, at their positions before the split; to: NULL only counts.
- */
+/* Lists the strata at depth `level` that were split, with their boxes before the split, and returns their number;
+   with `to` NULL it only counts. */
 static size_t splits_of(const view *v, uint32_t level, koksma_split *to)
 {
     size_t n = 0;
@@ -145,7 +146,8 @@ static koksma_status fill_space(view *v, uint32_t use, size_t n_splits, koksma_s
     return KOKSMA_OK;
 }
 
-/* The base use first. The phase moves the samples of a use, not its strata: cells are shown as before it. */
+/* The list begins with the base use. The phase moves the samples of a use but not its strata, so the cells are
+   shown without the phase. */
 koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, koksma_strata *out)
 {
     const koksma__strata *s = run->state;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Hierarchical integration: a stratum is split in four when its value differs from that of any of its 8-connected
- * neighbours; the estimate is the sum of volume x value (Kajiya 1986; Shirley 1991, section 5.6, figure 5.35).
+ * neighbours; the estimate is the sum of volume x value over the strata (Kajiya 1986; Shirley 1991, section 5.6,
+ * figure 5.35).
  */
 #include "render/samples/adaptive/adaptive_strata.h"
 
@@ -12,7 +13,7 @@
 #include "core/status.h"
 #include "render/vector3.h"
 
-/* Strata of all pixels: 3.5 GiB. */
+/* The largest number of strata in the image: 3.5 GiB. */
 #define MAX_STRATA ((size_t)1 << 27)
 
 const char *const koksma__reuse_names[] = {
@@ -60,12 +61,13 @@ koksma_status koksma__strata_open(koksma__adaptive *run)
     KOKSMA__FAIL_IF(m * m != spp, KOKSMA_N, "%s: spp = %u is not m^2; %u or %u would do", name, spp,
                     (unsigned)(floor(sqrt(spp)) * floor(sqrt(spp))), (unsigned)(ceil(sqrt(spp)) * ceil(sqrt(spp))));
     KOKSMA__FAIL_IF(m << s->levels > KOKSMA__MAX_STRATA_SIDE, KOKSMA_ARGUMENT,
-                    "%s: levels=%u of %u x %u strata: at most %d x %d can come of it", name, s->levels, m, m,
-                    KOKSMA__MAX_STRATA_SIDE, KOKSMA__MAX_STRATA_SIDE);
+                    "%s: levels=%u of %u x %u strata: the finest grid may have at most %d x %d", name, s->levels, m,
+                    m, KOKSMA__MAX_STRATA_SIDE, KOKSMA__MAX_STRATA_SIDE);
     if (run->pixels > MAX_STRATA / spp) {
         return too_many(run);
     }
-    run->scratch = (2 * ((size_t)spp << 2 * s->levels) + spp) * sizeof(uint32_t); /* grid, permutation, differences */
+    /* the scratch memory for the grid, the permutation and the differences */
+    run->scratch = (2 * ((size_t)spp << 2 * s->levels) + spp) * sizeof(uint32_t);
     return open_trees(run, s);
 }
 
@@ -85,7 +87,7 @@ void koksma__strata_close(koksma__adaptive *run)
 
 /* ---- Splitting -------------------------------------------------------------------------------------------- */
 
-/* Fills an empty grid of the finest cells with the numbers of strata. */
+/* Fills a grid of the finest cells with the indices of the strata that cover them. */
 static void paint(const koksma__adaptive *run, size_t pixel, uint32_t depth, uint32_t *permutation, uint32_t *grid,
                   uint32_t *width)
 {
@@ -106,7 +108,8 @@ static void paint(const koksma__adaptive *run, size_t pixel, uint32_t depth, uin
     }
 }
 
-/* What strata i and j say of each other; most[i] is the largest difference that stratum i has to a neighbour. */
+/* Compares strata i and j; most[i] is the largest difference above the threshold between stratum i and a
+   neighbour. */
 static void compare(const koksma__strata *s, const koksma__tree *tree, uint32_t i, uint32_t j, float *most)
 {
     float off = 0;
@@ -134,8 +137,8 @@ static void compare_all(const koksma__strata *s, const koksma__tree *tree, const
     }
 }
 
-/* Under a budget, pixels come in the order of the variance that each may lose for one sample: the sum of (volume x
-   difference)^2 over the strata to be split, divided by the samples that this takes. */
+/* Under a budget, the score of a pixel is the variance that each new sample may remove: the sum of (volume x
+   difference)^2 over the strata to be split, divided by the number of samples that these splits take. */
 void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     koksma__strata *s = run->state;
@@ -166,7 +169,7 @@ void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, k
     demand->score = tree->marked ? (float)(gain / demand->now) : 0;
 }
 
-/* Puts four parts in the place of each marked stratum. */
+/* Replaces each marked stratum by its four parts. */
 koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel)
 {
     koksma__strata *s = run->state;
@@ -220,7 +223,8 @@ koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uin
     const koksma__tree *tree = &s->trees[pixel];
     const uint32_t probes = (uint32_t)run->options->probes;
     koksma__use_cells base, cells;
-    koksma__use_cells_init(run, pixel, tree->base, NULL, &base); /* its cells matter where it is the use */
+    /* only the cells of `base` are used, to place samples in the base use */
+    koksma__use_cells_init(run, pixel, tree->base, NULL, &base);
     koksma__use_cells_init(run, pixel, use, room->words, &cells);
     for (uint32_t i = 0; i < tree->n; i++) {
         const koksma__stratum *stratum = &tree->strata[i];
@@ -235,7 +239,7 @@ koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uin
     return KOKSMA_OK;
 }
 
-/* A split is needless when all values of the stratum are within the threshold of each other. */
+/* A split is needless if all values of the stratum, those of the probes included, differ by at most the threshold. */
 static void take_probes(const koksma__adaptive *run, koksma__tree *tree, const float *rgb)
 {
     const koksma__strata *s = run->state;
@@ -298,8 +302,8 @@ static double volume_of(const koksma__strata *s, const koksma__stratum *stratum)
     return ldexp(1, -2 * stratum->level) / ((double)s->m * s->m);
 }
 
-/* The pixel's value as film.c has it, with volumes in the place of 1 / n, and in that of n - 1 what is to the same
-   end: 1 / (sum of volumes^2) - 1. */
+/* Computes the value of a pixel as film.c does for samples of weight 1 / n, with the volumes of the strata in
+   place of 1 / n, and 1 / (sum of squared volumes) - 1 in place of n - 1. */
 double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double rgb[3])
 {
     const koksma__strata *s = run->state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of methods, and their specs. */
+/* The table of adaptive methods, and the parser and printer of their specs. */
 #include <stdio.h>
 #include <string.h>
 
