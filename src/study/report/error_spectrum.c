@@ -9,7 +9,8 @@
 #include "image/formats.h"
 #include "image/fourier.h"
 
-/* The errors are real: columns above W/2 mirror those below, and count there twice. */
+/* Averages the powers over rings. The errors are real, so the columns above W/2 mirror those below W/2, which
+   therefore count twice. */
 static void add_rings(const double *powers, size_t width, size_t height, size_t n_rings, double *power)
 {
     const size_t half = width / 2 + 1;
