@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What made the report: the program, the plan, and every run with its time and machine. The list of runs is one line
-   of the report's text, so that reports of the same rows differ in that line alone. */
+/* The section on the origin of the report: the program, the plan, and every run with its time and machine. The list
+   of runs is one line of the report's text, so that reports of equal rows differ in that line only. */
 #include "study/report/report.h"
 
 static bool is_shown(const koksma__report_scope *scope)

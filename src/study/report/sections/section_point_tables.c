@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Published tables of discrepancies. A table of one number of points (Shirley 1991) has a row a pattern: the printed
- * numbers, our mean, SD and largest of 100 with the verdict on the printed mean, and a second measure beside it. A
- * table over several numbers of points (Mitchell 1992) has two or three rows a pattern: the printed means, ours with
- * their verdicts, and those of a second measure. At the end of such a row is its slope in log-log: of the printed
- * ends, and of our means by least squares over all columns (koksma__trend_of); the exponent of the theory follows,
- * and a chart of the same means.
+ * The published tables of discrepancies. A table of one number of points (Shirley 1991) has one row per pattern: the
+ * published numbers, our mean, SD and largest of 100 with the verdict on the published mean, and the means of a
+ * second measure. A table over several numbers of points (Mitchell 1992) has two or three rows per pattern: the
+ * published means, our means with their verdicts, and our means of a second measure. Such a row ends with its
+ * log-log slope, which is computed from the first and the last published mean, or from our means by least squares
+ * over all columns (koksma__trend_of), and with the exponent that theory predicts. A chart of the means follows.
  */
 #include <math.h>
 #include <stdio.h>
@@ -32,8 +32,8 @@ static bool is_shown(const koksma__report_scope *scope)
 
 /* ---- Tables of one number of points ------------------------------------------------------------------------ */
 
-/* Adds the columns mean, SD and largest value of a measure; beside: the mean alone, for a second measure beside the
-   first. */
+/* Adds the columns for the mean, SD and largest value of a measure. beside: the measure is the table's second one,
+   of which the page shows only the mean. */
 static void add_cell_columns(koksma__document *d, const char *measure, const char *group, size_t sets, bool beside)
 {
     char name[KOKSMA_MAX_SPEC + 64], largest[64];
@@ -159,7 +159,8 @@ static void add_printed_line(sizes_table *s, const koksma__table_row *row)
     koksma__doc_number(s->document, row->rate);
 }
 
-/* Our means of a measure; judged, and drawn, where it is the table's own. */
+/* Adds a row with our means of a measure. own: it is the table's first measure, whose means get verdicts and a
+   curve. */
 static koksma_status add_our_line(sizes_table *s, const koksma__table_row *row, const char *measure, bool own)
 {
     const koksma__wholes *n = &s->table->n;
@@ -195,7 +196,7 @@ static koksma_status add_our_line(sizes_table *s, const koksma__table_row *row, 
     return KOKSMA_OK;
 }
 
-/* The printed means of a row as hollow marks, in the style of our line. */
+/* Adds the published means of a row to the chart, as hollow marks in the style of our curve. */
 static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
 {
     if (row->n_published) {
