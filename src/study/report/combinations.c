@@ -168,9 +168,9 @@ static void say_findings(koksma__document *d, const koksma__cases *cases, const 
     koksma__doc_paragraph_begin(d);
     koksma__doc_say(
         d,
-        "The errors of each scene are predicted from the ranks of the measures, with what the other %zu "
-        "scenes choose and fit (%zu cases). Mean Spearman correlation of the prediction with the error in "
-        "the scene left out: the best single measure",
+        "The errors of each scene are predicted from the ranks of the measures; the measures are chosen, and the "
+        "regressions fitted, on the other %zu scenes (%zu cases). Mean Spearman correlation of the prediction "
+        "with the error in the scene left out: the best single measure",
         n - 1, f->n_cases);
     say_chosen(d, cases, f, false);
     say_mean(d, &single);
@@ -179,13 +179,13 @@ static void say_findings(koksma__document *d, const koksma__cases *cases, const 
     say_mean(d, &pair);
     koksma__doc_say(d, ", ridge regression on all %zu measures ", cases->n);
     say_mean(d, &all);
-    koksma__doc_say(d, ". Compared with the single measure the pair changes it by ");
+    koksma__doc_say(d, ". Compared with the single measure the pair changes the correlation by ");
     say_difference(d, &gain);
     koksma__doc_say(d, ", all measures by ");
     say_difference(d, &gain_of_all);
     koksma__doc_say(
         d,
-        ". The measure that is best in each scene itself, which is known only afterwards, has %+.2f. "
+        ". The measure that is best in the scene left out, which is known only in hindsight, has %+.2f on average. "
         "Intervals are by Student's t over the scenes; they are approximate, because the fits share scenes "
         "and all share the patterns.",
         best.mean);

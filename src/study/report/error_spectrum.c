@@ -42,8 +42,9 @@ koksma_status koksma__spectrum_add(koksma__error_spectrum *spectrum, const koksm
                                    const koksma_image *reference)
 {
     if (image->width != reference->width || image->height != reference->height) {
-        return koksma__fail(KOKSMA_ARGUMENT, "an image of %d x %d pixels has no error against one of %d x %d",
-                            image->width, image->height, reference->width, reference->height);
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "an image of %d x %d pixels cannot be compared with a reference of %d x %d", image->width,
+                            image->height, reference->width, reference->height);
     }
     const size_t width = (size_t)image->width, height = (size_t)image->height;
     const size_t pixels = width * height, doubles = pixels + koksma__fourier_columns(image->width) * height;

@@ -124,7 +124,7 @@ koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, co
     }
     koksma__doc_say(d, ". Up to %lld trials.", block->trials);
     if (block->n_references > 1) {
-        koksma__doc_say(d, " `koksma study export` has the errors against the plan's other references.");
+        koksma__doc_say(d, " `koksma study export` also writes the errors against the plan's other references.");
     }
     koksma__doc_paragraph_end(d);
     return status;

@@ -44,7 +44,8 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
     const koksma__discrepancy_block *block = discrepancies_of(study, table, measure, pattern, n);
     *cell = (koksma__cell){0};
     if (!block) {
-        return koksma__fail(KOKSMA_MALFORMED, "plan '%s': table %s: no discrepancy block has %s at n = %lld",
+        return koksma__fail(KOKSMA_MALFORMED,
+                            "plan '%s': table %s: no discrepancy block of the plan measures %s at n = %lld",
                             study->plan.name, table->id, measure, n);
     }
     const koksma__series series = {.kind = "discrepancy",

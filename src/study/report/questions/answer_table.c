@@ -114,7 +114,7 @@ static void say_trials(koksma__document *d, const subject *c, const standing *s,
     if (!koksma__compare(a->mean, b->mean)) {
         koksma__doc_say(d, " %s and %s have equal means", first, other);
     } else if (isnan(half)) {
-        koksma__doc_say(d, " One trial has no interval: it takes 2 or more");
+        koksma__doc_say(d, " A mean of one trial has no interval: 2 or more trials are needed");
     } else {
         const double needed = trials * koksma__trials_factor(a->mean - b->mean, half);
         const double unit = pow(10, floor(log10(needed)) - 1);

@@ -54,7 +54,8 @@ static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA
     } else {
         koksma__doc_say(d, "of %s agree within %.0f %%%s",
                         group == IMAGES ? "images" : "images in scenes that were fitted to them",
-                        100 * KOKSMA__IMAGE_TOLERANCE, group == IMAGES ? "" : ", which confirms nothing");
+                        100 * KOKSMA__IMAGE_TOLERANCE,
+                        group == IMAGES ? "" : ", so their agreement confirms nothing");
     }
     if (explained) {
         koksma__doc_say(d, "; %zu %s for a known reason (notes)", explained, verb(explained));

@@ -93,9 +93,10 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
     snprintf(name, sizeof name, "coherence-%.30s-%lld", first->scene->name, first->n);
     koksma__doc_paragraph(
         d, "Coherence of the error: the peak of its power spectrum over the mean power, from the same "
-           "trials. 95 %% of white-noise errors, with as large a part in common among the trials, have "
-           "one in the interval beside it. Above what 99.5 %% of them have, the error is coherent: it "
-           "has bands or another pattern, which are seen sooner than noise of the same size.");
+           "trials. The columns _noise from_ and _to_ give the interval of the coherence of 95 %% of "
+           "white-noise errors with as large a part in common among the trials. An error whose coherence "
+           "exceeds that of 99.5 %% of them is coherent: it has bands or another pattern, which the eye sees "
+           "sooner than noise of the same size.");
     koksma__doc_table_begin(d, name);
     koksma__doc_head(d, "pattern");
     koksma__doc_head_interval(d, "coherence", 3);

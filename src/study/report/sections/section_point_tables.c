@@ -243,8 +243,8 @@ static koksma_status add_sizes_table(koksma_study *study, koksma__document *d, c
     if (!status) {
         koksma__doc_paragraph(
             d,
-            "Printed means are of 100 sets, ours of %s%zu. A slope is that of the printed ends, and "
-            "of our means by least squares; theory is the exponent that is known for the pattern.",
+            "Published means are over 100 sets, ours over %s%zu. A slope is computed from the first and the last "
+            "published mean, and from our means by least squares; _theory_ is the known exponent of the pattern.",
             differ ? "up to " : "", sets);
     }
     koksma__doc_end(&s.chart);
@@ -258,14 +258,15 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     koksma_status status = KOKSMA_OK;
     koksma__doc_paragraph(
         d,
-        "Exact values, means over point sets. z is the difference of the published mean from ours over SD √(1/100 + "
-        "1/T) and half of the last printed digit, with the SD and the number T of our sets: the errors of both means "
-        "and the rounding. A single z below %.1f is taken for chance; in tables over several numbers of points it is "
-        "the tooltip of each mark. Below each table its z are taken together: by chance the largest of k independent "
-        "z exceeds 2 with probability 1 - 0.954^k^ (25 %% for six), and six of -0.8 are as rare as one of -2. The "
-        "largest of 100 is a mean over blocks of 100 sets, with the SD of such a block behind the ±, where others "
-        "are "
-        "95 %% intervals of means; of fewer sets it is the largest of all.",
+        "The numbers are means, over point sets, of exact values. z is the published mean minus ours, divided by "
+        "the sum of SD √(1/100 + 1/T) and half of the last published digit, where SD and T are the standard "
+        "deviation and the number of our sets: it accounts for the errors of both means and for the rounding. A "
+        "single |z| below %.1f is attributed to chance; in tables over several numbers of points, z is the "
+        "tooltip of each mark. The text below each table tests its values of z together: by chance the largest "
+        "|z| of k independent values exceeds 2 with probability 1 - 0.954^k^ (25 %% for six), and six values of "
+        "-0.8 are as rare as one of -2. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
+        "its ± is the SD of these largest values, whereas the other intervals are 95 %% intervals of means. With "
+        "fewer than 100 sets it is the largest value of all.",
         KOKSMA__AGREEMENT_Z);
     for (size_t i = 0; !status && i < scope->study->plan.n_tables; i++) {
         const koksma__table *t = &scope->study->plan.tables[i];
