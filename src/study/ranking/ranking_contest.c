@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The contest always makes the lowest round that matters: of the patterns with an undecided pair that bears on the
- * goal, those with the fewest complete rounds make their next round together. Which patterns these are follows from
- * the decisions alone. The clock has two effects only: the time limit may end the contest, and a pattern whose first
- * round takes more thread time than its share (the time left times the threads, divided by the number of patterns)
- * is postponed. The other patterns continue without it until their leader is decided; the postponed patterns get the
- * time that is left. As a pair's decision after a round depends on the errors alone, the clock changes only how far
- * the ranking gets, never a decision.
+ * goal, those with the fewest complete rounds make their next round together. The decisions alone determine which
+ * patterns make a round. The clock has two effects only: the time limit may end the contest, and a pattern whose
+ * first round takes more thread time than its share (the time left times the threads, divided by the number of
+ * patterns) is postponed. The other patterns continue without a postponed one until their leader is decided; the
+ * postponed patterns get the time that is left. As a pair's decision after a round depends on the errors alone, the
+ * clock changes only how far the ranking gets, never a decision.
  *
  * The coherence of a pattern's error is measured on the trials of round 0, however long the ranking runs, because
  * the noise of a coherence depends on the number of trials. The trials are added in their order, whichever thread
@@ -32,8 +32,8 @@ typedef struct batch {
     const size_t *active; /* indices of the contestants that make the round */
     size_t n_active, first, count;
     bool first_round;
-    /* The errors of trial first + t of contestant active[a], at (a * count + t) * ERRORS; NULL in the first round,
-       whose errors are in the contestants. */
+    /* The errors of trial first + t of contestant active[a], at (a * count + t) * ERRORS. In the first round
+       `errors` is NULL, and the contestants hold the errors. */
     double *errors;
 } batch;
 
@@ -292,7 +292,8 @@ static bool others_are_led(const koksma__contest *c)
     return any && led;
 }
 
-/* Readmits the postponed patterns, without a limit on their share of the time. Returns whether there were any. */
+/* Readmits the postponed patterns, without a limit on their share of the time. Returns whether any pattern was
+   postponed. */
 static bool call_back(koksma__contest *c)
 {
     bool any = false;

@@ -28,7 +28,7 @@ typedef struct koksma__rank_errors {
     size_t n;
     double mean, variance; /* of the errors against the whole reference; variance divides by n - 1 */
     double without[KOKSMA__RANK_REPLICATES]; /* mean errors against the reference without replicate r */
-    double robust, top_share;                /* means of these fields of koksma_metric_value; no decision uses them */
+    double robust, top_share;                /* means of these koksma_metric_value fields; no decision uses them */
 } koksma__rank_errors;
 
 typedef enum koksma__rank_verdict {
@@ -121,7 +121,7 @@ koksma_rank_check_state koksma__rank_check_best(const koksma__rank_table *table,
 /* 1 + the number of patterns that are decided to leave less error than pattern i. */
 size_t koksma__rank_position(const koksma__rank_table *table, size_t i);
 
-/* The errors of pattern i after its last complete round; NULL if it has completed none. */
+/* The errors of pattern i after its last complete round, or NULL if pattern i has no complete round. */
 const koksma__rank_errors *koksma__rank_latest(const koksma__rank_table *table, size_t i);
 
 #endif

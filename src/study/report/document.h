@@ -91,7 +91,7 @@ typedef struct koksma__column {
 typedef struct koksma__cell_data {
     double value, low, high, sd;
     size_t sets;         /* number of point sets, shown after the value if the rows of a table differ in it */
-    const char *text;    /* shown instead of the value: a number as printed */
+    const char *text;    /* shown instead of the value: the number as published */
     size_t note;         /* number of a note below the table, from 1 */
     const char *verdict; /* koksma_study_verdict_name */
     double z, change;    /* the numbers that the verdict is based on */

@@ -10,7 +10,7 @@
 /* KOKSMA__RHO_VARIANTS: the number of combinations of options that have a column in a table. KOKSMA__RHO_SAMPLES:
    the number of bootstrap resamples. Holm's correction over the 45 pairs of ten measures compares p with .0011,
    which is two or three of 4,000 resamples: with so few, the significant differences changed with the resamples'
-   seed. Of 20,000 resamples it is eleven. */
+   seed. With 20,000 resamples this p is eleven of them. */
 enum { KOKSMA__RHO_VARIANTS = 24, KOKSMA__RHO_SAMPLES = 20000 };
 
 /* Sums over the cases of a measure in one scene with one number of samples. */

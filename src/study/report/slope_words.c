@@ -2,9 +2,9 @@
 /*
  * Writes the sentence on the slopes of one measure or scene. It names the pattern whose values fall fastest. If
  * other patterns are tied with it (the interval of the difference of two slopes contains 0), it names those of the
- * tied patterns whose slopes have the narrowest intervals, and how many trials would separate two of them. Then it
- * gives the number of patterns that fall faster than random points (or N^-1/2), the number that follow no power law,
- * and the patterns with means of 0. For measures of quality or distance no slope is called the best.
+ * tied patterns whose slopes have the narrowest intervals, and how many trials would separate two of them. The
+ * sentence also gives the number of patterns that fall faster than random points (or N^-1/2), the number that follow
+ * no power law, and the patterns with means of 0. For measures of quality or distance no slope is called the best.
  */
 #include "study/report/slope_words.h"
 

@@ -26,7 +26,7 @@ enum { VALUES = KOKSMA__RESULT_VALUES };
 typedef struct guess {
     koksma__task *task;
     size_t nearest; /* index of the timed task that the estimate is based on (a timed task's own index), or NONE */
-    double seconds; /* of one job of the task */
+    double seconds; /* the time of one job of the task */
 } guess;
 
 enum { NONE = -1 };
@@ -267,7 +267,7 @@ koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, 
     const double left_s = budget_s - (koksma__now_s() - start_s);
     status = status ? status : estimate_kind(study, true, run, fmax(left_s, budget_s / 4), out);
     out->seconds += out->reference_seconds;
-    for (size_t i = 0; i < study->n_references; i++) { /* the stand-ins must not be taken for references */
+    for (size_t i = 0; i < study->n_references; i++) { /* frees the black pictures, which are not references */
         koksma_image_fini(&study->references[i].image);
     }
     return status;

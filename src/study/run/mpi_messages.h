@@ -3,8 +3,8 @@
  * The messages between the ranks of an MPI run (sent by transport.h). Rank 0 holds the store: it sends tiles of
  * references and jobs in batches, one batch for each request, and does some itself on a second thread; only its
  * first thread sends and receives. The other ranks have the plan and hence the same list of jobs, so a job is
- * identified by its number. They get reference images from rank 0 when they first need them, so that only the plan's
- * own files must be readable on every machine.
+ * identified by its number. Ranks get reference images from rank 0 when they first need them, so that only the
+ * plan's own files must be readable on every machine.
  *
  * Messages to rank 0:
  *     REQUEST  koksma__request: asks for the batch after the current one, so that no rank waits for an answer

@@ -21,8 +21,8 @@ koksma__mpi *koksma__mpi_get(void);
 /* The number of ranks of this run; 1 without MPI. */
 int koksma__mpi_size(void);
 
-/* Fails in a build without MPI that runs under mpirun. After this call the other ranks wait for rank 0: if it exits
-   before koksma__mpi_release, they are aborted. */
+/* Fails in a build without MPI that runs under mpirun. After this call the other ranks wait for rank 0: if rank 0
+   exits before koksma__mpi_release, they are aborted. */
 koksma_status koksma__mpi_check(void);
 
 /* Declares that rank 0 does the rest of the work alone, so that the other ranks need not wait for it. */

@@ -29,7 +29,7 @@ typedef struct koksma__run_control {
 void koksma__run_control_begin(const koksma_run *run, double time_limit_s, koksma__run_control *watch);
 
 /* Whether the time limit, and not the caller, has ended the work. Asks the caller's keep_going once more, so that an
-   interruption during a long job takes precedence over the limit. Call it on the caller's thread only. */
+   interruption during a long job takes precedence over the limit. Only the caller's thread may call this function. */
 bool koksma__run_control_time_is_up(koksma__run_control *watch);
 
 #endif

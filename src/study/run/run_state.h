@@ -75,7 +75,7 @@ void koksma__run_state_stop(koksma__run_state *state, koksma_status status, cons
 bool koksma__run_state_is_over(koksma__run_state *state);
 double koksma__run_state_fraction(koksma__run_state *state);
 
-/* Returns the first failure, as this thread's error, or OK. Call it after all work has ended. */
+/* Returns the first failure, as this thread's error, or OK. The work must have ended before the call. */
 koksma_status koksma__run_state_status(const koksma__run_state *state);
 
 /* Takes an assignment: tiles first, because jobs wait for them. False: none is ready now. With `lost`, if all are

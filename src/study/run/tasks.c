@@ -301,7 +301,7 @@ bool koksma__task_failed_alone(const koksma_study *study, koksma_status status)
 
 /* ---- One job ------------------------------------------------------------------------------------------- */
 
-/* Bounds of a value that are at most this far apart count as exact; it exceeds the rounding error. */
+/* Bounds of a value that are at most this far apart count as exact; the limit is larger than the rounding error. */
 static const double AS_GOOD_AS_EXACT = 2e-12;
 
 /* Checks that a value can be stored. The store has no column for a second bound, so it accepts finite values of a

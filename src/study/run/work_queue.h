@@ -25,7 +25,7 @@ bool koksma__work_queue_take(koksma__work_queue *queue, size_t reach, koksma__wo
 /* Takes a number again that is taken but not put back. False: some number is not taken yet, or all are put back. */
 bool koksma__work_queue_take_lost(koksma__work_queue *queue, size_t *i);
 
-/* Puts a number back as done. False if it was put back before. */
+/* Puts a number back as done; returns false if the number was put back before. */
 bool koksma__work_queue_put(koksma__work_queue *queue, size_t i);
 
 #endif
