@@ -250,7 +250,7 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
     return status;
 }
 
-/* Whether contestant i needs another round for the question. */
+/* Whether contestant i needs another round to reach the goal. */
 static bool needs_round(const koksma__contest *c, size_t i, koksma__rank_goal goal)
 {
     const koksma__rank_entrant *e = &c->table.entrants[i];

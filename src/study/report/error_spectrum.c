@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The error's power at every Fourier frequency (image/fourier.c), averaged over rings: O(n log n) for n pixels. */
+/* Computes the power of an image's error at every Fourier frequency (image/fourier.c) and averages it over rings of
+   frequencies, in O(n log n) for n pixels. */
 #include "study/report/error_spectrum.h"
 
 #include <math.h>

@@ -20,7 +20,7 @@ static const double REST_S = 2e-4;
 typedef struct outbox {
     unsigned char *bytes;
     size_t size, room;
-    double since_s; /* when its first job began */
+    double since_s; /* when the first of these jobs began */
 } outbox;
 
 typedef struct worker {

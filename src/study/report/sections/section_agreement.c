@@ -38,7 +38,7 @@ static const char *verb(size_t n)
     return n == 1 ? "differs" : "differ";
 }
 
-/* One sentence for a group of tables that has means to compare. */
+/* Writes one sentence for a group of tables, if the group has means to compare. */
 static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
 {
     const size_t agree = counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED],

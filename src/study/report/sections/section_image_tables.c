@@ -281,7 +281,7 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     koksma_status status = KOKSMA_OK;
     koksma__doc_paragraph(d,
                           "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
-                          "are 95 %% over trials. A maximum is the error of one pixel: it is printed, not judged.");
+                          "are 95 %% over trials. A maximum is the error of one pixel; maxima get no verdict.");
     for (const koksma__table *t = next_table(scope, &i); !status && t; t = next_table(scope, &i)) {
         status = add_table(scope->study, d, t);
     }

@@ -114,7 +114,7 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const k
 
 /* ---- Tables over several numbers of points ----------------------------------------------------------------- */
 
-/* The table that is being written, and the chart that follows it. */
+/* The table over several numbers of points that is being written, and the chart that follows this table. */
 typedef struct sizes_table {
     koksma_study *study;
     koksma__document *document, chart;
