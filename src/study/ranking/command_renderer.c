@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Another renderer as a command line (koksma_rank_by_command). Every picture has a folder of its own, so that the
- * program may write what it likes beside the picture; what it prints goes to a file there, whose last line explains a
- * failure. The command is a process group, so that a stop reaches all that the shell started. Waiting is polling:
- * nothing else may wait for children here, in a library, and a picture takes longer than the steps of 10 ms.
+ * Runs another renderer by a command line (koksma_rank_by_command). Every picture has its own temporary directory,
+ * so that the program may write other files beside the picture. What the program prints goes to a file in that
+ * directory; its last line is part of the error message if the program fails. The command runs in its own process
+ * group, so that a stop kills all processes that the shell started. The library polls waitpid in steps of 10 ms,
+ * which is short compared with rendering a picture, because a library must not wait for its caller's other children.
  */
 #include <koksma/study.h>
 
@@ -33,7 +34,8 @@ enum { OUT = 6, N_WORDS = sizeof words / sizeof *words };
 
 /* ---- The command ---------------------------------------------------------------------------------------- */
 
-/* Appends a text in single quotes, in which the shell leaves all but a quote alone. false: it does not fit. */
+/* Appends a text in single quotes, within which only the quote is special to the shell. false: the command is
+   full. */
 static bool append_quoted(char *command, size_t *length, const char *text)
 {
     command[(*length)++] = '\'';
@@ -46,8 +48,8 @@ static bool append_quoted(char *command, size_t *length, const char *text)
     return !*text;
 }
 
-/* Index of the word that stands in braces at `text`; N_WORDS: nothing like a word does (as in ${HOME}, {1..3}, { ls; });
-   -1: an unknown word. */
+/* Index in `words` of the placeholder in braces that begins at `text`; N_WORDS: no placeholder begins here (as in
+   ${HOME}, {1..3}, { ls; }); -1: an unknown placeholder. */
 static int word_at(const char *template, const char *text, size_t *length)
 {
     const size_t n = text[0] == '{' ? strspn(text + 1, "abcdefghijklmnopqrstuvwxyz.") : 0;
@@ -63,7 +65,8 @@ static int word_at(const char *template, const char *text, size_t *length)
     return -1;
 }
 
-/* values: of the words. *out: the word that names the file. Errors: ARGUMENT. */
+/* Replaces the placeholders of the template by their values. *out: index of the placeholder that names the picture's
+   file. Errors: ARGUMENT. */
 static koksma_status expand(const char *template, const char *const values[N_WORDS], char *command, int *out)
 {
     size_t length = 0, taken = 0;
@@ -71,11 +74,10 @@ static koksma_status expand(const char *template, const char *const values[N_WOR
     for (const char *at = template; *at; at += taken) {
         const int word = word_at(template, at, &taken);
         if (word < 0) {
-            return koksma__fail(
-                KOKSMA_ARGUMENT,
-                "%.*s is unknown in the command; it takes {scene}, {pattern}, {spp}, {seed}, {width}, "
-                "{height} and {out}, {out.pfm} or {out.png}",
-                (int)taken, at);
+            return koksma__fail(KOKSMA_ARGUMENT,
+                                "%.*s is unknown in the command; use {scene}, {pattern}, {spp}, {seed}, {width}, "
+                                "{height} and {out}, {out.pfm} or {out.png}",
+                                (int)taken, at);
         }
         bool fits = length < LONGEST - 8;
         if (word == N_WORDS && fits) {
@@ -94,7 +96,7 @@ static koksma_status expand(const char *template, const char *const values[N_WOR
                      : koksma__fail(KOKSMA_ARGUMENT, "the command lacks {out}, the name of the picture to write");
 }
 
-/* ---- Its process ---------------------------------------------------------------------------------------- */
+/* ---- The process ---------------------------------------------------------------------------------------- */
 
 static koksma_status start(const char *command, const char *log, pid_t *child)
 {
@@ -113,7 +115,7 @@ static koksma_status start(const char *command, const char *log, pid_t *child)
     return error ? koksma__fail(KOKSMA_SYSTEM, "/bin/sh: %s", strerror(error)) : KOKSMA_OK;
 }
 
-/* *outcome: as of waitpid. */
+/* *outcome: the status that waitpid returns. */
 static koksma_status wait_for(pid_t child, const koksma_run *run, int *outcome)
 {
     bool stop = false;
@@ -134,7 +136,7 @@ static koksma_status wait_for(pid_t child, const koksma_run *run, int *outcome)
     }
 }
 
-/* Copies the last line that is not empty. */
+/* Copies the last line of the log that is not blank. */
 static void last_line(const char *log, char *line, size_t size)
 {
     FILE *file = fopen(log, "r");
@@ -160,13 +162,13 @@ static koksma_status explain(const char *log, int outcome)
                         killed ? WTERMSIG(outcome) : WEXITSTATUS(outcome), line[0] ? ": " : "", line);
 }
 
-/* ---- Its folder ----------------------------------------------------------------------------------------- */
+/* ---- The directory -------------------------------------------------------------------------------------- */
 
 static void remove_folder(const char *folder)
 {
     DIR *entries = opendir(folder);
     for (const struct dirent *entry = entries ? readdir(entries) : NULL; entry; entry = readdir(entries)) {
-        unlinkat(dirfd(entries), entry->d_name, 0); /* "." and ".." refuse */
+        unlinkat(dirfd(entries), entry->d_name, 0); /* fails for "." and ".." */
     }
     if (entries) {
         closedir(entries);
@@ -212,9 +214,9 @@ static koksma_status render_in(const char *folder, const char *template, const k
         status = explain(log, outcome);
     }
     if (!status && (status = koksma_image_read(values[out], image))) {
-        status = koksma__fail(status == KOKSMA_MEMORY ? status : KOKSMA_IMPOSSIBLE, "the command's picture: %s",
-                              strrchr(koksma_error_text(), '/') ? strrchr(koksma_error_text(), '/') + 1
-                                                                : koksma_error_text());
+        status = koksma__fail(
+            status == KOKSMA_MEMORY ? status : KOKSMA_IMPOSSIBLE, "the picture that the command wrote: %s",
+            strrchr(koksma_error_text(), '/') ? strrchr(koksma_error_text(), '/') + 1 : koksma_error_text());
     }
     free(command);
     return status;

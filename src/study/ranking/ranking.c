@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which pattern leaves the least error in a scene. The sequence of work is
- *     1. a contest of all patterns at the size itself, until the best is decided, and then until the best of those is
- *        whose error is not coherent;
- *     2. contests of the first three of those and of the first three of all at half and at twice the size, until it is
- *        decided which of those (of all, where every error is coherent) is the best there, and then which of all;
- *     3. the first contest again, until every pair is decided.
- * A time limit ends it anywhere, and rows are made of what is there. Every part is a function of the options alone
- * (ranking_contest.c, on patterns that are too slow for a limit, and ranking_decisions.c, on the statistics), so that
- * the speed of the machine decides how much is known, and never what.
+ * Finds the pattern that leaves the least error in a scene. The ranking works in three steps:
+ *     1. a contest of all patterns at the size asked for, until the best pattern is decided, and then until the best
+ *        pattern whose error is not coherent (the advised one) is decided;
+ *     2. contests at half and at twice the size, of the best three patterns that may be advised and the best three
+ *        of all, until the best of the former (of all, where every error is coherent) and then the best of all is
+ *        decided;
+ *     3. the first contest again, until every pair of patterns is decided.
+ * A time limit may end the ranking at any point; the rows then report what is known. Every decision is a function of
+ * the options alone (ranking_contest.c describes the treatment of patterns too slow for the time limit,
+ * ranking_decisions.c the statistics): the speed of the machine affects how many decisions are taken, never their
+ * outcome.
  *
- * The probability of any wrong decision, 5 % in all, is dealt out as 4 % to the first contest and 1/2 % to each
- * check.
+ * Any decision is wrong with a probability of at most 5 %: 4 % for the first contest and 1/2 % for each check.
  */
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +32,7 @@ enum { MOST_PIXELS = 160 * 120, CHECKED = 3, NOBODY = KOKSMA__RANK_NOBODY };
 typedef struct ranking {
     const koksma_rank_options *options;
     koksma__study_scene scene;
-    char variant[KOKSMA__VARIANT_TEXT]; /* integrator and filter, where they are others than by default */
+    char variant[KOKSMA__VARIANT_TEXT]; /* integrator and filter where they differ from the defaults */
     koksma__run_control control;
     double start_s;
     koksma__contest contest;
@@ -39,8 +40,8 @@ typedef struct ranking {
 
 /* ---- Checks at other sizes ------------------------------------------------------------------------------ */
 
-/* Which pattern is checked at other sizes: the advised one, or the leader if every error is coherent. NOBODY: it is
-   not decided yet. */
+/* The pattern that is checked at other sizes: the advised pattern, or the leader if every pattern's error is
+   coherent. NOBODY: not decided yet. */
 static size_t checked(const koksma__contest *c)
 {
     bool all_coherent = true;
@@ -50,8 +51,9 @@ static size_t checked(const koksma__contest *c)
     return all_coherent || c->table.leader == NOBODY ? c->table.leader : c->table.advised;
 }
 
-/* The mean error of contestant i after the round in which `best` was decided, or after its own last one before;
-   infinite for those that cannot take its place: among the advised, those in bands. */
+/* The mean error of contestant i after the round in which `best` was decided, or after the contestant's last round
+   before that; infinite for a contestant that is out or has no round and, if `advised`, for one whose error is
+   coherent (unless that of `best` is coherent too). */
 static double early_mean(const koksma__rank_table *table, size_t i, size_t best, bool advised)
 {
     const koksma__rank_entrant *e = &table->entrants[i];
@@ -61,7 +63,7 @@ static double early_mean(const koksma__rank_table *table, size_t i, size_t best,
                : e->rounds[(e->n_rounds < last ? e->n_rounds : last) - 1].mean;
 }
 
-/* `best`, and then those with the smallest errors. */
+/* Stores `best`, followed by the patterns with the smallest errors, in `first`; returns their number. */
 static size_t first_patterns(const koksma__contest *c, size_t best, bool advised, size_t first[CHECKED])
 {
     size_t n = 1;
@@ -85,14 +87,14 @@ static size_t first_patterns(const koksma__contest *c, size_t best, bool advised
     return n;
 }
 
-/* The first patterns of those that may be advised, and then the others of the first patterns of all. *leader: the
-   index of the one with the least error. */
+/* Stores the best patterns that may be advised, followed by those of the best patterns of all that are not among
+   them; returns their number. *leader: the index in `patterns` of the pattern with the least error. */
 static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHECKED], size_t *leader)
 {
     size_t all[CHECKED];
     size_t n = first_patterns(c, checked(c), true, patterns);
     const size_t n_all = first_patterns(c, c->table.leader, false, all);
-    for (size_t k = n_all; k-- > 0;) { /* all[0], the leader, last */
+    for (size_t k = n_all; k-- > 0;) { /* all[0], the leader, comes last */
         *leader = 0;
         while (*leader < n && patterns[*leader] != all[k]) {
             ++*leader;
@@ -104,7 +106,8 @@ static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHE
     return n;
 }
 
-/* Whether contestant i is the best there, as `best` is decided to be. */
+/* The result of a check: whether contestant i is the best at the checked size, where `best` is decided to be the
+   best. */
 static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, size_t best)
 {
     koksma_rank_check_result result = {.state = koksma__rank_check_best(&c->table, i, best)};
@@ -121,8 +124,8 @@ static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, siz
     return result;
 }
 
-/* The advice is checked before the first place: a time limit may come between. Where every error is coherent, they are
-   the same. */
+/* Checks the advised pattern and then the first place, as a time limit may end the check in between. Where every
+   error is coherent, both checks have one result. */
 static koksma_status check_best(koksma__contest *contest, size_t leader, koksma_rank_check *check)
 {
     const bool same = contest->asked->table.advised == NOBODY;
@@ -162,16 +165,17 @@ static koksma_status check_size(ranking *r, koksma_rank_check *check)
     return status;
 }
 
-/* ---- How much more it would take ------------------------------------------------------------------------ */
+/* ---- Estimated time to a decision ----------------------------------------------------------------------- */
 
-/* Thread seconds of a trial of contestant i so far; of one that has none, what it has taken without an end. */
+/* Mean thread seconds of a trial of contestant i; without a complete trial, the thread seconds spent so far. */
 static double trial_s(const koksma__contest *c, size_t i)
 {
     const size_t n = koksma__contest_errors(c, i).n;
     return 1e-9 * (double)atomic_load(&c->contestants[i].busy_ns) / (double)(n ? n : 1);
 }
 
-/* The trials that would decide the best pattern: of that with the smallest error against all others. */
+/* Estimated number of trials that would decide the pairs of the pattern with the smallest error; 0 if no number
+   would. */
 static size_t trials_to_lead(const koksma__rank_table *table)
 {
     size_t best = NOBODY, needed = 0;
@@ -211,7 +215,7 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
     if (!needed) {
         return;
     }
-    if (c->reference.made < KOKSMA__RANK_REPLICATES) { /* trials cost as many times it as they have samples */
+    if (c->reference.made < KOKSMA__RANK_REPLICATES) { /* the cost of a trial is estimated by its number of samples */
         const double part = fmax(c->reference.made + r->control.fraction, 0.01) / KOKSMA__RANK_REPLICATES;
         const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp);
         const double trials = (double)(needed * open) * r->options->spp / samples;
@@ -233,7 +237,8 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
 
 /* ---- Rows ------------------------------------------------------------------------------------------------ */
 
-/* Whether a comes before b: the leader, then by position and mean, then those without a round. */
+/* Whether contestant a comes before b in the rows: the leader first, then by position and mean error, then
+   contestants without a complete round, and those that are out last. */
 static bool is_before(const koksma__contest *c, size_t a, size_t b)
 {
     const koksma__rank_errors *mine = koksma__rank_latest(&c->table, a), *other = koksma__rank_latest(&c->table, b);
@@ -276,7 +281,8 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
         return;
     }
     if (row->state == KOKSMA_RANK_TOO_SLOW) {
-        snprintf(row->reason, sizeof row->reason, "too slow: %zu of its first %d trials were done in the time", e.n,
+        snprintf(row->reason, sizeof row->reason,
+                 "too slow: only %zu of its first %d trials were done within the time limit", e.n,
                  KOKSMA__RANK_FIRST_ROUND);
     } else {
         row->position = koksma__rank_position(table, i);
@@ -333,7 +339,7 @@ static koksma_status fill_rows(const koksma__contest *c, koksma_rank_row *rows, 
     return KOKSMA_OK;
 }
 
-/* ---- The whole ------------------------------------------------------------------------------------------ */
+/* ---- The whole ranking ---------------------------------------------------------------------------------- */
 
 static koksma_status nobody_can_serve(const koksma__contest *c)
 {
@@ -345,7 +351,8 @@ static koksma_status nobody_can_serve(const koksma__contest *c)
     return koksma__fail(KOKSMA_ARGUMENT, "no pattern can serve: %s", c->contestants[c->n - 1].reason);
 }
 
-/* Another renderer that was not given a size may have one only. */
+/* Whether to check other sizes: not with another renderer that was given no size, as it may support one size
+   only. */
 static bool check_sizes(const koksma_rank_options *options)
 {
     return !options->one_size && (!options->render || options->width);
@@ -394,7 +401,8 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
     return status;
 }
 
-/* The size of this library's pictures. */
+/* Chooses the size of the pictures that this library renders: by default, the scene's size, halved until the picture
+   has at most MOST_PIXELS pixels. */
 static void choose_size(const koksma_rank_options *options, koksma__study_scene *scene)
 {
     koksma_render_options defaults;
@@ -407,7 +415,7 @@ static void choose_size(const koksma_rank_options *options, koksma__study_scene 
     }
 }
 
-/* The size of another renderer's pictures. */
+/* Finds the size of another renderer's pictures by rendering one if the options give no size. */
 static koksma_status ask_size(const koksma_rank_options *options, koksma__run_control *control,
                               koksma__study_scene *scene)
 {
@@ -423,7 +431,7 @@ static koksma_status ask_size(const koksma_rank_options *options, koksma__run_co
         koksma_image_fini(&image);
     }
     return status == KOKSMA_INTERRUPTED && koksma__run_control_time_is_up(control)
-               ? koksma__fail(KOKSMA_ARGUMENT, "one picture with 1 sample a pixel takes longer than the time limit")
+               ? koksma__fail(KOKSMA_ARGUMENT, "one picture with 1 sample per pixel takes longer than the time limit")
                : status;
 }
 
@@ -443,7 +451,7 @@ static koksma_status open_scene(const koksma_rank_options *options, koksma__run_
     return status;
 }
 
-/* The sizes are part of the question: of the contest and the checks. */
+/* Reports the sizes of the contest and of its checks, before any rendering. */
 static void set_sizes(const koksma__study_scene *scene, koksma_ranking *out)
 {
     out->width = scene->width;
@@ -461,9 +469,9 @@ static koksma_status check(const koksma_rank_options *options)
             options->patterns[i] ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "options->patterns[%zu] is NULL", i);
     }
     KOKSMA__FAIL_IF(!status && !options->n_patterns, KOKSMA_ARGUMENT,
-                    "n_patterns = 0: a ranking has at least one pattern");
+                    "n_patterns = 0: a ranking needs at least one pattern");
     KOKSMA__FAIL_IF(!status && (options->spp < 1 || options->spp > KOKSMA_MAX_SPP), KOKSMA_ARGUMENT,
-                    "spp = %d: samples a pixel are 1 to %d", options->spp, KOKSMA_MAX_SPP);
+                    "spp = %d: the samples per pixel must be 1 to %d", options->spp, KOKSMA_MAX_SPP);
     if (!status && options->width) {
         status = koksma__image_check_shape(options->width, options->height, 1);
     }
@@ -471,11 +479,11 @@ static koksma_status check(const koksma_rank_options *options)
         status = koksma__metric_spec_check(options->metric);
     }
     KOKSMA__FAIL_IF(!status && !(options->time_limit_s >= 0), KOKSMA_ARGUMENT,
-                    "time_limit_s = %g: it is 0, for none, or a number of seconds", options->time_limit_s);
+                    "time_limit_s = %g: it must be 0 (no limit) or a number of seconds", options->time_limit_s);
     KOKSMA__FAIL_IF(
         !status && options->max_trials &&
             (options->max_trials < KOKSMA__RANK_FIRST_ROUND || options->max_trials > KOKSMA_MAX_RANK_TRIALS),
-        KOKSMA_ARGUMENT, "max_trials %lld: a ranking takes %d to %d trials, or 0", options->max_trials,
+        KOKSMA_ARGUMENT, "max_trials = %lld: it must be 0 (the default) or %d to %d trials", options->max_trials,
         KOKSMA__RANK_FIRST_ROUND, KOKSMA_MAX_RANK_TRIALS);
     return status;
 }

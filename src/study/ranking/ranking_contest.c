@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The next round is always the lowest that matters: of the patterns with an undecided pair that bears on the
- * question, those with the fewest complete rounds make their next one, all together. Which patterns these are follows
- * from the decisions alone. The clock enters in two places: it may end everything, and it may put a pattern off whose
- * first round takes more thread time than its share, the time left times the threads over the patterns. The others go
- * on as if it were not there, until it is known which of them leads; then what time is left is for those put off. As
- * a pair's decision after a round depends on nothing else, both only change how far the ranking gets.
+ * The contest always makes the lowest round that matters: of the patterns with an undecided pair that bears on the
+ * goal, those with the fewest complete rounds make their next round together. The decisions alone determine which
+ * patterns make a round. The clock has two effects only: the time limit may end the contest, and a pattern whose
+ * first round takes more thread time than its share (the time left times the threads, divided by the number of
+ * patterns) is postponed. The other patterns continue without a postponed one until their leader is decided; the
+ * postponed patterns get the time that is left. As a pair's decision after a round depends on the errors alone, the
+ * clock changes only how far the ranking gets, never a decision.
  *
- * The coherence of a pattern's error is that of the trials of round 0, however long the ranking runs: what noise has
- * depends on their number. Trials are added in their order, whichever thread rendered them: those that are ahead
- * wait. So every pattern that is ranked has one.
+ * The coherence of a pattern's error is measured on the trials of round 0, however long the ranking runs, because
+ * the noise of a coherence depends on the number of trials. The trials are added in their order, whichever thread
+ * rendered them: a trial that is complete too early waits. So every ranked pattern has a coherence.
  */
 #include "study/ranking/ranking_contest.h"
 #include "study/plan/image_patterns.h"
@@ -25,14 +26,15 @@
 
 enum { BATCH = 64, FIRST = KOKSMA__RANK_FIRST_ROUND, ERRORS = KOKSMA__RANK_ERRORS };
 
-/* Trials of one round that are rendered at once. */
+/* Trials of one round that are rendered in parallel. */
 typedef struct batch {
     koksma__contest *contest;
-    const size_t *active; /* contestants */
+    const size_t *active; /* indices of the contestants that make the round */
     size_t n_active, first, count;
     bool first_round;
-    double
-        *errors; /* of active a, trial first + t: at (a * count + t) * ERRORS; the first round's are kept elsewhere */
+    /* The errors of trial first + t of contestant active[a], at (a * count + t) * ERRORS. In the first round
+       `errors` is NULL, and the contestants hold the errors. */
+    double *errors;
 } batch;
 
 /* A piece of work that counts against a contestant's share of the time. */
@@ -64,7 +66,8 @@ static koksma_run run_in_share(timed *t)
     return (koksma_run){.threads = 1, .keep_going = keep_in_share, .context = t};
 }
 
-/* What ends only this contestant's part in the contest: OK, then. */
+/* Turns a failure that concerns this contestant alone into its exclusion or postponement, and returns OK; returns
+   other failures unchanged. */
 static koksma_status take_out(const timed *t, size_t trial, koksma_status status)
 {
     koksma__contest *c = t->contest;
@@ -89,7 +92,8 @@ static koksma_status take_out(const timed *t, size_t trial, koksma_status status
 
 /* ---- Trials --------------------------------------------------------------------------------------------- */
 
-/* Adds what is there in its turn. Takes the trial's errors over. */
+/* Adds the pixel errors of a trial, and of waiting later trials, in the order of the trials. Takes ownership of
+   `errors`. */
 static koksma_status add_coherence(const koksma__contest *c, koksma__contestant *p, size_t trial, double *errors)
 {
     koksma_status status = KOKSMA_OK;
@@ -120,7 +124,7 @@ static koksma_status measure_coherence(koksma__contest *c, koksma__contestant *p
     return add_coherence(c, p, trial, errors);
 }
 
-/* Renders a trial and takes its errors; in the first round their spectra for the coherence, too. */
+/* Renders a trial and measures its errors; in the first round also adds them to the pattern's coherence. */
 static koksma_status render_trial(koksma__contest *c, koksma__contestant *p, size_t trial, const koksma_run *run,
                                   double errors[ERRORS])
 {
@@ -166,7 +170,8 @@ static koksma_status do_trial(void *context, size_t i)
     return take_out(&work, b->first + t, status);
 }
 
-/* Welford's (1962) updates, in the order of the trials. */
+/* Updates the running mean and the squared deviations by Welford's method (1962). Trials are added in their
+   order. */
 static void add_trial(koksma__contestant *p, const double errors[ERRORS])
 {
     const double off = errors[0] - p->mean;
@@ -245,7 +250,7 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
     return status;
 }
 
-/* Whether contestant i needs another round for the question. */
+/* Whether contestant i needs another round to reach the goal. */
 static bool needs_round(const koksma__contest *c, size_t i, koksma__rank_goal goal)
 {
     const koksma__rank_entrant *e = &c->table.entrants[i];
@@ -256,7 +261,8 @@ static bool needs_round(const koksma__contest *c, size_t i, koksma__rank_goal go
     return needs && !e->out && !e->aside && e->n_rounds < c->max_rounds;
 }
 
-/* Those that make the next round, into active; -1: nobody. */
+/* Stores the contestants that make the next round in `active` and returns the round's number; -1 if none needs
+   one. */
 static int next_round(const koksma__contest *c, koksma__rank_goal goal, size_t *active, size_t *n_active)
 {
     int round = -1;
@@ -275,7 +281,7 @@ static int next_round(const koksma__contest *c, koksma__rank_goal goal, size_t *
     return round;
 }
 
-/* Whether some patterns were put off, and one of the others is decided to be the best of those that were not. */
+/* Whether some patterns are postponed and the best of all other patterns is decided. */
 static bool others_are_led(const koksma__contest *c)
 {
     bool led = false, any = false;
@@ -286,7 +292,8 @@ static bool others_are_led(const koksma__contest *c)
     return any && led;
 }
 
-/* Those that were put off take part again, without a limit of their own. */
+/* Readmits the postponed patterns, without a limit on their share of the time. Returns whether any pattern was
+   postponed. */
 static bool call_back(koksma__contest *c)
 {
     bool any = false;
@@ -299,7 +306,7 @@ static bool call_back(koksma__contest *c)
     return any;
 }
 
-/* What is left of the time, dealt out evenly. */
+/* Divides the given part of the thread time left evenly among the patterns. */
 static void set_share(koksma__contest *c, double part)
 {
     const double left_s = c->control->end_s - koksma__now_s();

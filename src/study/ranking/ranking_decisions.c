@@ -1,31 +1,32 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a ranking may conclude. A pair of patterns is judged after each round by the interval of the quotient of
- * their mean errors. The pair is the same when the interval lies within 1/1.02 .. 1.02 (two one-sided tests,
- * Schuirmann 1987), different when it excludes 1, and undecided otherwise. With half-widths below 1 % every pair is
- * one or the other.
+ * The decisions of a ranking. A pair of patterns is judged after each round by the interval of the quotient of their
+ * mean errors. The pair is equal ("same") when the interval lies within 1/1.02 .. 1.02 (two one-sided tests,
+ * Schuirmann 1987), different when the interval excludes 1, and undecided otherwise. When the half-widths are below
+ * 1 %, every pair is either equal or different.
  *
- * All conclusions of a ranking, of all pairs and rounds, hold together with probability 1 - alpha (Bonferroni): with
- * n (n + 1) / 2 pairs and single patterns and 14 rounds, each bound errs with probability
+ * All conclusions of a ranking, of all pairs and rounds, hold simultaneously with probability 1 - alpha (Bonferroni):
+ * with n (n + 1) / 2 pairs and single patterns and 14 rounds, each bound errs with probability
  *     level = alpha / 14 / (n (n + 1) / 2) / 2.
- * A pair errs by at most two bounds: where the means are equal, by either bound of the difference; where they are
- * not, by the one bound that allows "same" and the one that allows the wrong order. Sharper procedures exist: Holm's
- * (1979) gives no intervals, Tukey's needs equal variances and gains 3 % in width for seven patterns. The number of
- * rounds is that of the longest possible ranking, so that no decision depends on the time or the number of trials
- * allowed.
+ * A decision about a pair can be wrong by at most two bounds: where the means are equal, by either bound of the
+ * difference; where they differ, by the bound that allows "same" and by the bound that allows the wrong order.
+ * Sharper procedures exist, but Holm's (1979) gives no intervals, and Tukey's needs equal variances and gains 3 % in
+ * width for seven patterns. The level uses the number of rounds of the longest possible ranking, so that no decision
+ * depends on the time or the number of trials allowed.
  *
- * A bound is that of a contrast theta = x A - y B of two mean errors, of independent trials:
+ * Each bound is the lower bound of a contrast theta = x A - y B of the mean errors A and B of independent trials:
  *     theta - bias  -  t(level, nu) sqrt(x^2 s_A^2 / n + y^2 s_B^2 / n + v)  -  |bias|
- * with Welch's and Satterthwaite's degrees of freedom nu. v and bias are what the reference's own error does, by the
- * jackknife over its k independent replicates (Efron & Stein 1981): with theta_r against the reference without
- * replicate r and theta_. their mean,
+ * with Welch's and Satterthwaite's degrees of freedom nu. The variance v and the bias that the reference's own error
+ * causes are estimated by the jackknife over the k independent replicates of the reference (Efron & Stein 1981):
+ * with theta_r the contrast measured against the reference without replicate r, and theta_. the mean of the theta_r,
  *     bias = (k - 1) (theta_. - theta),   v = (k - 1) / k  sum (theta_r - theta_.)^2.
- * The bias is proportional to 1/k where the pattern's error is smooth in the reference, and is removed; where the
- * pattern is exact, it is proportional to 1/sqrt k, and half of it is removed: |bias| covers the other half. A
- * reference that is too noisy therefore leaves pairs open.
+ * Where the pattern's error is a smooth function of the reference, the bias is proportional to 1/k and is removed.
+ * Where the pattern is exact, the bias is proportional to 1/sqrt k and half of it is removed: |bias| covers the
+ * other half. A reference that is too noisy therefore leaves pairs undecided.
  *
- * The bounds of the quotient are the zeros of the contrasts A - q B (Fieller 1954): by bisection, and consistent
- * with the decisions. Student's t needs nearly normal means: an image's error is itself a mean over its pixels.
+ * The bounds of the quotient are the zeros q of the bounds of the contrasts A - q B (Fieller 1954), found by
+ * bisection, so they agree with the decisions. Student's t needs nearly normal means, which the errors of images
+ * are: an image's error is itself a mean over its pixels.
  */
 #include "study/ranking/ranking_decisions.h"
 
@@ -35,11 +36,11 @@
 #include "core/status.h"
 #include "stats/quantiles.h"
 
-/* Differences of values that are equal in exact arithmetic are smaller. */
+/* Relative bound of the rounding error in the difference of two values that are equal in exact arithmetic. */
 #define ROUNDING 1e-12
 
-/* From 128 trials on v is known well enough to give a pair up for it: of fewer it has much of the trials' own noise.
- */
+/* A pair is declared hopeless only from 128 trials on: with fewer, the estimated variance v of the reference (see
+   above) contains much of the trials' own noise. */
 enum { SURE_ROUND = 4 };
 
 double koksma__rank_level(double alpha, size_t n_patterns)
@@ -51,7 +52,7 @@ double koksma__rank_level(double alpha, size_t n_patterns)
 /* ---- One contrast --------------------------------------------------------------------------------------- */
 
 typedef struct contrast {
-    double value, bias, error, degrees; /* value: without the bias */
+    double value, bias, error, degrees; /* value: the estimate with the bias removed */
 } contrast;
 
 static double whole_or_zero(double x, double size)
@@ -59,7 +60,7 @@ static double whole_or_zero(double x, double size)
     return fabs(x) <= ROUNDING * size ? 0 : x;
 }
 
-/* x A - y B; b may be NULL. */
+/* The contrast x A - y B of the mean errors of a and b; b = NULL: x A. */
 static contrast contrast_of(const koksma__rank_errors *a, double x, const koksma__rank_errors *b, double y)
 {
     const double k = KOKSMA__RANK_REPLICATES, n_a = (double)a->n, n_b = b ? (double)b->n : 2;
@@ -88,7 +89,7 @@ static double half_width(const contrast *c, double level)
            fabs(c->bias);
 }
 
-/* The lower bound of x A - y B; none of fewer than two trials. */
+/* The lower bound of the contrast x A - y B; -infinity if a pattern has fewer than two trials. */
 static double lower(const koksma__rank_errors *a, double x, const koksma__rank_errors *b, double y, double level)
 {
     if (a->n < 2 || (b && b->n < 2)) {
@@ -111,7 +112,7 @@ koksma__estimate koksma__rank_error(const koksma__rank_errors *a, double level)
     return (koksma__estimate){value, fmax(value - half, 0), value + half};
 }
 
-/* The largest q for which A - q B is surely positive; 0 when it is for none. */
+/* The largest q for which the lower bound of A - q B is positive; 0 if there is no such q. */
 static double least_quotient(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
 {
     double lo = 0, hi = 1;
@@ -137,7 +138,7 @@ koksma__estimate koksma__rank_quotient(const koksma__rank_errors *a, const koksm
 {
     const double mean_a = contrast_of(a, 1, NULL, 0).value, mean_b = contrast_of(b, 1, NULL, 0).value;
     if (!koksma__compare(mean_a, mean_b) && koksma__rank_judge(a, b, level) == KOKSMA__RANK_SAME &&
-        !(mean_a > 0)) { /* no error at all */
+        !(mean_a > 0)) { /* neither pattern has any error */
         return (koksma__estimate){1, 1, 1};
     }
     if (a->n < 2 || b->n < 2) {
@@ -244,8 +245,8 @@ bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present)
     return leads;
 }
 
-/* Whether i leads all others whose error is not coherent. As long as a pattern has no complete round, its coherence
-   is unknown, and nobody leads. */
+/* Whether i is decided to be the best of the patterns whose error is not coherent. Before a pattern has a complete
+   round, its coherence is unknown; then no pattern is decided to be the best. */
 static bool leads_incoherent(const koksma__rank_table *table, size_t i)
 {
     const koksma__rank_entrant *mine = &table->entrants[i];
@@ -259,7 +260,7 @@ static bool leads_incoherent(const koksma__rank_table *table, size_t i)
     return leads;
 }
 
-/* The round after which all pairs of i that count for the goal were decided. */
+/* The round after which the last pair of i that counts for the goal was decided. */
 static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
 {
     int round = 0;
@@ -271,7 +272,8 @@ static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_go
     return round;
 }
 
-/* Of several that lead, being the same, the one that was the first to; then the one with the smaller mean then. */
+/* Finds the pattern that leads for the goal; NOBODY if none does. If several equal patterns lead, it is the one that
+   led after the fewest rounds and, among those, the one with the smallest mean error after that round. */
 static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goal)
 {
     size_t leader = KOKSMA__RANK_NOBODY;
@@ -307,7 +309,8 @@ void koksma__rank_decide(koksma__rank_table *table)
     }
 }
 
-/* Whether pattern i may still be the best: no other that counts for the goal is decided to have a smaller error. */
+/* Whether pattern i may still be the best: no other pattern that counts for the goal is decided to have a smaller
+   error. */
 static bool may_lead(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
 {
     bool may = true;

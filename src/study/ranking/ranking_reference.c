@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sixteen replicates of 16 times as many samples as the patterns have, 64 at least: together 256 times as many, as
- * far as KOKSMA_MAX_SPP allows. Where errors fall as slowly as 1/sqrt N, the reference's is 1/16 of that of jittered
- * samples; with the power -3/4 of jittered edges 1/32. The mean without replicate r is mean - (r-th - mean) / (k -
- * 1), so that equal replicates leave no difference at all.
+ * The reference of a ranking is the mean of sixteen replicates. Each has 16 times as many samples as the patterns,
+ * and at least 64: together 256 times as many, as far as KOKSMA_MAX_SPP allows. Where errors fall as slowly as
+ * 1/sqrt N, the reference's error is 1/16 of the error of jittered samples; with the power -3/4 of jittered samples
+ * at edges it is 1/32. The mean without replicate r is computed as mean - (replicate r - mean) / (k - 1) for k
+ * replicates, so that equal replicates give exactly equal means.
  */
 #include "study/ranking/ranking_reference.h"
 
@@ -31,7 +32,8 @@ static double luminance(const koksma__rank_reference *reference, size_t p)
     return reference->metric.metric->channels == 1 ? v[0] : KOKSMA__LUMINANCE(v);
 }
 
-/* Deviations are updated replicate by replicate (Welford 1962): `squares` are those of the luminance. */
+/* Adds a replicate by Welford's method (1962). squares: sums of the squared deviations of each pixel's luminance.
+   Returns whether all pixels are finite. */
 static bool add_replicate(koksma__rank_reference *reference, const koksma_image *image, double *squares)
 {
     bool finite = true;
@@ -50,7 +52,8 @@ static bool add_replicate(koksma__rank_reference *reference, const koksma_image 
     return finite;
 }
 
-/* A normal error of deviation s / sqrt k has the mean absolute value sqrt(2/pi) s / sqrt k. */
+/* Computes the expected error of the reference and its means without each replicate. A normal error of standard
+   deviation s / sqrt k has the mean absolute value sqrt(2/pi) s / sqrt k. */
 static void finish(koksma__rank_reference *reference, const double *squares)
 {
     double total = 0;
@@ -104,7 +107,7 @@ koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, con
         finish(reference, squares);
         status = scene->render && reference->error == 0
                      ? koksma__fail(KOKSMA_IMPOSSIBLE,
-                                    "%s: pictures by %s are equal for all seeds: a reference takes a pattern that "
+                                    "%s: pictures by %s are equal for all seeds: a reference needs a pattern that "
                                     "depends on the seed",
                                     scene->name, pattern)
                      : KOKSMA_OK;
@@ -131,7 +134,7 @@ koksma_status koksma__rank_reference_compare(const koksma__rank_reference *refer
     koksma__metric_values(spec->metric, image, values);
     koksma_status status = KOKSMA_OK;
     for (int r = REPLICATES; !status && r >= 0;
-         r--) { /* the whole reference last: its errors are put in another order */
+         r--) { /* the whole reference last: koksma__metric_pool below reorders its errors in `map` */
         const koksma_metric_input in = {spec->params, reference->width, reference->height, values,
                                         r ? reference->without + (size_t)(r - 1) * reference->values
                                           : reference->mean};

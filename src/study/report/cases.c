@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A case is a measure with a scene, its options and a number of samples. Blocks of one question may overlap: the
- * first block that renders a case stands for it (is_before), and of the blocks that have a pattern's rows the one
- * with the most trials or sets is taken.
+ * Lists the cases of a question and reads their means. A case is a measure with a scene, its options and a number of
+ * samples. Blocks of one question may overlap: a case is visited in the first block that renders it (is_before). A
+ * pattern's means are read from the block with the most trials (images) or point sets (measures) that has the
+ * pattern.
  */
 #include "study/report/cases.h"
 
@@ -17,7 +18,7 @@
 #include "study/report/means.h"
 #include "study/run/references.h"
 
-/* Plans have their sizes sorted. */
+/* Whether a sorted list has the number n; plans sort their sizes when they are parsed. */
 static bool has_size(const koksma__wholes *sizes, long long n)
 {
     size_t low = 0, high = sizes->n;
@@ -79,7 +80,7 @@ static bool measures_it(const koksma__discrepancy_block *d, const koksma__case *
            koksma__texts_have(&d->measures, at->of->measure);
 }
 
-/* The topic's block that measures a pattern's points, of several the one with the most sets; NULL: none does. */
+/* The topic's block that measures a pattern's points; if several do, the one with the most sets. NULL: none does. */
 static const koksma__discrepancy_block *measured_in(const koksma__topic *topic, const koksma__case *at,
                                                     const char *pattern)
 {
@@ -95,7 +96,7 @@ static const koksma__discrepancy_block *measured_in(const koksma__topic *topic, 
 
 /* ---- Images -------------------------------------------------------------------------------------------- */
 
-/* Whether both compare pictures of the scene of one size with the same last reference. */
+/* Whether two blocks render a scene at one size and have the same last reference. */
 static bool same_pictures(const koksma_study *study, const koksma__image_block *a, const koksma__image_block *b,
                           const char *scene)
 {
@@ -117,7 +118,8 @@ static bool renders_it(const koksma_study *study, const koksma__image_block *i, 
             koksma__texts_have(&i->scenes, at->scene) && same_pictures(study, i, at->image, at->scene));
 }
 
-/* The topic's block from b on that renders a pattern of the case, of several the one with the most trials. */
+/* The topic's block, among block b and those after it, that renders a pattern of the case; if several do, the one
+   with the most trials. */
 static const koksma__image_block *rendered_in(const koksma__cases *c, const koksma__case *at, const char *pattern,
                                               size_t b)
 {
@@ -133,7 +135,7 @@ static const koksma__image_block *rendered_in(const koksma__cases *c, const koks
 
 /* ---- Cases --------------------------------------------------------------------------------------------- */
 
-/* A block before b that renders the case, and, unless NULL, the pattern. */
+/* Whether a block before b renders the case; unless `pattern` is NULL, also with that pattern. */
 static bool is_before(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b)
 {
     for (size_t k = 0; k < b; k++) {
@@ -180,8 +182,8 @@ koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor v
     return status;
 }
 
-/* Adds a pattern to the pairs, if block b is the first that renders it. A pattern that lacks results of points or of
-   images, or is beyond KOKSMA__CASE_PATTERNS, is counted but not added. */
+/* Adds the two means of a pattern, which block b is the first to render. A pattern that lacks results of points or
+   of images, or exceeds KOKSMA__CASE_PATTERNS, is counted but not added. */
 static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
                               koksma__pairs *out)
 {

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The cases in which a question correlates a measure of points with the error of images. A case is a measure in a
- * number of dimensions, and a scene with its options and number of samples. Blocks with the same id may contain the
- * same case; it then has the patterns of all of them.
+ * number of dimensions, and a scene with its options and number of samples. Several blocks with one id may contain
+ * the same case; the case then has the patterns of all these blocks.
  */
 #ifndef KOKSMA_STUDY_REPORT_CASES_H
 #define KOKSMA_STUDY_REPORT_CASES_H
 
 #include "study/report/questions/topic.h"
 
-/* The time of the bootstrap grows with the square of the number of patterns. */
+/* Most patterns of a case: the time of the bootstrap grows with the square of their number. */
 enum { KOKSMA__CASE_PATTERNS = 256 };
 
-/* A measure of points of dim dimensions: one in three is another than the one in two. */
+/* A measure of points of `dim` dimensions; one measure in two and in three dimensions counts as two. */
 typedef struct koksma__measured {
     const char *measure;
     int dim;
-    bool larger;                      /* is better */
+    bool larger;                      /* larger values are better */
     char label[KOKSMA_MAX_SPEC + 16]; /* "l2-star", "l2-star (3D)" */
 } koksma__measured;
 
@@ -28,30 +28,32 @@ typedef struct koksma__cases {
 } koksma__cases;
 
 typedef struct koksma__case {
-    const koksma__image_block *image; /* the first that renders it */
+    const koksma__image_block *image; /* the first block that renders the case */
     const char *scene, *variant;
     long long spp;
     const koksma__measured *of;
 } koksma__case;
 
-/* A measure's mean and an error's, with its interval, by pattern. */
+/* For each pattern of a case: the mean x of the measure, and the mean y of the image error with its interval low ..
+   high. */
 typedef struct koksma__pairs {
-    size_t n, patterns_in_all; /* that the blocks have, also those beyond KOKSMA__CASE_PATTERNS */
+    size_t n,
+        patterns_in_all; /* patterns_in_all: also counts those without results or beyond KOKSMA__CASE_PATTERNS */
     double x[KOKSMA__CASE_PATTERNS], y[KOKSMA__CASE_PATTERNS], low[KOKSMA__CASE_PATTERNS],
         high[KOKSMA__CASE_PATTERNS];
     double x_error[KOKSMA__CASE_PATTERNS], y_error[KOKSMA__CASE_PATTERNS]; /* standard errors of the means */
     const char *patterns[KOKSMA__CASE_PATTERNS];
 } koksma__pairs;
 
-/* Errors: MEMORY. */
+/* Lists the measures of a topic. Errors: MEMORY. */
 koksma_status koksma__cases_open(koksma_study *study, const koksma__topic *topic, koksma__cases *cases);
 void koksma__cases_close(koksma__cases *cases);
 
-/* Calls `visit` for every scene, variant, number of samples and measure, each once. */
+/* Calls `visit` once for every case: every combination of scene, variant, number of samples and measure. */
 typedef koksma_status (*koksma__case_visitor)(const koksma__cases *cases, void *context, const koksma__case *at);
 koksma_status koksma__cases_visit(const koksma__cases *cases, koksma__case_visitor visit, void *context);
 
-/* The patterns that have rows of both. */
+/* Reads the means of a case for all patterns that have results of both the measure and the image error. */
 koksma_status koksma__case_pairs(const koksma__cases *cases, const koksma__case *at, koksma__pairs *out);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads the coherence rows of one pattern, and judges them by the rule in the header. */
+/* Reads the coherence rows of one pattern from the store, and applies the rule of coherence_rows.h. */
 #include "study/report/coherence_rows.h"
 
 #include <stdlib.h>

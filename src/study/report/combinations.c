@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Collects the ranks of a question's cases, a measure at a time, and reports what rank_regression.c makes of them:
-   for each scene the single measure, the pair and the combination of all measures that the other scenes choose, and
-   how well each orders this scene's errors. */
+/* Collects the ranks of a question's cases, one measure at a time, and reports the results of rank_regression.c: for
+   each scene, the single measure, the pair of measures and the combination of all measures that fit the other scenes
+   best, and how well each of them orders this scene's errors. */
 #include "study/report/combinations.h"
 #include "stats/correlation.h"
 
@@ -65,7 +65,7 @@ koksma_status koksma__combinations_add(koksma__combinations *c, const koksma__ca
     return KOKSMA_OK;
 }
 
-/* Whether a case has all measures, and errors that differ. */
+/* Whether a case has all measures, and its errors are not all equal. */
 static bool is_complete(const koksma__combinations *c, const koksma__combined *of)
 {
     bool differ = false;
@@ -75,10 +75,10 @@ static bool is_complete(const koksma__combinations *c, const koksma__combined *o
     return differ && of->n_measures == c->cases->n;
 }
 
-/* ---- What was found ------------------------------------------------------------------------------------ */
+/* ---- Results ------------------------------------------------------------------------------------------- */
 
 typedef struct findings {
-    size_t n_cases, n_scenes; /* complete cases; their scenes */
+    size_t n_cases, n_scenes; /* number of complete cases, and of their scenes */
     const char **scenes;
     koksma__rank_case *cases;
     koksma__held_out *held_out;
@@ -122,13 +122,13 @@ static void say_difference(koksma__document *d, const koksma__summary *s)
     koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, s->low, s->high);
 }
 
-/* Of correlations, which end at 1. */
+/* Writes a mean correlation; its interval is clamped to -1 .. 1. */
 static void say_mean(koksma__document *d, const koksma__summary *s)
 {
     koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, fmax(s->low, -1), fmin(s->high, 1));
 }
 
-/* In how many scenes the choice of scene i was made. */
+/* The number of scenes for which the same single measure (or pair) was chosen as for scene i. */
 static size_t times_chosen(const findings *f, size_t i, bool pair)
 {
     size_t n = 0;
@@ -168,9 +168,9 @@ static void say_findings(koksma__document *d, const koksma__cases *cases, const 
     koksma__doc_paragraph_begin(d);
     koksma__doc_say(
         d,
-        "The errors of each scene are predicted from the ranks of the measures, with what the other %zu "
-        "scenes choose and fit (%zu cases). Mean Spearman correlation of the prediction with the error in "
-        "the scene left out: the best single measure",
+        "The errors of each scene are predicted from the ranks of the measures; the measures are chosen, and the "
+        "regressions fitted, on the other %zu scenes (%zu cases). Mean Spearman correlation of the prediction "
+        "with the error in the scene left out: the best single measure",
         n - 1, f->n_cases);
     say_chosen(d, cases, f, false);
     say_mean(d, &single);
@@ -179,13 +179,13 @@ static void say_findings(koksma__document *d, const koksma__cases *cases, const 
     say_mean(d, &pair);
     koksma__doc_say(d, ", ridge regression on all %zu measures ", cases->n);
     say_mean(d, &all);
-    koksma__doc_say(d, ". Compared with the single measure the pair changes it by ");
+    koksma__doc_say(d, ". Compared with the single measure the pair changes the correlation by ");
     say_difference(d, &gain);
     koksma__doc_say(d, ", all measures by ");
     say_difference(d, &gain_of_all);
     koksma__doc_say(
         d,
-        ". The measure that is best in each scene itself, which is known only afterwards, has %+.2f. "
+        ". The measure that is best in the scene left out, which is known only in hindsight, has %+.2f on average. "
         "Intervals are by Student's t over the scenes; they are approximate, because the fits share scenes "
         "and all share the patterns.",
         best.mean);

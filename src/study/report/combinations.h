@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which combination of measures predicts the error in scenes that it was not fitted to: the cases of a question, and
-   their table and sentence. */
+/* Tests which combination of measures predicts the error in scenes that it was not fitted to: collects the cases of
+   a question, and writes their table and sentence. */
 #ifndef KOKSMA_STUDY_REPORT_COMBINATIONS_H
 #define KOKSMA_STUDY_REPORT_COMBINATIONS_H
 
 #include "stats/rank_regression.h"
 #include "study/report/cases.h"
 
-/* A case as far as its measures were visited. */
+/* A case, with the ranks of the measures that were visited so far. */
 typedef struct koksma__combined {
     const char *scene, *variant;
     long long spp;
-    size_t n, n_measures;  /* patterns; measures so far */
-    const char **patterns; /* n */
-    double *ranks;         /* as of koksma__rank_case */
+    size_t n, n_measures;  /* number of patterns; number of measures so far */
+    const char **patterns; /* n names */
+    double *ranks;         /* in the layout of koksma__rank_case */
 } koksma__combined;
 
 typedef struct koksma__combinations {
@@ -22,11 +22,12 @@ typedef struct koksma__combinations {
     koksma__combined *of;
 } koksma__combinations;
 
-/* Adds a measure of a case; measures come in their order, all of a case one after another. Errors: MEMORY. */
+/* Adds a measure of a case. All measures of a case must be added one after another, in their order. Errors:
+   MEMORY. */
 koksma_status koksma__combinations_add(koksma__combinations *c, const koksma__case *at, const koksma__pairs *found);
 
-/* Appends sentence and table; nothing unless three scenes have cases whose patterns have all measures, of which there
-   are two or more. Errors: MEMORY. */
+/* Appends the sentence and the table. Appends nothing unless there are two or more measures, and three or more
+   scenes with cases whose patterns have all measures. Errors: MEMORY. */
 koksma_status koksma__combinations_report(koksma__document *d, const char *id, const koksma__combinations *c);
 
 void koksma__combinations_fini(koksma__combinations *c);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The report's document model, written as JSON while it is built: no tree is kept, because blocks come in the order
- * in which they are shown. What must be shown before something that is known earlier, such as a sentence before the
- * table that it sums up, is gathered in a document of its own and appended (koksma__doc_append).
- * docs/report-format.md describes the members, docs/report.schema.json checks them; a change needs both, and the page.
+ * The report's document model, written as JSON while it is built: no tree is kept, because blocks are written in the
+ * order in which they are shown. A block that is finished before one that is shown above it, such as a table before
+ * the sentence that sums it up, is written into a separate document and appended later (koksma__doc_append).
+ * docs/report-format.md describes the members, and docs/report.schema.json checks them. A change of the members
+ * needs changes in both files and in the page.
  *
- * Words are a list of runs: a text, or an object with a style or with the value of a number. A run stays open while
- * words of the same style follow.
+ * Words are a list of runs; a run is a text, or an object with a style or with the value of a number. A run is
+ * extended as long as words of the same style follow.
  */
 #include "study/report/document.h"
 
@@ -34,7 +35,8 @@ bool koksma__doc_is_empty(const koksma__document *d)
     return !d->json.size && !d->json.status;
 }
 
-/* The fewest of 15 to 17 digits that read back as the same number; null for one that is not finite. */
+/* Writes a number with the fewest digits, from 15 to 17, that read back as the same number; null if it is not
+   finite. */
 static void put_number(koksma__document *d, const char *key, double value)
 {
     int digits = 15;
@@ -102,7 +104,7 @@ static void add_value(koksma__document *d, double value, const char *text)
     koksma__json_end(&d->json);
 }
 
-/* One conversion of koksma__doc_say. */
+/* A conversion specification, such as %+.2f, in the format of koksma__doc_say. */
 typedef struct conversion {
     bool sign;
     int precision, longs;
@@ -110,7 +112,7 @@ typedef struct conversion {
     char type;
 } conversion;
 
-/* Reads what follows a '%' and returns what follows that. */
+/* Reads the conversion that follows a '%' and returns the rest of the format. */
 static const char *read_conversion(const char *at, conversion *c)
 {
     *c = (conversion){.precision = 6};
@@ -147,7 +149,7 @@ static void add_real(koksma__document *d, const conversion *c, double value)
     add_value(d, value, text);
 }
 
-/* What a conversion asks for, of the next argument. */
+/* Writes the next argument as the conversion specifies. */
 static void say_argument(koksma__document *d, const conversion *c, va_list *arguments)
 {
     if (c->type == 's') {
@@ -404,7 +406,7 @@ koksma__cell_data koksma__cell_of(double value)
     return (koksma__cell_data){.value = value, .low = NAN, .high = NAN, .sd = NAN, .z = NAN, .change = NAN};
 }
 
-/* A member that is known. */
+/* Writes a member unless its value is NaN. */
 static void put_known(koksma__document *d, const char *key, double value)
 {
     if (!isnan(value)) {
@@ -495,7 +497,7 @@ void koksma__doc_figure_begin(koksma__document *d, const char *id)
     koksma__json_begin_array(&d->json, "images");
 }
 
-/* The members that images and drawings have in common. */
+/* Begins an image or drawing with the members that both have. */
 static void begin_image(koksma__document *d, const char *type, int width, int height, const char *alt)
 {
     koksma__json_begin_object(&d->json, NULL);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A report as data: sections that hold paragraphs, lists, tables, charts, figures and pictures, in the order in which
- * a reader meets them. Each call appends to the JSON text of the report (docs/report-format.md), which the page
- * (page/report.mjs) shows. A failure is remembered in json.status; later
- * calls do nothing. A document is all zero at first, and koksma__doc_append or koksma__json_writer_fini frees it.
+ * A report as data: sections that hold paragraphs, lists, tables, charts, figures and pictures, in the order in
+ * which they are shown. Each call appends to the JSON text of the report (docs/report-format.md), which the page
+ * (page/report.mjs) shows. A failure is stored in json.status, and later calls then do nothing. A document is all
+ * zero at first, and koksma__doc_append or koksma__json_writer_fini frees it.
  */
 #ifndef KOKSMA_STUDY_REPORT_DOCUMENT_H
 #define KOKSMA_STUDY_REPORT_DOCUMENT_H
@@ -16,49 +16,53 @@
 
 typedef struct koksma__document {
     koksma__json_writer json;
-    char style;   /* of the words that follow: '`' code, '*' strong, '_' emphasised, '^' superscript; 0: none */
+    char style;   /* style of the next words: '`' code, '*' strong, '_' emphasised, '^' superscript; 0: none */
     bool in_text; /* a run of words is open */
     bool in_rows; /* the open table has rows */
-    bool curves[KOKSMA__CURVE_STYLES]; /* numbers that series of the open chart have */
+    bool curves[KOKSMA__CURVE_STYLES]; /* style numbers that series of the open chart use */
 } koksma__document;
 
-/* Appends what `part` has, and empties it. */
+/* Appends the content of `part`, and empties `part`. */
 void koksma__doc_append(koksma__document *d, koksma__document *part);
 
-/* Whether nothing was written, or failed to be. */
+/* Whether nothing was written and nothing failed. */
 bool koksma__doc_is_empty(const koksma__document *d);
 
 /* ---- Words ------------------------------------------------------------------------------------------------- */
 
-/* Appends words to the open heading, paragraph, item or caption. In `format` (not in its arguments) `code`,
-   *strong*, _emphasised_ and ^superscript^ words stand between their marks. It takes %s, %d, %lld, %zu, and %f and %g with a
-   precision and '+'; each number comes out as a value beside its text. */
+/* Appends words to the open heading, paragraph, item or caption. The marks in `format` (not in its arguments) give
+   words a style: `code`, *strong*, _emphasised_, ^superscript^. The conversions are %s, %d, %lld, %zu, and %f and %g
+   with a precision and '+'; each number is written as a value with its text. */
 void koksma__doc_say(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Ends the innermost section, series, chart, drawing or pictures. */
 void koksma__doc_end(koksma__document *d);
 
-/* A section with a heading; sections nest. id NULL: none; ids may repeat, the page tells them apart. collapsed: shown
-   when its heading is clicked. Words of the heading: koksma__doc_say until koksma__doc_section_body. */
+/* Begins a section with a heading; sections nest. id = NULL: no id; if ids repeat, the page makes them unique.
+   collapsed: the section is hidden until its heading is clicked. Calls of koksma__doc_say write the heading until
+   koksma__doc_section_body begins the content. */
 void koksma__doc_section_begin(koksma__document *d, const char *id, bool collapsed);
 void koksma__doc_section_body(koksma__document *d);
 
-/* A section with this heading, up to its body. */
+/* Begins a section with the given heading, and its content. */
 void koksma__doc_section(koksma__document *d, const char *id, const char *heading);
 
-/* A paragraph of words, or one that is said in pieces between begin and end. */
+/* koksma__doc_paragraph writes a whole paragraph; between koksma__doc_paragraph_begin and koksma__doc_paragraph_end
+   a paragraph is written by calls of koksma__doc_say. */
 void koksma__doc_paragraph(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 void koksma__doc_paragraph_begin(koksma__document *d);
 void koksma__doc_paragraph_end(koksma__document *d);
-/* A paragraph that answers what its section asks, which the page shows first: decided, or not yet. */
+/* Begins a paragraph that answers the question of its section, which the page also shows in its overview. decided:
+   whether the data decide the question. */
 void koksma__doc_answer_begin(koksma__document *d, bool decided);
 
-/* A list of items, each said between item and the next; numbered: notes that cells refer to. */
+/* A list. koksma__doc_item begins each item, and koksma__doc_say writes its words. numbered: the items are notes
+   that table cells refer to by number. */
 void koksma__doc_list_begin(koksma__document *d, const char *id, bool numbered);
 void koksma__doc_item(koksma__document *d);
 void koksma__doc_list_end(koksma__document *d);
 
-/* Command lines that give the numbers above them, to be copied. */
+/* Command lines that reproduce the numbers above them, for the reader to copy. */
 void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t n);
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
@@ -68,35 +72,37 @@ typedef enum koksma__column_type {
     KOKSMA__COLUMN_NUMBER,
     KOKSMA__COLUMN_INTERVAL, /* a value with its 95 % interval */
     KOKSMA__COLUMN_SPREAD,   /* a value with its standard deviation */
-    KOKSMA__COLUMN_VERDICT   /* how a printed number goes with ours */
+    KOKSMA__COLUMN_VERDICT   /* whether a published number agrees with ours */
 } koksma__column_type;
 
 typedef struct koksma__column {
     const char *name;  /* head of the column in the CSV file */
-    const char *title; /* head on the page; NULL: name */
-    const char *group; /* head above equal neighbours; NULL: none */
+    const char *title; /* head on the page; NULL: the same as `name` */
+    const char *group; /* common head above neighbouring columns with an equal `group`; NULL: none */
     koksma__column_type type;
-    int digits;  /* significant ones on the page, or decimals where `fixed` */
-    bool fixed;  /* behind the point */
-    bool hidden; /* on the page; in the data and the CSV file it is there */
-    bool merged; /* cells of neighbouring rows with equal texts are one on the page */
+    int digits;  /* significant digits on the page; decimal places if `fixed` */
+    bool fixed;  /* `digits` counts decimal places */
+    bool hidden; /* the page hides the column; the data and the CSV file have it */
+    bool merged; /* the page merges cells of neighbouring rows with equal texts */
 } koksma__column;
 
-/* A cell with more than a value: what applies is set, the rest NAN, 0 or NULL as koksma__cell_of leaves it. */
+/* A cell with more than a value. koksma__cell_of sets the value and all other fields to NAN, 0 or NULL, which means
+   unused. */
 typedef struct koksma__cell_data {
     double value, low, high, sd;
-    size_t sets;         /* printed after the value where the rows of a table have different numbers */
-    const char *text;    /* shown instead of the value: a number as printed */
+    size_t sets;         /* number of point sets, shown after the value if the rows of a table differ in it */
+    const char *text;    /* shown instead of the value: the number as published */
     size_t note;         /* number of a note below the table, from 1 */
     const char *verdict; /* koksma_study_verdict_name */
-    double z, change;    /* of the verdict */
+    double z, change;    /* the numbers that the verdict is based on */
 } koksma__cell_data;
 
 koksma__cell_data koksma__cell_of(double value);
 
-/* Columns come first, then rows; name is the CSV file's without its ending. Rows may end early. */
+/* Begins a table: write its columns first, then its rows. `name` is the name of its CSV file without the extension.
+   A row may have fewer cells than columns. */
 void koksma__doc_table_begin(koksma__document *d, const char *name);
-/* Of a table that the page sorts by a column: by its values, or by the widths of its intervals. */
+/* Begins a table that the page sorts by a column: by the column's values, or by the widths of its intervals. */
 void koksma__doc_sorted_table_begin(koksma__document *d, const char *name, const char *column, bool by_width,
                                     bool descending);
 void koksma__doc_column(koksma__document *d, const koksma__column *column);
@@ -113,12 +119,12 @@ void koksma__doc_table_end(koksma__document *d);
 /* ---- Charts ------------------------------------------------------------------------------------------------ */
 
 typedef struct koksma__chart {
-    const char *title, *x_title, *y_title; /* title: also its text for those who don't see it */
+    const char *title, *x_title, *y_title; /* title: also the chart's text alternative */
     bool log_x, log_y;
 } koksma__chart;
 
-/* Lines joined at their marks; marks alone; a dashed line without marks, as of a theory; hollow marks in the style of
-   the series of equal label, as of printed numbers. */
+/* How a series is drawn: LINE: marks joined by lines; MARKS: marks alone; THEORY: a dashed line without marks;
+   HOLLOW: hollow marks in the style of the series with the same label, for published numbers. */
 typedef enum koksma__series_style {
     KOKSMA__SERIES_LINE,
     KOKSMA__SERIES_MARKS,
@@ -126,30 +132,31 @@ typedef enum koksma__series_style {
     KOKSMA__SERIES_HOLLOW
 } koksma__series_style;
 
-/* Series between begin and end. A series of lines or marks whose label begins with a pattern has its colour in all plots. */
+/* Begins a chart; write its series, then koksma__doc_end. A series of lines or marks whose label begins with a
+   pattern's name has that pattern's colour, which is the same in all plots. */
 void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *chart);
 void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__series_style style);
-/* low, high: the bar of y; NAN: none. */
+/* Adds a point to the open series. low, high: the ends of the error bar of y; NAN: no bar. */
 void koksma__doc_point(koksma__document *d, double x, double y, double low, double high);
 
 /* ---- Figures and pictures ---------------------------------------------------------------------------------- */
 
-/* A figure: images or a drawing, then words of its caption from koksma__doc_caption on. */
+/* Begins a figure: write its images or a drawing, then koksma__doc_caption and the words of its caption. */
 void koksma__doc_figure_begin(koksma__document *d, const char *id);
 /* An image `width` CSS pixels wide and high. */
 void koksma__doc_svg(koksma__document *d, const unsigned char *svg, size_t size, int width, const char *alt);
-/* An image as PNG, `scale` CSS pixels a pixel. */
+/* An image as PNG, with `scale` CSS pixels per pixel. */
 koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, int scale, const char *alt);
-/* A drawing of lines and dots, `width` CSS pixels wide; view: x and y of the corners at the lower left and the upper
-   right. */
+/* Begins a drawing of lines and dots, `width` CSS pixels wide. view: x and y of the lower left corner, then of the
+   upper right corner. */
 void koksma__doc_drawing_begin(koksma__document *d, int width, const double view[4], const char *alt);
 void koksma__doc_line(koksma__document *d, double x0, double y0, double x1, double y1);
 void koksma__doc_dot(koksma__document *d, double x, double y);
 void koksma__doc_caption(koksma__document *d);
 void koksma__doc_figure_end(koksma__document *d);
 
-/* Images of one scene and size as 32-bit floats in base 64, little-endian, the first of which is the reference: the
-   page shows them with their errors and compares any two. */
+/* Begins a set of images of one scene and size, stored as little-endian 32-bit floats in base 64. The first image is
+   the reference; the page shows the others with their errors, and compares any two. */
 void koksma__doc_pictures_begin(koksma__document *d, const char *scene, int width, int height);
 void koksma__doc_picture(koksma__document *d, const koksma_image *image, const char *name);
 

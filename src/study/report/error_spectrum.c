@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The error's power at every Fourier frequency (image/fourier.c), averaged over rings: O(n log n) for n pixels. */
+/* Computes the power of an image's error at every Fourier frequency (image/fourier.c) and averages it over rings of
+   frequencies, in O(n log n) for n pixels. */
 #include "study/report/error_spectrum.h"
 
 #include <math.h>
@@ -9,7 +10,8 @@
 #include "image/formats.h"
 #include "image/fourier.h"
 
-/* The errors are real: columns above W/2 mirror those below, and count there twice. */
+/* Averages the powers over rings. The errors are real, so the columns above W/2 mirror those below W/2, which
+   therefore count twice. */
 static void add_rings(const double *powers, size_t width, size_t height, size_t n_rings, double *power)
 {
     const size_t half = width / 2 + 1;
@@ -41,8 +43,9 @@ koksma_status koksma__spectrum_add(koksma__error_spectrum *spectrum, const koksm
                                    const koksma_image *reference)
 {
     if (image->width != reference->width || image->height != reference->height) {
-        return koksma__fail(KOKSMA_ARGUMENT, "an image of %d x %d pixels has no error against one of %d x %d",
-                            image->width, image->height, reference->width, reference->height);
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "an image of %d x %d pixels cannot be compared with a reference of %d x %d", image->width,
+                            image->height, reference->width, reference->height);
     }
     const size_t width = (size_t)image->width, height = (size_t)image->height;
     const size_t pixels = width * height, doubles = pixels + koksma__fourier_columns(image->width) * height;

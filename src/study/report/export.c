@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rows of a store in formats that others read, sorted by their keys; and the SHA-256 of their CSV. */
+/* Exports the rows of a store, sorted by their keys, as CSV, JSON lines or NPY, or as the SHA-256 of the CSV. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include "study/run/study.h"
 #include "study/store/store.h"
 
-/* The first texts stand before the numbers, the others behind. */
+/* The first N_FIRST text columns come before the numbers, the other text columns after them. */
 enum { N_FIRST = 6, N_TEXTS = 8, N_WHOLES = 4, N_VALUES = 7 };
 
 static const char *const text_names[N_TEXTS] = {"kind",    "scene", "scene_hash", "options",
@@ -25,7 +25,7 @@ static const char *const value_names[N_VALUES] = {"value", "sd", "max", "rmse", 
 typedef struct writer {
     FILE *stream;
     koksma__json_writer json;
-    size_t rows, widths[N_TEXTS]; /* of NPY's byte strings */
+    size_t rows, widths[N_TEXTS]; /* lengths of the byte strings in NPY */
 } writer;
 
 static const char *text_of(const koksma__series *s, int k)
@@ -41,7 +41,7 @@ static long long whole_of(const koksma__series *s, int k)
     return wholes[k];
 }
 
-/* A result's values in the columns of its kind; NaN in the others. */
+/* Puts a result's values into the columns of its kind, and NaN into the others. */
 static void values_of(const koksma__series *s, const koksma__result *result, double values[N_VALUES])
 {
     const int first = strcmp(s->kind, "coherence") ? 1 : KOKSMA__RESULT_VALUES;
@@ -102,7 +102,7 @@ static void put_csv_header(FILE *f)
 
 /* ---- JSON lines ---------------------------------------------------------------------------------------- */
 
-/* The seed is a text: readers that take numbers for doubles would lose its last bits. */
+/* The seed is written as a string, because readers that parse numbers as doubles would lose its last bits. */
 static koksma_status put_json(void *context, const koksma__series *series, const koksma__result *result)
 {
     writer *w = context;
@@ -215,7 +215,7 @@ static koksma_status put_npy(void *context, const koksma__series *series, const 
 
 typedef struct hasher {
     koksma__sha256 hash;
-    char *text; /* of the stream: some rows */
+    char *text; /* the stream's buffer, which holds the rows not yet hashed */
     size_t size, rows;
     writer writer;
 } hasher;
@@ -254,7 +254,7 @@ koksma_status koksma__rows_sha256(koksma__store *store, char text[KOKSMA__SHA256
     return status;
 }
 
-/* ---- The whole ----------------------------------------------------------------------------------------- */
+/* ---- The export of a store ----------------------------------------------------------------------------- */
 
 static koksma_status write_rows(koksma__store *store, koksma_export_format format, writer *w)
 {

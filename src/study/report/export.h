@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The fingerprint of all rows of a store. */
+/* The SHA-256 of all rows of a store. */
 #ifndef KOKSMA_STUDY_REPORT_EXPORT_H
 #define KOKSMA_STUDY_REPORT_EXPORT_H
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Every number of a report that comes from the store is asked for here: a series is looked up by its key, its trials
- * below the plan's number are read, and they are summed up as a mean with an interval (koksma__summarize). Nothing is
- * kept between calls; SQLite keeps the pages that are asked for again.
+ * Reads every number of a report that comes from the store: looks a series up by its key, reads its trials below the
+ * plan's number of trials, and sums them up as a mean with an interval (koksma__summarize). Nothing is cached
+ * between calls, as SQLite caches the pages of the store.
  */
 #include "study/report/means.h"
 
@@ -33,7 +33,8 @@ koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result
                                                   : koksma__summarize(results->values, n, KOKSMA__RESULT_STRIDE);
 }
 
-/* sets: of point sets, not of images, which a pattern without other sets makes differ all the same. */
+/* sets: whether the series is of point sets. A deterministic pattern has one point set, whose value is exact, but
+   its images differ between trials. */
 static koksma_status mean_of(koksma_study *study, const koksma__series *series, bool sets, long long trials,
                              koksma__result **results, koksma__summary *mean)
 {
@@ -123,7 +124,7 @@ koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, co
     }
     koksma__doc_say(d, ". Up to %lld trials.", block->trials);
     if (block->n_references > 1) {
-        koksma__doc_say(d, " `koksma study export` has the errors against the plan's other references.");
+        koksma__doc_say(d, " `koksma study export` also writes the errors against the plan's other references.");
     }
     koksma__doc_paragraph_end(d);
     return status;

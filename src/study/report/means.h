@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Means of the store's rows over trials, by what a plan calls them. */
+/* Means of the store's rows over trials, looked up by the names that a plan uses. */
 #ifndef KOKSMA_STUDY_REPORT_MEANS_H
 #define KOKSMA_STUDY_REPORT_MEANS_H
 
@@ -9,35 +9,38 @@
 
 enum { KOKSMA__RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };
 
-/* The results of a series that the store has, of trials below `trials`; *results is the caller's, and never NULL. */
+/* Reads the results of a series from the store, for trials below `trials`. The caller frees *results, which is never
+   NULL. */
 koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
                                      koksma__result **results, size_t *n);
 
-/* The summary of the values of a pattern's point sets: of one that has no other set, exact. */
+/* The summary of the values of a pattern's point sets; exact for a deterministic pattern, which has only one set. */
 koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n);
 
-/* The mean of a measure of a block's points; `results` (may be NULL) is the caller's. */
+/* The mean of a measure of a block's points. Unless `results` is NULL, *results gets the single results, which the
+   caller frees. */
 koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discrepancy_block *block, const char *warp,
                                        const char *pattern, long long n, const char *measure,
                                        koksma__result **results, koksma__summary *mean);
 
-/* The mean error of a block's images against its last reference. */
+/* The mean error of a block's images against the block's last reference; `results` as in
+   koksma__discrepancy_mean. */
 koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block *block, const char *scene,
                                  const char *variant, const char *pattern, long long spp, koksma__result **results,
                                  koksma__summary *mean);
 
-/* The mean error of the block's last reference itself; NaN: it is not known. */
+/* The mean error of the block's last reference itself; NaN: unknown. */
 koksma_status koksma__reference_error(koksma_study *study, const koksma__image_block *block, const char *scene,
                                       const char *variant, double *error);
 
-/* A paragraph on what the errors of a case are against: the block's last reference. */
+/* Writes a paragraph that describes the reference of a case's errors, which is the block's last reference. */
 koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, const koksma__image_block *block,
                                     const char *scene, const char *variant);
 
-/* "checker, filter=tent" */
+/* Writes the name of a scene with its options, such as "checker, filter=tent". */
 void koksma__case_name(const char *scene, const char *variant, char *text, size_t size);
 
-/* The mean with its interval. */
+/* The mean of a summary with its interval. */
 koksma__estimate koksma__estimate_of(const koksma__summary *summary);
 
 #endif

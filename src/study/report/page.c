@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The page as the build embeds it: page/page.html with its script, cut where the data go. */
+/* The report's page as the build embeds it: page/page.html with its script, cut in two where the data are
+   inserted. */
 #include "study/report/page.h"
 
 #include <stdio.h>
@@ -17,7 +18,7 @@ const char *koksma__page_after(void)
     return koksma__page_foot;
 }
 
-/* Writes the parts, which end at NULL, to a file of the folder. */
+/* Writes the texts of a NULL-terminated array to a file in the folder. */
 static koksma_status write_file(const char *folder, const char *name, const char *const *parts)
 {
     koksma__atomic_file file;

@@ -5,11 +5,11 @@
 
 #include <koksma/koksma.h>
 
-/* Its text before and after the JSON. */
+/* The page's text before and after the JSON. */
 const char *koksma__page_before(void);
 const char *koksma__page_after(void);
 
-/* Writes report.json with this text and report.html, the page that shows it, into a folder. */
+/* Writes the JSON text as report.json, and the page that shows it as report.html, into a folder. */
 koksma_status koksma__page_write(const char *folder, const char *json);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the tables of papers have in common in a report: a row begins with its label and the printed numbers, each
- * with the number of its note, and has ours with the verdict on the printed mean. Behind the table come its notes,
- * and what its values of z say together: under chance alone their sum over the root of k is normal, and the sum of
- * their squares is chi-squared with k degrees of freedom.
+ * The parts that all published tables have in common in a report: a row begins with its label and the published
+ * numbers, each with the number of its note, and has our numbers with the verdict on the published mean. Below the
+ * table are its notes, and a test of its k values of z together: if the differences are due to chance alone, the sum
+ * of the z over sqrt k is standard normal, and the sum of their squares is chi-squared with k degrees of freedom.
  */
 #include "study/report/published_columns.h"
 
@@ -90,7 +90,7 @@ void koksma__published_verdict(koksma__document *d, const koksma__verdict *v)
 
 void koksma__published_add_z(koksma__z_sums *sums, const koksma__verdict *v, const koksma__cell *cell)
 {
-    /* sets that are all the same differ by rounding alone */
+    /* without a spread, all sets are equal, and the difference is rounding alone */
     if (isfinite(v->z) && cell->sd > 0 && v->kind != KOKSMA_VERDICT_EXPLAINED) {
         sums->count++;
         sums->sum += v->z;
@@ -104,7 +104,7 @@ void koksma__published_say_z(koksma__document *d, const koksma__z_sums *z)
         const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
         koksma__doc_paragraph(d,
                               "The %zu values of z together: their sum over √%zu is %+.1f (by chance between -2 and "
-                              "+2 in 95 %% of tables; beyond, all means are off to one side), and the sum of their "
+                              "+2 in 95 %% of tables; otherwise the means deviate to one side), and the sum of their "
                               "squares is %.1f (by chance below %.1f in 95 %%).",
                               z->count, z->count, z->sum / sqrt(k), z->squares, limit);
     }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The published tables beside what the store has: the cell of a row (mean, SD and maximum over trials), the verdict
- * on the printed mean, and the rows that koksma_study_table_row hands out. A printed mean of a discrepancy agrees
- * where its z, of the errors of both means and the rounding, is below KOKSMA__AGREEMENT_Z; one of an image where it
- * is within KOKSMA__IMAGE_TOLERANCE.
+ * Compares published tables with the store: the cell of a row (mean, SD and maximum over trials), the verdict on the
+ * published mean, and the rows that koksma_study_table_row returns. A published mean of a discrepancy agrees if |z|,
+ * the difference over the errors of both means and the rounding, is below KOKSMA__AGREEMENT_Z; a published mean of
+ * image errors agrees if it is within KOKSMA__IMAGE_TOLERANCE of ours.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ const koksma__image_block *koksma__table_images(const koksma_study *study, const
     return &study->plan.images[table->images];
 }
 
-/* The block of the table's own plan that makes a row; of several the one with the most sets. */
+/* The block of the table's plan that has the results of a row; if several have, the one with the most sets. */
 static const koksma__discrepancy_block *discrepancies_of(const koksma_study *study, const koksma__table *table,
                                                          const char *measure, const char *pattern, long long n)
 {
@@ -44,7 +44,8 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
     const koksma__discrepancy_block *block = discrepancies_of(study, table, measure, pattern, n);
     *cell = (koksma__cell){0};
     if (!block) {
-        return koksma__fail(KOKSMA_MALFORMED, "plan '%s': table %s: no discrepancy block has %s at n = %lld",
+        return koksma__fail(KOKSMA_MALFORMED,
+                            "plan '%s': table %s: no discrepancy block of the plan measures %s at n = %lld",
                             study->plan.name, table->id, measure, n);
     }
     const koksma__series series = {.kind = "discrepancy",
@@ -111,7 +112,7 @@ const char *koksma_study_table_at(const koksma_study *study, size_t i)
     return i < study->plan.n_tables ? study->plan.tables[i].id : NULL;
 }
 
-/* ---- How a printed mean goes with ours ------------------------------------------------------------------- */
+/* ---- Agreement of a published mean with ours ------------------------------------------------------------- */
 
 size_t koksma__table_note(const koksma__table *t, const char *pattern, long long n, int statistic)
 {
@@ -140,7 +141,7 @@ koksma__verdict koksma__table_judge(const koksma__table *t, const koksma__table_
     if (t->scene) {
         v.ratio = cell->mean.mean / printed->value - 1;
         agrees = fabs(v.ratio) <= KOKSMA__IMAGE_TOLERANCE;
-    } else { /* the printed mean is of 100 sets */
+    } else { /* the published mean is over 100 sets */
         v.z = (printed->value - cell->mean.mean) / (sqrt(cell->sd * cell->sd * (0.01 + 1 / n)) + printed->half_digit);
         agrees = fabs(v.z) < KOKSMA__AGREEMENT_Z;
     }
@@ -159,7 +160,7 @@ double koksma__table_printed_slope(const koksma__table *t, const koksma__table_r
            log((double)t->n.at[last] / (double)t->n.at[0]);
 }
 
-/* ---- Rows for the outside -------------------------------------------------------------------------------- */
+/* ---- The public interface -------------------------------------------------------------------------------- */
 
 const char *koksma_study_verdict_name(koksma_study_verdict verdict)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The report of a study: report.json, which holds every number (docs/report-format.md), and report.html, which is the
- * same text inside a page that shows it. What it says follows from the plan and the store alone, so that the same
- * rows give the same bytes, whenever and however often the run was interrupted; the list of runs is one line of the
- * text. The sections come from sections.def. Files are replaced as a whole, the data first.
+ * same text inside a page that shows it. The report depends on the plan and the store alone, so that equal rows give
+ * equal bytes, however often the run was interrupted; only the list of runs, which is one line of the text, may
+ * differ. sections.def lists the sections. Each file is replaced as a whole, report.json first.
  */
 #include <string.h>
 
@@ -25,7 +25,7 @@ static const struct {
 #undef SECTION
 };
 
-/* Appends the sections of one plan, or those of the whole study. */
+/* Appends the sections that are written for each plan, or those of the whole study. */
 static koksma_status add_sections(const koksma__report_scope *scope, bool of_each_plan, koksma__document *d)
 {
     koksma_status status = KOKSMA_OK;
@@ -45,7 +45,7 @@ static koksma_status add_sections(const koksma__report_scope *scope, bool of_eac
     return status;
 }
 
-/* What is of one plan: under its title and description where there are several. */
+/* Appends the sections of one plan, under the plan's title and description if the study has several plans. */
 static koksma_status add_plan(const koksma__report_scope *scope, koksma__document *d)
 {
     const koksma__plan_part *plan = koksma__plan_of(scope);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The same means over parts of the cases: a scene, a group of scenes that the plan names, a number of samples. A row
-   has the mean of every measure, the best of them, and those that are surely worse than it by Holm over the pairs of
-   measures in that row. */
+/* Tables of the measures' mean rank correlations over parts of the cases: the cases of one scene, of a group of
+   scenes that the plan names, or of one number of samples. A row has the mean of every measure, the best measure,
+   and the measures that are significantly worse than the best, by Holm's method over the pairs of measures in that
+   row. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,14 +12,14 @@
 #include "study/plan/plan_owned.h"
 #include "study/report/rho_breakdowns.h"
 
-/* A part of the cases: one table has many. */
+/* A part of the cases, which is a row of a table. */
 typedef struct part {
     char name[160];
-    bool *scenes; /* NULL: all */
-    long long spp;
+    bool *scenes;  /* which scenes the part has; NULL: all */
+    long long spp; /* 0: all numbers of samples */
 } part;
 
-/* Appends to a text of limited size; what has no room is left out. */
+/* Appends `between` and `more` to a text of limited size, or nothing if they do not fit. */
 static void append(char *text, size_t size, const char *between, const char *more)
 {
     const size_t used = strlen(text);
@@ -85,8 +86,8 @@ static koksma_status add_table(koksma__document *d, const koksma__rho_means *s, 
     return status;
 }
 
-/* Fills in the parts that correlations are broken down into: one for each scene, group and number of samples; `masks` are
-   the scenes of each. */
+/* Fills in the parts: one for each scene, each group of scenes and each number of samples. masks: storage for the
+   scenes of the parts. */
 static void set_parts(const koksma__topic *topic, const koksma__rho_means *s, part *parts, bool *masks)
 {
     part *at = parts;

@@ -6,8 +6,9 @@
 #include "study/report/questions/topic.h"
 #include "study/report/rho_ranking.h"
 
-/* A table of the means by scene, by the plan's groups of scenes and by number of samples, each where there are two or
-   more, with the best of each and those that are surely worse. Errors: MEMORY. */
+/* Writes a table of the means by group of scenes if the plan has groups, one by scene if there are two or more
+   scenes, and one by number of samples if there are two or more. Each row names its best measure and those that are
+   significantly worse. Errors: MEMORY. */
 koksma_status koksma__rho_breakdowns(koksma__document *d, const koksma__topic *topic, const koksma__rho_means *s);
 
 #endif

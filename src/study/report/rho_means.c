@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sums of rank correlations. A measure has a cell for each scene and number of samples, found by linear search: there
-   are few. */
+/* Sums of rank correlations. A measure has a cell for each scene and number of samples; the cells are few, so linear
+   search finds them. */
 #include "study/report/rho_means.h"
 #include "stats/bootstrap.h"
 
@@ -11,7 +11,7 @@
 #include "core/capacity.h"
 #include "core/status.h"
 
-/* The sums of a measure; NULL: no memory. */
+/* Finds or adds the sums of a measure; NULL: no memory. */
 static koksma__rho_sums *sums_of(koksma__rho_means *s, const char *measure)
 {
     for (size_t m = 0; m < s->n; m++) {
@@ -60,7 +60,7 @@ static koksma_status add_size(koksma__rho_means *s, long long spp)
     return KOKSMA_OK;
 }
 
-/* The cell of a scene and number of samples; NULL: no memory. */
+/* Finds or adds the cell of a scene and a number of samples; NULL: no memory. */
 static koksma__rho_cell *cell_of(koksma__rho_sums *of, size_t scene, long long spp)
 {
     for (size_t c = 0; c < of->n_cells; c++) {
@@ -125,7 +125,7 @@ static double mean_rho(const koksma__rho_sums *m)
     return m->all ? m->total / (double)m->all : (double)NAN;
 }
 
-/* Insertion sorts: there are few. */
+/* Uses insertion sort, because measures and numbers of samples are few. */
 void koksma__rho_order(koksma__rho_means *s)
 {
     for (size_t m = 1; m < s->n; m++) {

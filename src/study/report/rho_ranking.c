@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rankings of measures. A measure's mean over the chosen cases is a sum of cells, also in each resample. Two means
- * differ significantly where the p-value of their difference, from the resamples and adjusted by Holm's method, is
- * at most 0.05. Holm's method counts all pairs of measures, not only those with the best, because the best is found
- * in the same data. A statement about all scenes is made only if it holds also without each single scene: these are
- * the jackknife's subsets (Efron 1982), used as a check, not for a variance.
+ * Rankings of measures by their mean rank correlation with the image error. A measure's mean over the chosen cases
+ * is computed from sums of cells, also in each resample. Two means differ significantly where the p-value of their
+ * difference, from the resamples and adjusted by Holm's method, is at most 0.05. Holm's method counts all pairs of
+ * measures, not only those with the best, because the best is found in the same data. A statement about all scenes
+ * is made only if it holds also without each single scene: these are the jackknife's subsets (Efron 1982), used as a
+ * check, not for a variance.
  */
 #include "study/report/rho_ranking.h"
 #include "stats/bootstrap.h"
@@ -22,7 +23,7 @@ static bool is_in(const koksma__rho_subset *of, const koksma__rho_cell *cell)
     return (!of->scenes || of->scenes[cell->scene]) && (!of->spp || of->spp == cell->spp);
 }
 
-/* A measure's mean over the subset, and its resamples; cases 0: none. */
+/* Computes a measure's mean over the subset, and its resamples; out->cases = 0: the measure has no such cases. */
 static koksma_status stand(const koksma__rho_sums *m, const koksma__rho_subset *of, double *draws,
                            koksma__rho_standing *out)
 {
@@ -56,7 +57,7 @@ static koksma_status stand(const koksma__rho_sums *m, const koksma__rho_subset *
     return status;
 }
 
-/* The p of all pairs that can be compared, by Holm. */
+/* Computes the p-values of all pairs of measures that can be compared, adjusted by Holm's method. */
 static koksma_status compare_pairs(koksma__rho_ranking *r, double *const *draws)
 {
     const size_t n = r->n;
@@ -164,7 +165,7 @@ void koksma__rho_ranking_fini(koksma__rho_ranking *r)
     *r = (koksma__rho_ranking){0};
 }
 
-/* The place of a measure; n: it has none. */
+/* The index of a measure in the ranking; n: it is not ranked. */
 static size_t place_of(const koksma__rho_ranking *r, size_t measure)
 {
     size_t i = 0;

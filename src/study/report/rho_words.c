@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The answer over all cases. Every statement is checked on the rankings over all scenes and without each one
- * (koksma__rho_always_...): one that fails without some scene is not made, and the sentence says so.
+ * Writes which measures predict the image error over all cases. Every statement is checked on the rankings over all
+ * scenes and without each scene (koksma__rho_always_...). A statement that does not hold without some scene is not
+ * made, and the text says so.
  */
 #include "study/report/rho_words.h"
 #include "stats/bootstrap.h"
@@ -16,7 +17,7 @@ static double mean_of(const koksma__rho_sums *of)
     return of->total / (double)of->all;
 }
 
-/* "a", "a and b", "a, b and c": the text before item i of n. */
+/* The text before item i of n in an enumeration such as "a, b and c". */
 static const char *between(size_t i, size_t n)
 {
     return i == 0 ? "" : i + 1 < n ? ", " : " and ";
@@ -27,7 +28,7 @@ static const char *whichever(const koksma__rho_jackknife *j)
     return j->n > 1 ? ", whichever one scene is left out" : "";
 }
 
-/* The mean correlation and how many cases it is of, with and without an interval. */
+/* Writes the mean correlation and the number of its cases with and without an interval. */
 static void say_cases(koksma__document *d, const koksma__rho_sums *of)
 {
     if (of->all == 1) {
@@ -49,7 +50,8 @@ static void say_cases(koksma__document *d, const koksma__rho_sums *of)
     }
 }
 
-/* Which measure comes first without each scene, where that is another one than over all. */
+/* Names the measure that comes first without a scene, for each scene where it differs from the first over all
+   scenes. */
 static void say_other_firsts(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     for (size_t i = 1; i < j->n; i++) {
@@ -59,7 +61,7 @@ static void say_other_firsts(koksma__document *d, const koksma__rho_means *s, co
     }
 }
 
-/* Which measure comes first, and whether that depends on one scene. */
+/* Writes which measure comes first, and whether that depends on a single scene. */
 static void say_first(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     const size_t first = j->of[0].at[0].measure;
@@ -84,7 +86,7 @@ static void say_first(koksma__document *d, const koksma__rho_means *s, const kok
     }
 }
 
-/* The measures whose mean is surely above 0. */
+/* Writes the measures whose mean is significantly above 0. */
 static void say_predictors(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     size_t always = 0, sure = 0, named = 0;
@@ -104,7 +106,7 @@ static void say_predictors(koksma__document *d, const koksma__rho_means *s, cons
     }
 }
 
-/* The measures that measure a is surely better than. */
+/* Writes the measures that measure a is significantly better than. */
 static void say_worse(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j, size_t a,
                       const char **before)
 {
@@ -123,7 +125,7 @@ static void say_worse(koksma__document *d, const koksma__rho_means *s, const kok
     }
 }
 
-/* Which measures are surely better than which. */
+/* Writes all pairs of measures of which one is significantly better. */
 static void say_pairs(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     size_t always = 0, sure = 0;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The sentence on the slopes of one measure or scene: the pattern that falls fastest or, where others are not told
- * apart from it (the interval of the difference of two slopes has 0), those of them whose slopes are known best, and
- * how many trials would tell two of them apart; how many fall faster than random points (or N^-1/2), how many follow
- * no power law, and which have means of 0. Of a quality or a distance no slope is the best.
+ * Writes the sentence on the slopes of one measure or scene. It names the pattern whose values fall fastest. If
+ * other patterns are tied with it (the interval of the difference of two slopes contains 0), it names those of the
+ * tied patterns whose slopes have the narrowest intervals, and how many trials would separate two of them. The
+ * sentence also gives the number of patterns that fall faster than random points (or N^-1/2), the number that follow
+ * no power law, and the patterns with means of 0. For measures of quality or distance no slope is called the best.
  */
 #include "study/report/slope_words.h"
 
@@ -15,10 +16,11 @@
 
 enum { NAMED = 4, NAMED_ZEROS = 12 };
 
-/* The patterns that have a slope. */
+/* The result for all patterns that have a slope. `counted`, `tied`, `faster` and `off_line` are numbers of
+   patterns. */
 typedef struct standing {
-    size_t counted, best, tied, faster, off_line; /* tied: the best and those that are not told apart from it */
-    size_t random;                                /* n: none */
+    size_t counted, best, tied, faster, off_line; /* tied: the best pattern and those tied with it */
+    size_t random;                                /* index of a pattern of random points; n: none */
 } standing;
 
 static double half(const koksma__estimate *e)
@@ -26,14 +28,14 @@ static double half(const koksma__estimate *e)
     return e->high - e->value;
 }
 
-/* Not told apart: the interval of the difference of two slopes, as independent as their trials, has 0; or they are
-   equal; or one has no interval. */
+/* Whether two slopes are tied: the interval of the difference of the slopes, taken as independent, contains 0, or
+   the slopes are equal, or one of them has no interval. */
 static bool are_tied(const koksma__estimate *a, const koksma__estimate *b)
 {
     return !koksma__compare(a->value, b->value) || !(fabs(a->value - b->value) > hypot(half(a), half(b)));
 }
 
-/* Independent points without strata. */
+/* Whether a pattern consists of independent points without strata. */
 static bool is_random(const char *pattern)
 {
     koksma_spec spec;
@@ -71,14 +73,16 @@ static void say_power(koksma__document *d, const koksma__estimate *e)
     }
 }
 
-/* Whether pattern i comes before j: by the widths of the intervals, those without one last. */
+/* Whether pattern i is named before pattern j: those with narrower intervals first, those without an interval
+   last. */
 static bool is_known_better(const koksma__slopes *of, size_t i, size_t j)
 {
     const double x = half(&of->trends[i].slope), y = half(&of->trends[j].slope);
     return x < y || (isnan(y) && !isnan(x)) || (!(y < x) && isnan(x) == isnan(y) && i < j);
 }
 
-/* Of those that are not told apart from the best the next behind `after` (n: the first); n: none. */
+/* The next pattern to name after pattern `after` among those tied with the best. after = n: the first; returns n if
+   there is none. */
 static size_t next_tied(const koksma__slopes *of, const standing *s, size_t after)
 {
     size_t next = of->n;
@@ -92,7 +96,8 @@ static size_t next_tied(const koksma__slopes *of, const standing *s, size_t afte
     return next;
 }
 
-/* What would tell two slopes apart: more trials, or more sizes where a pattern has one set of each. */
+/* Writes what would separate two slopes: more trials, or more sizes if a pattern is deterministic and so has a
+   single set of each size. */
 static void say_trials(koksma__document *d, const koksma__slopes *of, size_t a, size_t b)
 {
     const koksma__estimate *x = &of->trends[a].slope, *y = &of->trends[b].slope;
@@ -108,7 +113,7 @@ static void say_trials(koksma__document *d, const koksma__slopes *of, size_t a, 
     }
 }
 
-/* The patterns whose intervals do not exclude that they fall fastest, narrow intervals first; at most NAMED by name. */
+/* Writes the patterns that are tied with the fastest, narrow intervals first; names at most NAMED of them. */
 static void say_tied(koksma__document *d, const koksma__slopes *of, const standing *s)
 {
     size_t named = 0, at = of->n, first = of->n, second = of->n;
@@ -143,7 +148,7 @@ static void say_fastest(koksma__document *d, const koksma__slopes *of, const sta
     }
 }
 
-/* Those with a mean of 0, no more than NAMED_ZEROS by name. */
+/* Writes the patterns that have means of 0; names at most NAMED_ZEROS of them. */
 static void say_zeros(koksma__document *d, const koksma__slopes *of)
 {
     size_t with = 0;

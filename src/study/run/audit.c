@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The audit of a study: rows are drawn at random, made again from their keys, and compared bit for bit. Every series
- * whose key still makes something becomes a block of a plan (audit_series.c), and the jobs run as those of a study do,
- * on threads or MPI ranks; a sink takes the results in place of the store. Rows are drawn without replacement by
- * selection sampling (Knuth, TAOCP 2, 3.4.2, algorithm S), in the order of their ids.
+ * The audit of a study: rows of the store are drawn at random, computed again from their keys, and compared bit for
+ * bit. Every series whose key can still be computed becomes a block of a plan (audit_series.c). The jobs run as
+ * those of a study do, on threads or MPI ranks, but their results go to a sink that compares them instead of to the
+ * store. Rows are drawn without replacement, in the order of their ids, by selection sampling (Knuth, TAOCP 2,
+ * 3.4.2, algorithm S).
  *
- * If k of n drawn rows are wrong, the part p that is wrong is below the Clopper & Pearson limit with 95 % confidence:
- * the p for which k or fewer among n have the probability 5 % (binomial, which for draws without replacement is on the
- * safe side). For k = 0 that is 1 - 0.05^(1/n).
+ * If k of n drawn rows are wrong, the proportion of wrong rows in the store is below the Clopper & Pearson limit
+ * with 95 % confidence: the p for which k or fewer wrong rows among n have the probability 5 % by the binomial
+ * distribution, which is conservative for draws without replacement. For k = 0 the limit is 1 - 0.05^(1/n).
  */
 #include <math.h>
 #include <pthread.h>
@@ -34,7 +35,7 @@ typedef struct audit {
     koksma_study *study;
     koksma__audit_list list;
     pthread_mutex_t lock; /* guards *out and the caller's function */
-    long long seen;       /* rows that the draw has passed */
+    long long seen;       /* number of rows that the draw has considered */
 } audit;
 
 static void differ(audit *a, const char *format, ...) KOKSMA_PRINTF(2, 3);
@@ -80,7 +81,7 @@ static void draw_row(void *context, long long id, long long trial)
     }
 }
 
-/* The largest part of wrong rows that k among n leave possible. */
+/* The upper 95 % confidence limit of the proportion of wrong rows if k of n drawn rows are wrong. */
 static double upper_limit(long long k, long long n)
 {
     double low = 0, high = 1;
@@ -105,7 +106,7 @@ static koksma__audit_group *group_of(audit *a, const koksma__task *t)
                     : &a->list.discrepancies[t->discrepancy - plan->discrepancies];
 }
 
-/* The values of a series in a row of the store: four of an image, one of a measure. */
+/* Reads the values of a series in a row of the store: an image has four values, a measure one. */
 static koksma_status stored(audit *a, const koksma__audit_series *s, bool image, koksma__result *out, bool *found)
 {
     const long long place = image ? 0 : s->id % KOKSMA__AUDIT_MEMBERS;
@@ -118,7 +119,7 @@ static koksma_status stored(audit *a, const koksma__audit_series *s, bool image,
     return status;
 }
 
-/* A row whose seed is not the hash of its key was not made from it. */
+/* Checks that the row's seed is the hash of its key; otherwise the row was not computed from that key. */
 static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__audit_series *s, long long trial,
                                 bool *right)
 {
@@ -129,12 +130,12 @@ static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__a
     *right = row.seed == koksma__task_seed(t, trial) && trial < t->trials;
     if (!status && !*right) {
         koksma__audit_name(&s->key, trial, name, sizeof name);
-        differ(a, "%s: no run makes it with the seed %llu", name, (unsigned long long)row.seed);
+        differ(a, "%s: no run uses the seed %llu for this row", name, (unsigned long long)row.seed);
     }
     return status;
 }
 
-/* Only what was drawn is to be done. */
+/* Marks all jobs as done except those of the drawn rows. */
 static koksma_status look_up(void *context, koksma__tasks *tasks)
 {
     audit *a = context;
@@ -159,7 +160,8 @@ static koksma_status look_up(void *context, koksma__tasks *tasks)
     return status;
 }
 
-/* The other series of a job are compared, too, but not counted: the draw was not of them. */
+/* Compares a job's results with the store. A job may also compute series that were not drawn: they are compared, but
+   not counted as drawn rows that agree. */
 static koksma_status put_job(void *context, const koksma__task *t, const koksma__result *results)
 {
     audit *a = context;
@@ -196,8 +198,8 @@ static koksma_status put_job(void *context, const koksma__task *t, const koksma_
 
 /* ---- References ---------------------------------------------------------------------------------------- */
 
-/* Compares a reference image's file, if there is one, with the hash of its pixels; *same: they agree. A file that
-   cannot be read counts as a difference. */
+/* Compares a reference image's file, if there is one, with the hash of the pixels rendered now; sets *same to false
+   if they differ. A file that cannot be read counts as a difference. */
 static koksma_status check_file(audit *a, const koksma__reference_image *reference, const char *pixels,
                                 const char *name, bool *same)
 {
@@ -255,7 +257,7 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
     return status;
 }
 
-/* ---- The whole ----------------------------------------------------------------------------------------- */
+/* ---- The whole audit ----------------------------------------------------------------------------------- */
 
 static koksma_status list_series(audit *a)
 {
@@ -303,8 +305,8 @@ static koksma_status compare(audit *a, const koksma_run *run)
     koksma_status status = koksma__store_scan(a->study->store, draw_row, a);
     status = koksma__run_kind(a->study, false, &control, status, &summary, &failures);
     status = koksma__run_kind(a->study, true, &control, status, &summary, &failures);
-    if (status &&
-        !koksma__ends_all(status)) { /* a reference that can't be made: a store must not choose the exit code */
+    /* A reference failed: count it as a difference, so that the content of a store does not choose the exit code. */
+    if (status && !koksma__ends_all(status)) {
         differ(a, "%s", koksma_error_text());
         status = KOKSMA_OK;
     }
@@ -327,7 +329,7 @@ koksma_status koksma_study_audit(const koksma_audit_options *options, const koks
     KOKSMA__REQUIRE_RUN(run);
     *out = (koksma_audit){0};
     KOKSMA__FAIL_IF(!options->folder || strlen(options->folder) > 1000 || options->rows < 0, KOKSMA_ARGUMENT,
-                    "an audit takes a study's folder, and a number of rows");
+                    "an audit needs a study's folder, and a number of rows that is not negative");
     a.study = calloc(1, sizeof *a.study);
     if (!a.study || !(a.study->folder = strdup(options->folder))) {
         free(a.study);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The series of a store become a plan again: a block of a plan for each row of table result (up to four measures of
-   one point set), and for each image with one reference, whose error and coherence are two rows. Its jobs are those of
-   a run. An image with several references is rendered once for each. */
+/* Builds a plan from the series of a store: one block for each row of table `result` (up to four measures of one
+   point set), and one for each image with one reference, whose error and coherence are two rows. The jobs of this
+   plan are those of a run, except that an image with several references is rendered once for each reference. */
 #include "study/run/audit_series.h"
 
 #include <limits.h>
@@ -14,12 +14,13 @@
 #include "study/plan/made_by.h"
 #include "study/run/references.h"
 
-/* Trials are made in their order: one far above the others is damage. */
+/* Runs compute trials in ascending order, so a trial number far above the number of rows means that the store is
+   damaged. */
 static const long long MOST_HOLES = 100000;
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
-/* The texts of a key, for who copies or frees them. */
+/* Stores the addresses of a key's strings, so that the caller can copy or free them. */
 static void texts_of(koksma__series *key, const char **texts[8])
 {
     const char **const all[8] = {&key->kind,    &key->scene, &key->scene_hash, &key->options,
@@ -100,9 +101,9 @@ void koksma__audit_name(const koksma__series *key, long long trial, char *text, 
              key->what, trial);
 }
 
-/* ---- What can be made again ---------------------------------------------------------------------------- */
+/* ---- Checks of series ---------------------------------------------------------------------------------- */
 
-/* Whether rows and reference of an image have options that the renderer takes. */
+/* Checks that the renderer accepts the options of an image and of its reference. */
 static koksma_status check_image(const koksma__study_scene *scene, const koksma__series *key)
 {
     char name[KOKSMA_MAX_SPEC], pattern[KOKSMA_MAX_SPEC];
@@ -112,8 +113,8 @@ static koksma_status check_image(const koksma__study_scene *scene, const koksma_
     koksma_status status = koksma__reference_parse(key->what, name, pattern, &spp, &replicates);
     if (!status && (key->n > INT_MAX || spp > INT_MAX || key->width < 1 || key->height < 1 ||
                     key->width > KOKSMA_MAX_IMAGE_SIDE || key->height > KOKSMA_MAX_IMAGE_SIDE)) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "no such image: %lld x %lld pixels, %lld samples", key->width,
-                              key->height, key->n);
+        status = koksma__fail(KOKSMA_ARGUMENT, "the image is too large or empty: %lld x %lld pixels, %lld samples",
+                              key->width, key->height, key->n);
     }
     if (!status) {
         const koksma__picture row = {key->pattern, key->options, false, key->n, width, height, 0};
@@ -139,10 +140,11 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
         return KOKSMA_OK;
     }
     if (!status && series->end > MOST_HOLES + MOST_HOLES * series->rows) {
-        status = koksma__fail(KOKSMA_MALFORMED, "a trial %lld of %lld", series->end - 1, series->rows);
+        status = koksma__fail(KOKSMA_MALFORMED, "the trial number %lld is too large for a series of %lld rows",
+                              series->end - 1, series->rows);
     }
     if (!status && !image && (key->dim < 1 || key->dim > KOKSMA_MAX_DIM)) {
-        status = koksma__fail(KOKSMA_DIM, "no points of %lld dimensions", key->dim);
+        status = koksma__fail(KOKSMA_DIM, "point sets of %lld dimensions are not supported", key->dim);
     }
     if (!status && image) {
         status = koksma__study_open_scene(study, key->scene);
@@ -152,7 +154,7 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
         koksma__hash_with_points(&list->files, scene ? scene->hash : "", key->pattern, hash);
         status = !strcmp(hash, key->scene_hash)
                      ? KOKSMA_OK
-                     : koksma__fail(KOKSMA_MALFORMED, "its scene, or the file of its points, is another one now");
+                     : koksma__fail(KOKSMA_MALFORMED, "its scene, or the file of its points, has changed since");
     }
     status = !status && scene ? check_image(scene, key) : status;
     series->state = status ? KOKSMA__AUDIT_WRONG : KOKSMA__AUDIT_OURS;
@@ -179,7 +181,7 @@ static koksma_status set_whole(koksma__wholes *wholes, long long value)
     return KOKSMA_OK;
 }
 
-/* A new block, zero, and its group. */
+/* Adds a zeroed block to the plan, and its group; returns the block, or NULL without memory. */
 static void *add_block(void **blocks, size_t *n, size_t size, koksma__audit_group **groups)
 {
     size_t n_groups = *n;
@@ -191,7 +193,7 @@ static bool has_points_of(const koksma__series *a, const koksma__series *b)
     return !strcmp(a->pattern, b->pattern) && !strcmp(a->options, b->options) && a->n == b->n && a->dim == b->dim;
 }
 
-/* A measure goes into the block of its row, which the series before it may have begun. */
+/* Adds a measure to the block of its row in the store; begins the block unless the previous series did. */
 static koksma_status add_measure(koksma__plan *plan, koksma__audit_list *list, koksma__audit_series *s,
                                  long long *row)
 {
@@ -240,7 +242,7 @@ static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, con
     return status ? status : r->name && r->pattern ? KOKSMA_OK : koksma__fail_memory(strlen(pattern));
 }
 
-/* Orders images by all of their keys, an image before its coherence. */
+/* Orders images by all parts of their keys; the error of an image comes before its coherence. */
 static int compare_images(const void *a, const void *b)
 {
     koksma__series s = (*(koksma__audit_series *const *)a)->key, t = (*(koksma__audit_series *const *)b)->key;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What an audit compares: the series of a store, and the plan whose jobs make their rows again. */
+/* The series of a store that an audit compares, and the plan whose jobs compute their rows again. */
 #ifndef KOKSMA_STUDY_RUN_AUDIT_SERIES_H
 #define KOKSMA_STUDY_RUN_AUDIT_SERIES_H
 
@@ -8,46 +8,48 @@
 #include "study/run/tasks.h"
 
 typedef enum koksma__audit_state {
-    KOKSMA__AUDIT_OURS,  /* can be made again */
-    KOKSMA__AUDIT_OTHER, /* other revisions made it */
-    KOKSMA__AUDIT_WRONG  /* nothing makes it: its key is none, or its scene or points are others now */
+    KOKSMA__AUDIT_OURS,  /* this build can compute the series again */
+    KOKSMA__AUDIT_OTHER, /* other revisions of the pattern or the measure computed the series */
+    KOKSMA__AUDIT_WRONG  /* the series cannot be computed: its key is invalid, or its scene or points have changed */
 } koksma__audit_state;
 
 typedef struct koksma__audit_series {
-    koksma__series key;      /* its texts are copies */
-    long long id, rows, end; /* end: all its trials are below */
+    koksma__series key;      /* its strings are owned copies */
+    long long id, rows, end; /* end: one above the series' largest trial */
     koksma__audit_state state;
-    unsigned char *drawn; /* a bit a trial */
+    unsigned char *drawn; /* one bit per trial: drawn for the audit */
 } koksma__audit_series;
 
-/* The series that a job makes: a row of table result, or the error of an image and its coherence. */
+/* The series that one job computes: the measures in a row of table `result`, or the error and coherence of an
+   image. */
 enum { KOKSMA__AUDIT_MEMBERS = KOKSMA__RESULT_VALUES };
 typedef struct koksma__audit_group {
-    koksma__audit_series *members[KOKSMA__AUDIT_MEMBERS]; /* NULL: none */
+    koksma__audit_series *members[KOKSMA__AUDIT_MEMBERS]; /* NULL: unused entry */
 } koksma__audit_group;
 
 typedef struct koksma__audit_list {
     size_t n;
-    koksma__audit_series *at;                    /* by their ids */
-    koksma__audit_group *discrepancies, *images; /* of the plan's blocks */
+    koksma__audit_series *at;                    /* sorted by id */
+    koksma__audit_group *discrepancies, *images; /* one group per block of the plan */
     koksma__point_files files;
 } koksma__audit_list;
 
-/* Reads the series and counts their rows. */
+/* Reads all series of the store and counts their rows. */
 koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *list);
 void koksma__audit_list_fini(koksma__audit_list *list);
 
-/* The series with an id; NULL: none. */
+/* Finds the series with the given id; NULL if there is none. */
 koksma__audit_series *koksma__audit_find(const koksma__audit_list *list, long long id);
 
-/* Sets the state of a series, and opens its scene. Fails where it is WRONG: the text says why. other: made by. */
+/* Sets the state of a series and opens its scene. Fails if the state is WRONG; the error text gives the reason.
+   *here: the revisions of this build. */
 koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list, koksma__audit_series *series,
                                   koksma__made_by *here);
 
-/* Makes study->plan of the series that are OURS: a block for each group. */
+/* Builds study->plan from the series whose state is OURS: one block for each group. */
 koksma_status koksma__audit_plan(koksma_study *study, koksma__audit_list *list);
 
-/* "image checker, jittered, n = 4, 8 x 6, a:regular@4x1, trial 2". */
+/* Writes a readable name of a row, such as "image checker, jittered, n = 4, 8 x 6, a:regular@4x1, trial 2". */
 void koksma__audit_name(const koksma__series *key, long long trial, char *text, size_t size);
 
 #endif

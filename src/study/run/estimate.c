@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a study would cost. Some jobs are timed until the time for it is up, and every other task is taken to cost
- * what the nearest timed one of the same block and scene costs, by the power of n that its pattern showed between two
- * timed numbers (before there are two: 1 for renders, 2 for point sets). Nearest is the one whose n, pattern and
- * variant tell the most (distance()). First the smallest n of every block and scene is timed; then, again and again,
- * the task whose cost in the study is the largest and the least certain, among those that fit into the time that is
- * left.
+ * Estimates the cost of a study. Some jobs are timed until the time for the estimate is used up. Every other task is
+ * assumed to cost what the nearest timed task of its block and scene costs, scaled by a power of n: the power that
+ * the pattern showed between two timed values of n or, before two are timed, 1 for renders and 2 for point sets.
+ * distance() defines the nearest task by n, pattern and variant. First the smallest n of every block and scene is
+ * timed; then, repeatedly, the task whose total cost is the largest and least certain among those that fit into the
+ * time left.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,21 +18,21 @@
 #include "study/run/run_control.h"
 #include "study/run/tasks.h"
 
-/* Bytes of a row of table result with its share of the tree, and of each of its up to VALUES values (measured on 1e5
-   rows of each kind); of a reference's pixel. */
+/* Bytes of a row of table `result` with its share of the B-tree, of each of its up to VALUES values (both measured
+   on 1e5 rows of each kind), and of each channel of a reference's pixel. */
 static const double ROW = 34, VALUE = 8, REFERENCE_PIXEL = 4;
 enum { VALUES = KOKSMA__RESULT_VALUES };
 
 typedef struct guess {
     koksma__task *task;
-    size_t nearest; /* the timed task that it is taken from; itself when it was timed, NONE */
-    double seconds; /* of a job */
+    size_t nearest; /* index of the timed task that the estimate is based on (a timed task's own index), or NONE */
+    double seconds; /* the time of one job of the task */
 } guess;
 
 enum { NONE = -1 };
 
 typedef struct guesses {
-    guess *at; /* those of few points first */
+    guess *at; /* sorted by n, ascending */
     size_t n;
 } guesses;
 
@@ -42,7 +42,7 @@ static int by_n(const void *a, const void *b)
     return s->n != t->n ? (s->n > t->n) - (s->n < t->n) : (s->place > t->place) - (s->place < t->place);
 }
 
-/* Tasks that tell something of each other. */
+/* Whether the time of one task is used to estimate that of the other. */
 static bool same_block(const koksma__task *s, const koksma__task *t)
 {
     return s->image == t->image && s->discrepancy == t->discrepancy && s->scene == t->scene;
@@ -58,15 +58,16 @@ static bool is_timed(const guesses *g, size_t i)
     return g->at[i].nearest == i;
 }
 
-/* How little one task tells of another of its block: another variant about as little as 1.4 times the points, another
-   pattern as twice as many. */
+/* The distance of two tasks of one block: |log2| of the ratio of their n, plus 1/2 for different variants (like 1.4
+   times the points), plus 1 for different patterns (like twice the points). */
 static double distance(const koksma__task *s, const koksma__task *t)
 {
     return fabs(log2((double)s->n / (double)t->n)) + (strcmp(s->pattern, t->pattern) ? 1 : 0) +
            (strcmp(s->variant, t->variant) ? 0.5 : 0);
 }
 
-/* The power of n by which timed task i grows towards n: to the timed one of its kind that is nearest to it. */
+/* The power of n by which the time of timed task i grows towards n, from the nearest timed task of the same pattern
+   and variant, preferably on that side; otherwise the default power. */
 static double power_at(const guesses *g, size_t i, long long n)
 {
     const koksma__task *t = g->at[i].task;
@@ -76,7 +77,7 @@ static double power_at(const guesses *g, size_t i, long long n)
         const koksma__task *other = g->at[j].task;
         if (is_timed(g, j) && other->n != t->n && same_kind(other, t)) {
             const double ratio = log((double)other->n / (double)t->n);
-            const double far = fabs(ratio) + ((ratio > 0) == up ? 0 : 100); /* the far side is better than nothing */
+            const double far = fabs(ratio) + ((ratio > 0) == up ? 0 : 100); /* other side: a last resort */
             if (far < best) {
                 best = far;
                 power = log(g->at[j].seconds / g->at[i].seconds) / ratio;
@@ -86,7 +87,7 @@ static double power_at(const guesses *g, size_t i, long long n)
     return fmin(fmax(power, 0), 3);
 }
 
-/* What is known now of the tasks that task `timed` tells something of. */
+/* Updates the estimates of all tasks in the block of task `timed`, which has just been timed. */
 static void learn(guesses *g, size_t timed)
 {
     g->at[timed].nearest = timed;
@@ -106,7 +107,7 @@ static void learn(guesses *g, size_t timed)
     }
 }
 
-/* A picture of zeros in place of a reference: it only has to have its size. */
+/* Puts a black picture of the right size in place of each reference, because timing needs only the size. */
 static koksma_status stand_in(koksma_study *study, const koksma__task *task)
 {
     koksma_status status = KOKSMA_OK;
@@ -119,7 +120,8 @@ static koksma_status stand_in(koksma_study *study, const koksma__task *task)
     return status;
 }
 
-/* One timing may be anything on a machine with other work: trials are timed until they took LONG_JOB together. */
+/* A single timing is unreliable on a busy machine: up to MOST_LOOKS trials are timed, until they took LONG_JOB
+   seconds together. */
 enum { MOST_LOOKS = 9 };
 static const double LONG_JOB = 0.02;
 
@@ -129,7 +131,7 @@ static int compare_seconds(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median of several trials, in processor time: that is what a thread of its own would take. */
+/* The median processor time of several trials, which is the time of a job on an undisturbed thread. */
 static koksma_status time_job(koksma_study *study, const koksma__task *task, const koksma_run *job, double *seconds)
 {
     double looks[MOST_LOOKS], all = 0;
@@ -139,7 +141,7 @@ static koksma_status time_job(koksma_study *study, const koksma__task *task, con
     for (; !status && n < MOST_LOOKS && (n == 0 || all < LONG_JOB); n++) {
         const double start = koksma__thread_s();
         status = koksma__task_do(study, task, n % task->trials, job, results);
-        status = status == KOKSMA_IMPOSSIBLE ? KOKSMA_OK : status; /* that takes its time, too */
+        status = status == KOKSMA_IMPOSSIBLE ? KOKSMA_OK : status; /* a failing job takes time, too */
         looks[n] = koksma__thread_s() - start;
         all += looks[n];
     }
@@ -161,7 +163,8 @@ static void add_task(const koksma__task *t, double seconds, koksma_study_cost *c
     cost->bytes += trials * (ROW * (double)rows + VALUE * (double)values);
 }
 
-/* A reference takes the time of the tasks that are compared with it, sample for sample. */
+/* Adds the references that a task is compared with and that were not counted before. A sample of a reference is
+   assumed to take as long as a sample of the task. */
 static void add_references(koksma_study *study, const koksma__task *t, double seconds, bool *counted,
                            koksma_study_cost *cost)
 {
@@ -186,7 +189,7 @@ static koksma_status time_and_learn(koksma_study *study, guesses *g, size_t i, c
     return status;
 }
 
-/* The task whose timing would tell the most and be done before the end; g->n: there is none. */
+/* Chooses the task whose timing reduces the uncertainty most and fits into left_s seconds; g->n if there is none. */
 static size_t choose(const guesses *g, double left_s)
 {
     double most = 0;
@@ -241,7 +244,7 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
         qsort(g.at, g.n, sizeof *g.at, by_n);
         status = time_tasks(study, &g, run, budget_s);
     }
-    for (size_t i = g.n; !status && i-- > 0;) { /* a reference has many samples */
+    for (size_t i = g.n; !status && i-- > 0;) { /* tasks of large n first: a reference has many samples */
         add_task(g.at[i].task, g.at[i].seconds, cost);
         add_references(study, g.at[i].task, g.at[i].seconds, counted, cost);
     }
@@ -264,7 +267,7 @@ koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, 
     const double left_s = budget_s - (koksma__now_s() - start_s);
     status = status ? status : estimate_kind(study, true, run, fmax(left_s, budget_s / 4), out);
     out->seconds += out->reference_seconds;
-    for (size_t i = 0; i < study->n_references; i++) { /* the stand-ins must not be taken for references */
+    for (size_t i = 0; i < study->n_references; i++) { /* frees the black pictures, which are not references */
         koksma_image_fini(&study->references[i].image);
     }
     return status;

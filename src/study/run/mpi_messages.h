@@ -1,15 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The messages between the ranks of an MPI run (they go by transport.h). Rank 0 holds the store: it hands tiles of
- * references and jobs out in batches, one for each request, and does some itself on a second thread; only its first
- * thread sends and receives. The other ranks have the plan and so the same list of jobs; a job is its number. They
- * get reference images from rank 0 when they first need them, so that only the plan's own files must be readable
- * everywhere.
+ * The messages between the ranks of an MPI run (sent by transport.h). Rank 0 holds the store: it sends tiles of
+ * references and jobs in batches, one batch for each request, and does some itself on a second thread; only its
+ * first thread sends and receives. The other ranks have the plan and hence the same list of jobs, so a job is
+ * identified by its number. Ranks get reference images from rank 0 when they first need them, so that only the
+ * plan's own files must be readable on every machine.
  *
- * To rank 0: REQUEST (koksma__request; for the batch after the one in hand, so that nobody waits for an answer),
- * RESULTS (jobs' numbers, each before its results), FAILURE (koksma__failure: a job that is impossible), TILE
- * (koksma__reference_tile, its sums), NEED (a reference), ERROR (status and text of a rank that ends, which ends
- * all), PIECES (of a shared search: koksma_study_mpi_processes). From it: PIECES (of all), ASSIGNMENTS (what to do; none: request again; the phase, or the run, is over), PIXELS.
+ * Messages to rank 0:
+ *     REQUEST  koksma__request: asks for the batch after the current one, so that no rank waits for an answer
+ *     RESULTS  job numbers, each followed by the job's results
+ *     FAILURE  koksma__failure: a job that is impossible
+ *     TILE     koksma__reference_tile, followed by the tile's sums
+ *     NEED     index of a reference whose pixels the rank needs
+ *     ERROR    status and text of a rank that fails; all ranks then end
+ *     PIECES   this rank's pieces of a shared search (koksma_study_mpi_processes)
+ * Messages from rank 0:
+ *     ASSIGNMENTS  jobs or tiles to do, or the end of the phase or of the run; if empty, the rank requests again
+ *     PIXELS       shape, then pixels, of a reference
+ *     PIECES       the pieces of all ranks
  */
 #ifndef KOKSMA_STUDY_RUN_MPI_MESSAGES_H
 #define KOKSMA_STUDY_RUN_MPI_MESSAGES_H
@@ -30,14 +38,15 @@ enum {
 
 enum { KOKSMA__PHASES = 2 };
 
-/* Seconds after which a rank sends what it has done: so much is lost with it, or a job if that takes longer. */
+/* Seconds after which a rank sends its results: the work lost if the rank is lost, unless a single job takes
+   longer. */
 #define KOKSMA__SEND_S 0.02
 
 typedef struct koksma__request {
-    double phase;       /* 0 discrepancies, 1 images */
-    double job_s;       /* what one job took of late; 0: not known */
-    double busy_s;      /* at work in this phase so far */
-    double processor_s; /* of this rank's processor time, likewise */
+    double phase;       /* 0: discrepancies, 1: images */
+    double job_s;       /* mean seconds of a job in the last batch; 0: unknown */
+    double busy_s;      /* seconds this rank has worked in this phase so far */
+    double processor_s; /* this rank's processor time in this phase so far */
 } koksma__request;
 
 typedef struct koksma__failure {

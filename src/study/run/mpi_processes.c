@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The ranks of a run as processes that share a search (koksma_optimise): in an exchange rank 0 gets the pieces of each
- * other rank in one message and sends all pieces to each. Messages of one rank arrive in the order in which they were sent,
- * so that one exchange is not taken for another.
+ * Lets the ranks of an MPI run share a search (koksma_optimise). In an exchange, rank 0 gets the pieces of each
+ * other rank in one message and sends all pieces to each rank. Messages of one rank arrive in the order in which
+ * they were sent, so successive exchanges cannot be confused.
  */
 #include <koksma/study.h>
 
@@ -12,7 +12,8 @@
 #include "study/run/mpi_messages.h"
 #include "study/run/mpi_rank.h"
 
-/* Pieces of a rank, which lie `size` pieces apart, between `all` and `own`. */
+/* Copies the pieces of a rank (rank, rank + size, rank + 2 size, ...) between `all` and the contiguous array `own`;
+   returns their length in bytes. */
 static size_t copy(unsigned char *all, unsigned char *own, int rank, int size, size_t count, size_t bytes,
                    bool to_own)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which ranks there are. MPI is loaded only where the environment says that mpirun or srun started this process with
-   others; rank 0 that ends early ends the others, too, which would wait for it. */
+/* Finds this process's rank and the number of ranks. MPI is loaded only if the environment shows that mpirun or srun
+   started this process. If rank 0 exits early, it aborts the other ranks, which would otherwise wait for it. */
 #include "study/run/mpi_rank.h"
 
 #include <stdlib.h>
@@ -11,22 +11,23 @@
 #include "core/status.h"
 
 static koksma__mpi here;
-static const char *problem; /* why this process is alone, when mpirun started more than one */
+static const char *problem; /* why MPI cannot be used although mpirun started several processes; else NULL */
 
 static void finish(void)
 {
-    const bool others_wait = here.rank == 0 && here.size > 1 && !here.released; /* for what won't come */
+    const bool others_wait = here.rank == 0 && here.size > 1 && !here.released; /* for rank 0 */
     here.mpi->finish(others_wait ? koksma_status_exit_code(KOKSMA_IO) : 0);
 }
 
-/* Ranks that were started together, as the launcher's environment has it; 0: no launcher. */
+/* The number of ranks according to the launcher's environment variables; 0 without a launcher. */
 static int launched(void)
 {
     const char *ompi = getenv("OMPI_COMM_WORLD_SIZE"), *pmi = getenv("PMI_SIZE"), *slurm = getenv("SLURM_NTASKS");
     return ompi ? atoi(ompi) : pmi ? atoi(pmi) : getenv("PMIX_RANK") ? (slurm ? atoi(slurm) : 1) : 0;
 }
 
-/* A process that no mpirun started must not pay for MPI, nor depend on it. */
+/* Loads and starts MPI if a launcher started this process; other processes must neither spend time on MPI nor depend
+   on it. */
 static void start(void)
 {
     const int expected = launched();

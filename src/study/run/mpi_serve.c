@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rank 0 of an MPI run: messages, and work of its own. A batch stays with a rank until its results are in. When
- * nothing else is left, what is still out is done again here: a rank that was lost costs its batch, where MPI lets
- * the others live on; else the run ends, and the same command goes on from the store.
+ * Rank 0 of an MPI run: it exchanges messages with the other ranks and works on a second thread. A batch counts as
+ * assigned until its results arrive. When nothing else is left to do, rank 0 also does jobs that are still assigned:
+ * a lost rank then costs its batch, if MPI lets the other ranks continue. Otherwise the run ends, and running the
+ * same command again continues from the store.
  */
 #include "study/run/mpi_serve.h"
 
@@ -17,23 +18,24 @@
 #include "study/run/mpi_rank.h"
 #include "study/run/run_state.h"
 
-/* Ranks have a batch in hand while they ask for the next, so that the answer may take as long as this. */
+/* Pause between two polls for messages. Ranks request a batch while they still work on another, so an answer may
+   take this long. */
 static const double REST_S = 1e-3;
-/* How long ranks that say nothing are waited for at the end. */
+/* How long rank 0 waits at the end of a phase for ranks that send nothing. */
 static const double GOODBYE_S = 30;
 
 typedef struct server {
     koksma__phase *phase;
     const koksma__transport *mpi;
-    int size, number; /* number: of the phase */
+    int size, number; /* number of ranks; number of the phase (KOKSMA__PHASES) */
     koksma__run_state state;
-    double exec_s; /* what the caller's thread allows */
-    /* For the serving thread alone: */
-    koksma__request *requests; /* of each rank, the last */
-    bool *ended;               /* ranks that know that the phase is over */
+    double exec_s; /* the time that the caller's thread allows for programs (koksma_allow_exec) */
+    /* The next two fields are used by the serving thread only. */
+    koksma__request *requests; /* the last request of each rank */
+    bool *ended;               /* whether each rank knows that the phase is over */
 } server;
 
-/* Work on this rank, on a thread of its own. */
+/* The body of the thread that does assignments on rank 0. */
 static void *work_here(void *context)
 {
     server *s = context;
@@ -141,7 +143,7 @@ static void assign(server *s, int to)
     s->mpi->send(to, KOKSMA__TAG_ASSIGNMENTS, assignments, n * sizeof *assignments);
 }
 
-/* One message, if there is one. */
+/* Handles one message; false if none has arrived. */
 static bool serve_one(server *s)
 {
     int from, tag;
@@ -184,8 +186,8 @@ static bool all_ended(const server *s)
     return all;
 }
 
-/* Until all results are in, and then for the ranks that do not know it yet; one that sends nothing for long is lost.
- */
+/* Handles messages until all results have arrived and all ranks know that the phase is over. At the end, ranks that
+   send nothing for GOODBYE_S are given up as lost. */
 static void serve(server *s)
 {
     double over_s = 0;
@@ -204,7 +206,7 @@ static void serve(server *s)
     }
 }
 
-/* ---- The whole ----------------------------------------------------------------------------------------- */
+/* ---- The whole phase ----------------------------------------------------------------------------------- */
 
 static koksma_status open_server(server *s)
 {

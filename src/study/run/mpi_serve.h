@@ -4,7 +4,8 @@
 
 #include "study/run/run_state.h"
 
-/* Rank 0's part of a phase: hands assignments out to the other ranks, takes their results, and does some itself. */
+/* Rank 0's part of a phase: sends assignments to the other ranks, receives their results, and does some assignments
+   itself. */
 koksma_status koksma__mpi_serve(koksma__phase *phase);
 
 #endif

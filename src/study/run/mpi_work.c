@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The other ranks of an MPI run. A rank requests the next batch when it begins with one, so that an answer has the
-   time of a batch to come; results go back together, at least every SEND_S. It has the plan and makes the same list
-   of jobs as rank 0, fetches the reference images that its jobs need, and keeps nothing. */
+/* The ranks of an MPI run other than rank 0. A rank requests the next batch when it begins with one, so that the
+   answer can arrive while it works. Results are sent back together, at least every KOKSMA__SEND_S. Each rank has the
+   plan, makes the same list of jobs as rank 0, fetches the reference images that its jobs need from rank 0, and
+   stores no results. */
 #include "study/run/mpi_work.h"
 
 #include <stdio.h>
@@ -19,7 +20,7 @@ static const double REST_S = 2e-4;
 typedef struct outbox {
     unsigned char *bytes;
     size_t size, room;
-    double since_s; /* when its first job began */
+    double since_s; /* when the first of these jobs began */
 } outbox;
 
 typedef struct worker {
@@ -37,7 +38,7 @@ static koksma_status lost(const worker *w)
     return koksma__fail(KOKSMA_IO, "rank %d has lost rank 0", w->rank);
 }
 
-/* Waits for rank 0 without holding the processor. */
+/* Waits for a message from rank 0, sleeping between polls so that the processor is free. */
 static bool receive(const worker *w, int wanted, void *bytes, size_t room, size_t *size)
 {
     int from, tag;
@@ -147,7 +148,7 @@ static koksma_status do_tile(worker *w, const koksma__reference_tile *tile)
     return status;
 }
 
-/* Does the assignments; *over, *run_over: there is no more in this phase, or at all. */
+/* Does the assignments. *over: no work is left in this phase; *run_over: no work is left in the run. */
 static koksma_status do_batch(worker *w, const koksma__assignment *assignments, size_t n, bool *over, bool *run_over)
 {
     koksma_status status = KOKSMA_OK;
@@ -207,13 +208,13 @@ koksma_status koksma__mpi_work(koksma_study *study, const koksma_run *job)
     const koksma__mpi *mpi = koksma__mpi_get();
     worker w = {.mpi = mpi->mpi, .rank = mpi->rank, .study = study, .job = job};
     koksma_status status = KOKSMA_OK;
-    KOKSMA__FAIL_IF(mpi->size < 2, KOKSMA_ARGUMENT, "a study without a folder can't be run");
+    KOKSMA__FAIL_IF(mpi->size < 2, KOKSMA_ARGUMENT, "a study that was opened without a folder can't be run");
     bool over = false;
     for (int phase = 0; !status && !over && phase < KOKSMA__PHASES; phase++) {
         status = work_phase(&w, phase, &over);
     }
     free(w.out.bytes);
-    if (status) { /* rank 0 says it, and ends the others */
+    if (status) { /* rank 0 reports the error and ends the other ranks */
         char text[KOKSMA__FAILURE_TEXT];
         text[0] = (char)status;
         snprintf(text + 1, sizeof text - 1, "%s", koksma_error_text());

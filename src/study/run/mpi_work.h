@@ -4,7 +4,8 @@
 
 #include "study/run/study.h"
 
-/* The other ranks' part of a run: requests assignments of rank 0 and sends results, until rank 0 has no more. */
+/* The part of a run on every rank but 0: requests assignments from rank 0 and sends results, until no work is
+   left. */
 koksma_status koksma__mpi_work(koksma_study *study, const koksma_run *job);
 
 #endif

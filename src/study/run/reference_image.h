@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A reference image, as the open study has it (references.h has what is done with it). */
+/* The reference images of an open study; references.h declares the functions on them. */
 #ifndef KOKSMA_STUDY_RUN_REFERENCE_IMAGE_H
 #define KOKSMA_STUDY_RUN_REFERENCE_IMAGE_H
 
@@ -7,13 +7,13 @@
 
 enum { KOKSMA__REFERENCE_NAME = KOKSMA_MAX_SPEC + 128, KOKSMA__PATH = 1200 };
 
-/* A reference image and all that it depends on. */
+/* A reference image and everything that it depends on. */
 typedef struct koksma__reference_image {
     const koksma__study_scene *scene;
     const koksma__reference *reference;
     char options[KOKSMA__VARIANT_TEXT];
     int width, height;
-    koksma_image image; /* no pixels until it is needed */
+    koksma_image image; /* its pixels are NULL until a job needs them */
 } koksma__reference_image;
 
 #endif

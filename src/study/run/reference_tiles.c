@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Cuts the references that are missing into tiles of whole rows, as many as their size says, not as there are
-   threads; renders a tile as the sum of all replicates of its rows in their order; puts the sums of tiles together,
-   and finishes a reference with its last one. So its bits do not depend on who renders which tile. */
+/* Cuts the missing references into tiles of whole rows. The number of tiles depends on the size of the reference,
+   not on the number of threads. A tile is rendered as the sum of all replicates of its rows, added in their order;
+   the sums of a reference's tiles are put together, and its last tile completes it. So the bits of a reference do
+   not depend on which thread or rank renders which tile. */
 #include "study/run/reference_tiles.h"
 
 #include <stdio.h>
@@ -11,7 +12,8 @@
 #include "core/capacity.h"
 #include "core/status.h"
 
-/* About 20 ms of a plain scene, so that those who wait for the last tile don't wait long. */
+/* About 20 ms of rendering for a simple scene, so that jobs do not wait long for the last tile of their
+   reference. */
 static const double SAMPLES_A_TILE = 1 << 19;
 
 static koksma_status add_tile(koksma__reference_tiles *tiles, size_t reference, int first_row, int rows)
@@ -40,8 +42,8 @@ static koksma_status add_tiles(koksma__reference_tiles *tiles, size_t reference)
     return status;
 }
 
-/* The picture, and the row with its hash and own error: where the database was moved away, or is from before there
-   were hashes, both are made anew. */
+/* Whether the study has the reference's file and the row with its hash and its own error. If the database was
+   removed, or predates the hashes, the reference is rendered again. */
 static bool is_kept(const koksma_study *study, const koksma__reference_image *reference)
 {
     char name[KOKSMA__REFERENCE_NAME];

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * References in the making. A reference is cut into tiles of whole rows, as many as its size says; a tile is all
- * replicates of its rows, added in their order, so that the picture has the same bits whoever makes which tile, and
- * the sums of no more than the references in the making are held.
+ * References that are being rendered. A reference is cut into tiles of whole rows; the number of tiles depends on
+ * its size. A tile holds the sums of all replicates of its rows, added in their order. So the picture has the same
+ * bits whichever thread or rank renders which tile, and memory holds only the sums of references that are being
+ * rendered.
  */
 #ifndef KOKSMA_STUDY_RUN_REFERENCE_TILES_H
 #define KOKSMA_STUDY_RUN_REFERENCE_TILES_H
@@ -11,7 +12,7 @@
 #include "study/run/tasks.h"
 
 typedef struct koksma__reference_tile {
-    unsigned long long reference; /* its index in study->references */
+    unsigned long long reference; /* index in study->references */
     long long first_row, rows;
 } koksma__reference_tile;
 
@@ -19,23 +20,24 @@ typedef struct koksma__reference_tiles {
     koksma_study *study;
     size_t n;
     koksma__reference_tile *at;
-    koksma__replicates *sums; /* of every reference of the study */
-    long long *rows_left;
+    koksma__replicates *sums; /* one entry per reference of the study */
+    long long *rows_left;     /* per reference: number of rows not yet rendered */
 } koksma__reference_tiles;
 
 /* Reads the references that the tasks' jobs need and that have a file; lists the tiles of the others. */
 koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_tiles *tiles);
 void koksma__tiles_close(koksma__reference_tiles *tiles);
 
-/* Renders a tile: the sums of its rows, which the caller frees (out->sum). */
+/* Renders a tile into *out, the sums of its rows. The caller frees out->sum. */
 koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
                               koksma__replicates *out);
 
-/* Takes a tile's sums; *complete: they were the reference's last. One call at a time, each tile once. */
+/* Copies a tile's sums into those of its reference; *complete: this was the reference's last tile. Calls must not
+   overlap, and each tile is put once. */
 koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__reference_tile *tile,
                                 const koksma__replicates *sums, bool *complete);
 
-/* The pixels, file and row in the store of a reference that is complete. */
+/* Makes the pixels, the file and the store's row of a reference whose tiles are complete. */
 koksma_status koksma__tiles_finish(koksma__reference_tiles *tiles, size_t reference);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reference images. The paper took 400 jittered samples; a reference whose own error is not far below the errors that
- * are measured against it hides or adds error, so a plan may ask for the mean of many independent renders
- * (below), whose spread gives that error, too. A finished reference is a file in DIR/references, named by the
- * hash of all it depends on, and a row of the store.
+ * Reference images. The paper used 400 jittered samples per pixel. A reference whose own error is not far below the
+ * errors that are measured against it hides or adds error, so a plan may ask for the mean of many independent
+ * renders (replicates), whose spread also gives an estimate of the reference's own error. A finished reference is a
+ * file in DIR/references, named by the hash of everything it depends on, and a row of the store.
  */
 #include "study/run/references.h"
 
@@ -87,7 +87,7 @@ koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *
     return status;
 }
 
-/* An adaptive method never makes a reference (variants.c), so that the renderer itself can be asked for rows. */
+/* References are never rendered adaptively (variants.c), so this function can call the renderer's row interface. */
 koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
                                           int first_row, int rows, const koksma_run *run, koksma_image *out)
 {
@@ -97,7 +97,8 @@ koksma_status koksma__reference_replicate(const koksma__reference_image *referen
     return status ? status : koksma__render_rows(reference->scene->scene, &variant.render, first_row, rows, run, out);
 }
 
-/* The file's name holds all that the picture and its own error depend on: of luminance since there are such names. */
+/* The file's name is a hash of everything that the picture and its own error depend on. "luminance" in the hashed
+   text separates these files from older ones, whose error was not of luminance. */
 void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
                             size_t size)
 {
@@ -146,7 +147,7 @@ koksma_status koksma__replicates_done(koksma__replicates *s, koksma__reference_i
     return status;
 }
 
-/* The picture last: where it is, the row is. */
+/* Writes the picture last, so that the store has a row for every picture file. */
 koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *study,
                                         koksma__reference_image *reference)
 {
@@ -196,10 +197,11 @@ koksma_status koksma__reference_read(const koksma_study *study, koksma__referenc
 
 /* ---- Sums of renders ----------------------------------------------------------------------------------- */
 
-/* A picture from many independent renders, and how far it is off: for k replicates with the sample deviation s of a
-   pixel's luminance, a normal error of deviation s / sqrt k has the mean absolute value sqrt(2/pi) s / sqrt k; the
-   mean of that over the pixels is the picture's own expected absolute error (of luminance, as all errors of images:
-   image/compare.c). Deviations are updated replicate by replicate (Welford 1962), so that equal ones have none. */
+/* The mean of many independent renders, and its expected error. For k replicates with the sample standard deviation
+   s of a pixel's luminance, a normal error of standard deviation s / sqrt k has the mean absolute value sqrt(2/pi) s
+   / sqrt k. The mean of that over the pixels is the picture's own expected absolute error (of luminance, like all
+   errors of images: image/compare.c). Squared deviations are updated by Welford's method (1962), so that equal
+   replicates have a deviation of exactly 0. */
 
 size_t koksma__replicates_numbers(const koksma__replicates *s)
 {

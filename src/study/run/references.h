@@ -8,67 +8,69 @@
 
 #include "study/run/study.h"
 
-/* Sums of replicates, added in their order: of the channels for the picture; of each pixel the mean luminance and the
-   sum of the squares of what differs from it, for its error. */
+/* Sums over replicates, added in their order: for the picture, the sum of each channel; for its error, the mean
+   luminance of each pixel and the sum of the squared deviations from it. */
 typedef struct koksma__replicates {
-    double *sum, *luminance, *squares; /* one array, which begins at sum */
+    double *sum, *luminance, *squares; /* parts of one array, which begins at `sum` */
     size_t pixels, channels;
     long long n;
 } koksma__replicates;
 
-/* How long that array is; the sums in an array of n numbers, and in a new one. */
+/* koksma__replicates_numbers: the length of the array of sums. koksma__replicates_over: sums in a given array of n
+   numbers. koksma__replicates_init: zero sums in a new array. */
 size_t koksma__replicates_numbers(const koksma__replicates *sums);
 koksma__replicates koksma__replicates_over(double *numbers, size_t n, size_t pixels);
 koksma_status koksma__replicates_init(koksma__replicates *sums, size_t pixels, size_t channels);
 
-/* Adds one; the first makes room where there is none. */
+/* Adds a replicate; the first call allocates the array if `sums` has none. */
 koksma_status koksma__replicates_add(koksma__replicates *sums, const koksma_image *image);
 
-/* Their mean, and its own expected absolute error in luminance. Allocates out. */
+/* The mean of the replicates, and its expected absolute error in luminance (NaN for one replicate). Allocates
+   *out. */
 koksma_status koksma__replicates_mean(const koksma__replicates *sums, int width, int height, koksma_image *out,
                                       double *error);
 
-/* "name:pattern@spp x replicates": the reference's key in the store. */
+/* Writes "name:pattern@SPPxREPLICATES", which names the reference in keys of the store. */
 void koksma__reference_name(const koksma__reference *reference, char *text);
 
-/* The index in study->references of the reference that a variant of a block is compared with; it is added, without
-   pixels, when it is not there. Errors: MEMORY. */
+/* Finds the index in study->references of reference r of a block, for one variant; adds the reference, without
+   pixels, if it is missing. Errors: MEMORY. */
 koksma_status koksma__reference_index(koksma_study *study, const koksma__image_block *block,
                                       const koksma__study_scene *scene, const char *variant, size_t r, size_t *index);
 
-/* The key of a reference's standard error in the store; `name` holds its text. */
+/* The key of a reference's row in the store; `name` holds the text that the key points to. */
 koksma__series koksma__reference_key(const koksma__reference_image *reference, char name[KOKSMA__REFERENCE_NAME]);
 
-/* Where the reference's file is. */
+/* The path of the reference's file. */
 void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
                             size_t size);
 
-/* Whether its rows can be rendered one by one. */
+/* Whether the rows of the reference can be rendered independently of each other. */
 koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *reference, bool *alone);
 
-/* Renders rows of one replicate of a reference; all of them where they don't stand alone. Allocates
-   out, as high as `rows`. */
+/* Renders rows of one replicate of a reference; all rows if they cannot be rendered independently. Allocates *out,
+   with `rows` rows. */
 koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
                                           int first_row, int rows, const koksma_run *run, koksma_image *out);
 
-/* SHA-256 of width, height, channels and the bits of all pixels, row by row from the top: words of 32 bits, lowest byte
-   first. */
+/* SHA-256 of width, height, channels and the bits of all pixels, row by row from the top, as little-endian words of
+   32 bits. */
 void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA256_TEXT]);
 
-/* The mean of all replicates becomes the reference's pixels; *row is what the store has of it. Frees the sums. */
+/* Makes the mean of all replicates the reference's pixels, and fills *row for the store. Frees the sums. */
 koksma_status koksma__replicates_done(koksma__replicates *sums, koksma__reference_image *reference,
                                       koksma__reference_row *row);
 
-/* As koksma__replicates_done; then writes the reference's file and its row of the store, or hands both to the study's
-   sink. */
+/* Calls koksma__replicates_done, then writes the reference's file and its row of the store, or passes both to the
+   study's sink. */
 koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
                                         koksma__reference_image *reference);
 
-/* Reads DIR/references/…, unless the pixels are there. Errors: MALFORMED (also: other pixels than the store's hash
-   says), those of koksma_image_read. */
+/* Reads the reference's file in DIR/references unless its pixels are loaded. Errors: MALFORMED (also if the pixels
+   do not match the hash in the store), those of koksma_image_read. */
 koksma_status koksma__reference_read(const koksma_study *study, koksma__reference_image *reference);
 
-/* Whether the file is there already. */
+/* Whether the reference's file exists. */
 bool koksma__reference_exists(const koksma_study *study, const koksma__reference_image *reference);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the jobs of a study that are not done. Rows do not depend on threads, order or interruptions, because a job's
-   seed is a hash of its key. */
+/* Runs the jobs of a study whose results the store lacks. The results do not depend on threads, order or
+   interruptions, because a job's seed is a hash of its key. */
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +16,7 @@
 #include "study/run/run.h"
 #include "study/run/run_state.h"
 
-/* ---- What was run, on what ----------------------------------------------------------------------------- */
+/* ---- The record of a run ------------------------------------------------------------------------------- */
 
 static void name_machine(char *text, size_t size)
 {
@@ -54,7 +54,7 @@ static koksma_status record_run(koksma_study *study, const char *started, const 
     return status ? status : koksma__store_commit(study->store);
 }
 
-/* ---- The whole ----------------------------------------------------------------------------------------- */
+/* ---- The whole run ------------------------------------------------------------------------------------- */
 
 /* Adds the failures of a phase to those of the run. */
 static void add_failures(koksma__failures *all, const koksma__failures *more)
@@ -65,7 +65,7 @@ static void add_failures(koksma__failures *all, const koksma__failures *more)
     all->n += more->n;
 }
 
-/* With a status that is not OK already, only counts. */
+/* If `before` is not OK, only counts the jobs. */
 koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
                                koksma_study_summary *summary, koksma__failures *failures)
 {
@@ -91,7 +91,8 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
     return before ? before : status;
 }
 
-/* What a kind of jobs takes of the time, roughly: samples of images, points of sets with each measure. 0 when unknown. */
+/* A rough estimate of the work of one kind of jobs: the samples of all images, or the points of all sets times their
+   measures; 0 when unknown. */
 static double work_of(koksma_study *study, bool images)
 {
     koksma__tasks tasks;
@@ -119,7 +120,7 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     summary = summary ? summary : &unused;
     *summary = (koksma_study_summary){0};
     koksma__run_control control;
-    /* Rank 0 looks at the clock for all. */
+    /* Only rank 0 enforces the time limit, for all ranks. */
     koksma__run_control_begin(run, run && study->store ? run->time_limit_s : 0, &control);
     if (!study->store) {
         return koksma__mpi_work(study, &control.job);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The jobs of one kind. */
+/* Runs the jobs of one kind: discrepancies or images. */
 #ifndef KOKSMA_STUDY_RUN_RUN_H
 #define KOKSMA_STUDY_RUN_RUN_H
 
 #include "study/run/run_state.h"
 
-/* Does the jobs that are not done, on threads or on MPI ranks, and adds to the summary and the failures. Does nothing
-   but count with a status `before` that is not OK, which comes back. */
+/* Runs the jobs that the store lacks, on threads or MPI ranks, and adds to the summary and the failures. If
+   `before`, the status of an earlier kind, is not OK, only counts the jobs and returns `before`. */
 koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
                                koksma_study_summary *summary, koksma__failures *failures);
 

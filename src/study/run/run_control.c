@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Deadline, interruption and progress of a run. The functions keep_running and keep_at_job are handed to what works:
-   only the thread of the caller asks the caller's keep_going and the clock; jobs on other threads see the flag that
-   it sets, so that a caller's function needs no lock. */
+/* Deadline, interruption and progress of a run. The functions keep_running and keep_at_job are the keep_going
+   callbacks of the run and of its jobs. Only the caller's thread calls the caller's keep_going and reads the clock;
+   jobs on other threads read the flag that it sets, so that the caller's function needs no lock. */
 #include "study/run/run_control.h"
 
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 
-/* The caller first: after a long job both may say stop, and an interruption counts more than the time. */
+/* Asks the caller before the clock: after a long job both may demand a stop, and an interruption takes precedence
+   over the time limit. */
 static bool look(koksma__run_control *control)
 {
     if (!atomic_load(&control->interrupted) && !koksma__keep_going(control->caller_run, control->fraction)) {
@@ -37,7 +38,7 @@ static bool keep_running(void *context, double fraction)
 static bool keep_at_job(void *context, double fraction)
 {
     koksma__run_control *control = context;
-    (void)fraction; /* of the job */
+    (void)fraction; /* the fraction of one job is not part of the progress */
     return pthread_equal(pthread_self(), control->caller) ? look(control) : !atomic_load(&control->stop);
 }
 

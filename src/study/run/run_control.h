@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Who looks at the clock and at the caller's keep_going: only the thread that called, between jobs and within its
- * own; the jobs on other threads hear of it. So a job is left where it is when the time is up, on every thread.
+ * The time limit, interruption and progress of a run. Only the caller's thread reads the clock and calls the
+ * caller's keep_going, between jobs and within its own jobs; the jobs on other threads read a flag that it sets. So
+ * when the time limit is reached, every thread abandons its current job.
  */
 #ifndef KOKSMA_STUDY_RUN_RUN_CONTROL_H
 #define KOKSMA_STUDY_RUN_RUN_CONTROL_H
@@ -14,21 +15,21 @@
 typedef struct koksma__run_control {
     const koksma_run *caller_run; /* may be NULL */
     pthread_t caller;
-    double end_s;            /* of the time, by koksma__now_s; 0: none */
-    double fraction;         /* done, as last told by the caller's thread */
-    double begin, share;     /* of the whole, that the fractions of a phase go over */
-    atomic_bool stop;        /* what is at work is to end */
-    atomic_bool is_up;       /* because the time is up */
-    atomic_bool interrupted; /* because the caller's keep_going said so, before or after that */
-    koksma_run run;          /* of the whole, with the caller's threads */
-    koksma_run job;          /* of a job, on one thread, which may be any */
+    double end_s;            /* the deadline on the clock koksma__now_s; 0: none */
+    double fraction;         /* completed fraction of the run, as last reported on the caller's thread */
+    double begin, share;     /* the current phase covers the fractions begin .. begin + share of the run */
+    atomic_bool stop;        /* all work must end */
+    atomic_bool is_up;       /* the time limit was reached */
+    atomic_bool interrupted; /* the caller's keep_going returned false, before or after the time limit */
+    koksma_run run;          /* options for the whole run, with the caller's number of threads */
+    koksma_run job;          /* options for a single job, on any one thread */
 } koksma__run_control;
 
-/* The watch must stay where it is. time_limit_s 0: none. */
+/* Starts the clock. `watch` must not be moved in memory afterwards. time_limit_s = 0: no limit. */
 void koksma__run_control_begin(const koksma_run *run, double time_limit_s, koksma__run_control *watch);
 
-/* Whether the time limit, and not the caller, has ended the work. The caller is asked once more, so that an
-   interruption during a long job is not overtaken by the limit. For the caller's thread. */
+/* Whether the time limit, and not the caller, has ended the work. Asks the caller's keep_going once more, so that an
+   interruption during a long job takes precedence over the limit. Only the caller's thread may call this function. */
 bool koksma__run_control_time_is_up(koksma__run_control *watch);
 
 #endif

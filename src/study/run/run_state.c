@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The state is two queues (work_queue.h) under one lock: tiles of reference images, then jobs, which are ready when
-   the references that they are compared with are. What was taken stays out until it is put back, by whoever did it
-   first; a second result of the same is left out, so that an assignment whose rank was lost can be handed out again.
- */
+/* The state of a phase: two queues (work_queue.h) under one lock. One holds tiles of reference images; the other
+   holds jobs, which are ready when the references that they are compared with are complete. An assignment counts as
+   taken until some thread or rank delivers its result first; a second result is discarded. So the assignment of a
+   lost rank can be handed out again. */
 #include "study/run/run_state.h"
 
 #include <stdio.h>
@@ -50,7 +50,7 @@ koksma_status koksma__run_state_status(const koksma__run_state *state)
     return state->status ? koksma__fail(state->status, "%s", state->text) : KOKSMA_OK;
 }
 
-/* ---- What to do next ----------------------------------------------------------------------------------- */
+/* ---- Handing out assignments --------------------------------------------------------------------------- */
 
 static bool job_is_ready(const void *context, size_t job)
 {
@@ -101,7 +101,7 @@ size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int 
     return n;
 }
 
-/* ---- What comes in ------------------------------------------------------------------------------------- */
+/* ---- Receiving results --------------------------------------------------------------------------------- */
 
 void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksma__task *task,
                                const koksma__result *results)
@@ -139,8 +139,8 @@ size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__refe
     return i;
 }
 
-/* A reference is ready when its file is there, not with its last tile; jobs are left as long as one is in the making.
- */
+/* A reference is ready when its file is written, which is after its last tile was put. The phase does not end in
+   between, because the jobs that need the reference are left. */
 void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums)
 {
     const koksma__reference_tile tile = state->tiles.at[i];
@@ -161,7 +161,7 @@ void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma
     pthread_mutex_unlock(&state->lock);
 }
 
-/* ---- The whole ----------------------------------------------------------------------------------------- */
+/* ---- Opening and closing ------------------------------------------------------------------------------- */
 
 koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *state)
 {
@@ -200,11 +200,10 @@ void koksma__run_state_close(koksma__run_state *state)
 
 /* ---- Workers ------------------------------------------------------------------------------------------- */
 
-/* Workers: each takes an assignment of the run state, does it, and puts the result back, until nothing is left. A run
-   without MPI is as many workers as it has threads; rank 0 of an MPI run has one beside the thread that serves the
-   other ranks (mpi_serve.c). A worker that finds nothing to take, because jobs wait for the last tiles of a
-   reference, rests shortly. What a result is depends on its job alone, so that it does not matter who did it, nor
-   when. */
+/* A worker takes an assignment of the run state, does it, and puts the result back, until nothing is left. A run
+   without MPI has as many workers as threads; rank 0 of an MPI run has one worker beside the thread that serves the
+   other ranks (mpi_serve.c). A worker that finds no assignment, because the jobs wait for the last tiles of a
+   reference, sleeps briefly. A result depends only on its job, not on the worker or the time. */
 
 static const double REST_S = 1e-4;
 
@@ -250,7 +249,8 @@ void koksma__work(koksma__run_state *state, bool redo)
         if (asks && !koksma__keep_going(&control->run, koksma__run_state_fraction(state))) {
             koksma__run_state_stop(state, KOKSMA_INTERRUPTED, "interrupted");
         }
-        /* A batch is late when it takes much longer than an assignment here; then it may be lost. */
+        /* If this worker has had nothing to do for much longer than its last assignment took, a batch may be
+           lost. */
         const bool late = redo && koksma__now_s() - since_s > 1 + 20 * took_s;
         if (koksma__run_state_take(state, late, &assignment)) {
             const double start_s = koksma__now_s();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Opens and closes studies: parses the plan, makes DIR, opens its store, loads each scene once, and writes down which
-   plan it was. Of the ranks of an MPI run only rank 0 has a folder. */
+/* Opens and closes studies: parses the plan, creates the study's folder DIR, opens its store, loads each scene once,
+   and records the plan in the store. In an MPI run only rank 0 has a folder. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,7 +89,7 @@ koksma_status koksma__study_open_to_write(koksma_study *study)
         return KOKSMA_OK;
     }
     snprintf(path, sizeof path, "%s/results.sqlite", study->folder);
-    koksma__store_close(study->store); /* its lock would keep us out */
+    koksma__store_close(study->store); /* its lock would block the next open */
     const koksma_status status = koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
     study->is_written = !status;
     if (status) {
@@ -106,8 +106,8 @@ static koksma_status make_folder(koksma_study *study, const char *folder)
     return study->folder ? KOKSMA_OK : koksma__fail_memory(strlen(folder));
 }
 
-/* The store keeps the texts of its plans and what the run said about trials, so that the folder is enough to make the
-   report again. */
+/* Writes the texts of the plans and the run's options for trials into the store, so that the folder alone suffices
+   to make the report again. */
 static koksma_status keep_plan(koksma_study *study, const koksma_study_options *options, char *const *texts)
 {
     char key[32], value[32];
@@ -133,7 +133,7 @@ static koksma_status append_plan(koksma_study *study, koksma__plan *plan)
     return koksma__plan_append(&study->plan, plan);
 }
 
-/* The plan of a folder that has results. */
+/* Reads the plan of a folder with results from its store. */
 static koksma_status recall_plan(koksma_study *study)
 {
     char *what, key[32];
@@ -142,13 +142,14 @@ static koksma_status recall_plan(koksma_study *study)
     koksma__plan_trials trials = {0};
     koksma_status status = koksma__store_get_text(study->store, "plan-texts", &what);
     if (!status && (!what || sscanf(what, "%lu %lld %d", &n, &trials.trials, &quick) != 3)) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s/results.sqlite: it doesn't say what its plan was", study->folder);
+        status =
+            koksma__fail(KOKSMA_MALFORMED, "%s/results.sqlite: the store does not contain its plan", study->folder);
     }
     free(what);
     trials.quick = quick;
     for (unsigned long i = 0; !status && i < n; i++) {
         koksma__plan plan = {0};
-        char *text = NULL, *name = NULL; /* name: older databases have none */
+        char *text = NULL, *name = NULL; /* older databases have no name */
         snprintf(key, sizeof key, "plan-text-%lu", i);
         status = koksma__store_get_text(study->store, key, &text);
         snprintf(key, sizeof key, "plan-name-%lu", i);
@@ -165,7 +166,7 @@ static koksma_status recall_plan(koksma_study *study)
     return status;
 }
 
-/* Whether plan i has the text of one before it: all its jobs would be done again, and its questions asked again. */
+/* Fails if plan i has the same text as an earlier plan, as all its jobs and questions would be repeated. */
 static koksma_status check_text(const koksma_study_options *options, char *const *texts, size_t i)
 {
     for (size_t k = 0; k < i; k++) {
@@ -188,7 +189,8 @@ static koksma_status load_plans(koksma_study *study, const koksma_study_options 
     return status;
 }
 
-/* folder NULL: no results are kept (estimates; ranks of an MPI run but the first). */
+/* Opens a study with the plans of the options. folder = NULL: results are not stored (estimates, and all ranks of an
+   MPI run but rank 0). */
 static koksma_status open_with_plans(koksma_study *study, const koksma_study_options *options)
 {
     char path[KOKSMA__PATH];
@@ -225,8 +227,8 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
 static koksma_status check_options(const koksma_study_options *options)
 {
     KOKSMA__FAIL_IF(!options->n_plans && !options->folder, KOKSMA_ARGUMENT,
-                    "a study has a plan, or a folder with results");
-    KOKSMA__FAIL_IF(options->trials < 0, KOKSMA_ARGUMENT, "trials = %lld: it is 0, for those of the plan, or more",
+                    "a study needs a plan, or a folder with results");
+    KOKSMA__FAIL_IF(options->trials < 0, KOKSMA_ARGUMENT, "trials = %lld: it must be 0 (the plan's trials) or more",
                     options->trials);
     koksma_status status =
         koksma__array_check("options->plans", options->plans, options->n_plans, sizeof *options->plans);

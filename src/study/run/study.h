@@ -11,14 +11,14 @@
 struct koksma__tasks;
 struct koksma__task;
 
-/* Where the results of a run go, if not into the store: an audit compares them with it. Every call may come from any
-   thread. */
+/* Receives the results of a run instead of the store; an audit uses it to compare results with the store. Every
+   function may be called on any thread. */
 typedef struct koksma__sink {
     void *context;
-    koksma_status (*look_up)(void *context, struct koksma__tasks *tasks); /* which jobs are not to be done */
+    koksma_status (*look_up)(void *context, struct koksma__tasks *tasks); /* marks the jobs that need not be done */
     koksma_status (*put_job)(void *context, const struct koksma__task *task, const koksma__result *results);
     koksma_status (*put_reference)(void *context, const koksma__reference_image *reference,
-                                   const koksma__reference_row *row); /* all are made again */
+                                   const koksma__reference_row *row); /* all references are rendered again */
 } koksma__sink;
 
 struct koksma_study {
@@ -30,16 +30,18 @@ struct koksma_study {
     koksma__study_scene *scenes;
     size_t n_references;
     koksma__reference_image *references;
-    const koksma__sink *sink; /* NULL: the store */
+    const koksma__sink *sink; /* NULL: results go into the store */
 };
 
-/* Opens a scene, unless it is open; the name must stay. Errors: those of koksma_scene_open. */
+/* Opens a scene unless it is open. `name` must remain valid as long as the study. Errors: those of
+   koksma_scene_open.  */
 koksma_status koksma__study_open_scene(koksma_study *study, const char *name);
 
-/* A folder that was opened without a plan is only read until a run needs more. Errors: those of the store. */
+/* Reopens the store for writing if it is open for reading only, which is the case for a folder that was opened
+   without a plan. Errors: those of the store. */
 koksma_status koksma__study_open_to_write(koksma_study *study);
 
-/* The scene that the plan calls `name`. */
+/* The open scene with the given name; NULL if there is none. */
 const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, const char *name);
 
 #endif

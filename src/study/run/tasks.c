@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Tasks and jobs. The blocks of a plan become tasks (a pattern at a size, with all its measures or references), those
-   with the most trials first; job i is found by binary search among the rounds, in which the same tasks have trials
-   left. A job generates and measures one point set, or renders one image and compares it with its references. */
+/* Tasks and jobs. The blocks of a plan become tasks (a pattern at one size, with all its measures or references),
+   sorted by descending number of trials. Job i is found by binary search among groups of rounds, in each of which
+   the same tasks have trials left. A job generates and measures one point set, or renders one image and compares it
+   with its references. */
 #include "study/run/tasks.h"
 
 #include <math.h>
@@ -20,7 +21,7 @@
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
-/* A bit each for what is done and for what is in the store is 256 MiB. */
+/* The limit of jobs in a plan. Two bits per job (done; in the store) then take 256 MiB. */
 static const long long MOST_JOBS = 1 << 30;
 
 static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
@@ -85,7 +86,7 @@ static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block 
             status = koksma__reference_index(tasks->study, b, scene, task.variant, r,
                                              &tasks->at[tasks->n - 1].references[r]);
         }
-        if (!status) { /* the coherence is against the last */
+        if (!status) { /* the coherence is measured against the last reference */
             koksma__task *added = &tasks->at[tasks->n - 1];
             added->references[b->n_references] = added->references[b->n_references - 1];
         }
@@ -102,8 +103,8 @@ static int compare_tasks(const void *a, const void *b)
     return s->place < t->place ? -1 : 1;
 }
 
-/* The order of the jobs: tasks with the most trials first, so that round t has the first tasks->rounds[s].tasks of
-   them. Equal numbers keep the plan's order. */
+/* Sorts the tasks by descending number of trials (equal numbers keep the plan's order), so that every round of
+   trials consists of the first tasks->rounds[s].tasks tasks for some s, and numbers the jobs. */
 static koksma_status order(koksma__tasks *tasks)
 {
     if (tasks->n) {
@@ -199,15 +200,15 @@ koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KO
     return s;
 }
 
-/* Who has a series. */
+/* The task that owns a series, and the trials of the series in the store. */
 typedef struct owner {
     koksma__task *task;
-    unsigned char *bits; /* a bit a trial of that series */
+    unsigned char *bits; /* one bit per trial: the store has it */
 } owner;
 
 typedef struct owners {
     size_t n;
-    owner *at; /* by the series' id */
+    owner *at; /* indexed by the id of the series */
 } owners;
 
 static void see_row(void *context, long long series, long long trial)
@@ -241,7 +242,7 @@ static koksma_status find_series(koksma__tasks *tasks, owners *o)
         koksma__task *t = &tasks->at[i];
         for (size_t k = 0; !status && k < t->n_series; k++) {
             owner *own = &o->at[t->series[k]];
-            if (!own->task) { /* blocks of a plan may share one; the first task has the most trials */
+            if (!own->task) { /* blocks of a plan may share a series; its first task has the most trials */
                 own->bits = calloc(((size_t)t->trials + 7) / 8, 1);
                 status = own->bits ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
                 own->task = t;
@@ -251,7 +252,7 @@ static koksma_status find_series(koksma__tasks *tasks, owners *o)
     return status;
 }
 
-/* A trial is done when every series has it. */
+/* Marks the trials of a task that are done: those that the store has in every series of the task. */
 static void mark_done(koksma__task *t, const owners *o)
 {
     const size_t bytes = ((size_t)t->trials + 7) / 8;
@@ -300,17 +301,19 @@ bool koksma__task_failed_alone(const koksma_study *study, koksma_status status)
 
 /* ---- One job ------------------------------------------------------------------------------------------- */
 
-/* The slack of bounds, which is more than rounding. */
+/* Bounds of a value that are at most this far apart count as exact; the limit is larger than the rounding error. */
 static const double AS_GOOD_AS_EXACT = 2e-12;
 
-/* The store has no place for a bound's other side, so that it takes values, which a search that was cut short has
-   none of, and estimates and bounds of measures that promise no more. */
+/* Checks that a value can be stored. The store has no column for a second bound, so it accepts finite values of a
+   measure that promises exact values only if the search was not cut short; measures that promise estimates or bounds
+   may store those. */
 static koksma_status check_value(const koksma_spec *measure, const koksma_value *value)
 {
     char text[KOKSMA_MAX_SPEC];
     if (!isfinite(value->value)) {
         koksma_spec_text(measure, text);
-        return koksma__fail(KOKSMA_IMPOSSIBLE, "%s: its value is %g; a study takes finite ones", text, value->value);
+        return koksma__fail(KOKSMA_IMPOSSIBLE, "%s: its value is %g; a study takes finite values only", text,
+                            value->value);
     }
     if (value->exact || measure->measure->answer != KOKSMA_ANSWER_EXACT ||
         value->upper - value->lower <= AS_GOOD_AS_EXACT) {
@@ -323,7 +326,7 @@ static koksma_status check_value(const koksma_spec *measure, const koksma_value 
                         text, value->lower, value->upper);
 }
 
-/* The absolute error of the mean over the points. */
+/* Integrates a test integrand by the mean over the points; *error: its absolute error. */
 static koksma_status integrate(const char *spec, const koksma_points *points, const koksma_run *run, double *error)
 {
     koksma_integral *integral;
@@ -334,8 +337,8 @@ static koksma_status integrate(const char *spec, const koksma_points *points, co
     koksma_status status = koksma_integrate(integral, points, run, &mean);
     koksma_integral_close(integral);
     *error = fabs(mean - facts.value);
-    KOKSMA__FAIL_IF(!status && !isfinite(*error), KOKSMA_IMPOSSIBLE, "%s: its error is %g; a study takes finite ones",
-                    spec, *error);
+    KOKSMA__FAIL_IF(!status && !isfinite(*error), KOKSMA_IMPOSSIBLE,
+                    "%s: its error is %g; a study takes finite values only", spec, *error);
     return status;
 }
 
@@ -377,8 +380,8 @@ static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, const 
     return status;
 }
 
-/* The coherence of one image's error. An error that is the same in all pixels, or of so few that they have no two
-   frequencies, has no peak: 0, which all noise exceeds. */
+/* The coherence of one image's error. An error that is equal in all pixels, or an image too small to have two
+   frequencies, has no peak; its coherence is stored as 0, which all noise exceeds. */
 static koksma_status find_coherence(const koksma_image *image, const koksma_image *reference,
                                     double values[KOKSMA__RESULT_VALUES])
 {
@@ -423,7 +426,7 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
     return status;
 }
 
-/* A hash of the key without the options, so that options are compared on the same points. */
+/* The seed of a job: the hash of its key without the options, so that different options use the same points. */
 uint64_t koksma__task_seed(const koksma__task *t, long long trial)
 {
     return t->image ? koksma__job_seed("image|%s|%s|%s|%lld|%dx%d|%lld", t->scene->name, t->scene->hash, t->pattern,
@@ -431,7 +434,8 @@ uint64_t koksma__task_seed(const koksma__task *t, long long trial)
                     : koksma__job_seed("discrepancy|%s|%lld|%d|%lld", t->pattern, t->n, t->discrepancy->dim, trial);
 }
 
-/* "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417: " before the reason. */
+/* Puts the job's name, such as "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417: ", before the error
+   text. */
 static koksma_status fail_job(const koksma_study *study, const koksma__task *t, long long trial, koksma_status status)
 {
     char name[KOKSMA_MAX_SPEC + KOKSMA__VARIANT_TEXT + 128];
@@ -458,6 +462,7 @@ koksma_status koksma__task_do(const koksma_study *study, const koksma__task *t, 
     }
     const koksma_status status =
         t->image ? do_image(study, t, seed, run, results) : do_discrepancy(t, seed, run, results);
-    const bool by_itself = !status || status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY; /* of no one job */
+    const bool by_itself =
+        !status || status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY; /* not caused by this job */
     return by_itself ? status : fail_job(study, t, trial, status);
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The jobs of a study. A task is everything that differs only in the trial: a pattern's point sets of one size with
- * all their measures, or renders of one scene with their errors. A job is one trial of a task. The order of
- * the jobs goes over all tasks before it goes to the next trial, so that a run that is cut short has something
- * everywhere.
+ * The jobs of a study. A task is a set of jobs that differ only in their trial: a pattern's point sets of one size
+ * with all their measures, or renders of one scene with their errors. A job is one trial of a task. The jobs are
+ * ordered by trial first: all tasks do one trial before any does the next, so that a run that is cut short has some
+ * results for every task.
  */
 #ifndef KOKSMA_STUDY_RUN_TASKS_H
 #define KOKSMA_STUDY_RUN_TASKS_H
@@ -11,23 +11,24 @@
 #include "study/run/study.h"
 
 typedef struct koksma__task {
-    const koksma__discrepancy_block *discrepancy; /* or NULL: */
-    const koksma__image_block *image;
+    const koksma__discrepancy_block *discrepancy; /* NULL for an image */
+    const koksma__image_block *image;             /* NULL for a discrepancy */
     const char *pattern;
-    const char *variant; /* of an image; of a discrepancy the warp, or "" */
+    const char *variant; /* the variant of an image; for a discrepancy, the warp or "" */
     const koksma__study_scene *scene;
-    long long n, trials; /* n: points or samples a pixel */
+    long long n, trials; /* n: points, or samples per pixel */
     int width, height;
-    size_t place;          /* in the plan */
-    size_t n_series;       /* a job's results: one a measure; or the error against each reference, and its coherence
-                              against the last */
-    size_t *references;    /* of an image: indices into study->references */
-    long long *series;     /* ids in the store, by koksma__tasks_look_up */
-    unsigned char *done;   /* a bit a trial */
-    long long done_before; /* trials */
+    size_t place; /* index of the task in the plan's order */
+    /* Number of results of a job: one per measure; or, for an image, its error against each reference and the
+       coherence of its error against the last reference. */
+    size_t n_series;
+    size_t *references;    /* for an image: indices into study->references, one per result */
+    long long *series;     /* ids of the series in the store, set by koksma__tasks_look_up */
+    unsigned char *done;   /* one bit per trial: done before this run */
+    long long done_before; /* number of trials done before this run */
 } koksma__task;
 
-/* A run of rounds in which the same tasks have trials left. */
+/* Consecutive rounds (one trial of each task) in which the same tasks have trials left. */
 typedef struct koksma__rounds {
     size_t first_job;
     long long first_trial;
@@ -37,44 +38,47 @@ typedef struct koksma__rounds {
 typedef struct koksma__tasks {
     koksma_study *study;
     size_t n, n_jobs;
-    long long wanted; /* jobs of the tasks so far */
-    koksma__task *at; /* those with the most trials first */
+    long long wanted; /* number of jobs of the tasks added so far */
+    koksma__task *at; /* sorted by descending number of trials */
     size_t n_rounds;
     koksma__rounds *rounds;
 } koksma__tasks;
 
-/* All sets of a deterministic pattern are one set. */
+/* Whether the pattern is deterministic: all its trials give one point set, so one trial is enough. */
 bool koksma__has_one_set(const char *pattern);
 
-/* All tasks of the plan of one kind. Errors: ARGUMENT (more than 2^30 jobs), MEMORY. */
+/* Lists all tasks of one kind in the plan. Errors: ARGUMENT (more than 2^30 jobs), MEMORY. */
 koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks *tasks);
 void koksma__tasks_close(koksma__tasks *tasks);
 
-/* Finds or makes the series of all tasks in the store, and which trials are done. */
+/* Finds or creates the series of all tasks in the store, and finds which trials are done. */
 koksma_status koksma__tasks_look_up(koksma__tasks *tasks);
 
-/* Job i < n_jobs. */
+/* koksma__tasks_job: the task and trial of job i < n_jobs. koksma__task_is_done: whether a trial was done before
+   this run. */
 const koksma__task *koksma__tasks_job(const koksma__tasks *tasks, size_t i, long long *trial);
 bool koksma__task_is_done(const koksma__task *task, long long trial);
 
-/* The key of result k of a task's jobs; `name` holds a text of it. */
+/* The key of result k of a task's jobs; `name` holds a text that the key points to. */
 koksma__series koksma__task_series(const koksma__task *task, size_t k, char name[KOKSMA__REFERENCE_NAME]);
 
+/* The seed of a job. */
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
 
-/* Does one job: n_series results. The references must have their pixels. Errors: INTERRUPTED, when `run` says so;
-   MEMORY; what generating, measuring and rendering say, with the job's block, pattern, number and trial before it. */
+/* Does one job: n_series results. The references must have their pixels. Errors: INTERRUPTED, when `run`
+   stops it; MEMORY; those of generating, measuring and rendering, whose text begins with the job's block, pattern,
+   n and trial. */
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *task, long long trial,
                               const koksma_run *run, koksma__result *results);
 
-/* Puts the results of a job into the store, or where else they go. */
+/* Puts the results of a job into the store, or passes them to the study's sink. */
 koksma_status koksma__task_put(const koksma_study *study, const koksma__task *task, const koksma__result *results);
 
-/* Whether a failure is of the machine or the caller, and not of one job. */
+/* Whether a failure is caused by the machine or the caller, not by one job; the run then ends. */
 bool koksma__ends_all(koksma_status status);
 
-/* Whether the other jobs go on when one has failed so: it is impossible; in an audit also for another reason of its
-   own. */
+/* Whether the other jobs continue when a job has failed with this status: if the job is impossible and, in an audit,
+   for any other failure that does not end all jobs. */
 bool koksma__task_failed_alone(const koksma_study *study, koksma_status status);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds and loads the module that talks to MPI. */
+/* Finds and loads the module that calls MPI. */
 #include <dlfcn.h>
 #include <stdio.h>
 
@@ -18,7 +18,7 @@ const koksma__transport *koksma__transport_load(const char **problem)
 {
     static char text[4200];
     char path[4096];
-    *problem = "this build has no MPI: its ranks would all do the same work";
+    *problem = "this build has no MPI support: every rank would do the whole work";
     if (!koksma__module_path("mpi", path, sizeof path)) {
         return NULL;
     }
@@ -29,7 +29,7 @@ const koksma__transport *koksma__transport_load(const char **problem)
         const char *reason = dlerror();
         snprintf(text, sizeof text, "MPI can't be loaded: %s", reason ? reason : "no reason given");
     } else if (transport->version != KOKSMA__TRANSPORT_VERSION) {
-        snprintf(text, sizeof text, "%s belongs to another release", path);
+        snprintf(text, sizeof text, "%s belongs to another release of koksma", path);
         transport = NULL;
     }
     *problem = transport ? NULL : text;

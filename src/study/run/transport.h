@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Messages between the ranks of a run. transport_mpi.c is a module of its own, the only object that links MPI; it
- * takes nothing from this library, and this library loads it when mpirun has started the process
- * (docs/decisions/0008-mpi-as-a-module.md).
+ * Messages between the ranks of a run. transport_mpi.c is built as a separate module, the only object that links
+ * MPI. The module uses no function of this library, and this library loads the module only if mpirun has started the
+ * process (docs/decisions/0008-mpi-as-a-module.md).
  */
 #ifndef KOKSMA_STUDY_RUN_TRANSPORT_H
 #define KOKSMA_STUDY_RUN_TRANSPORT_H
@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Raised with every change of the struct: a module of another build is not taken. */
+/* Raised with every change of the struct, so that a module of an incompatible build is rejected. */
 enum { KOKSMA__TRANSPORT_VERSION = 1 };
 #define KOKSMA__TRANSPORT_SYMBOL "koksma__transport_mpi"
 
@@ -18,15 +18,15 @@ typedef struct koksma__transport {
     unsigned version;
     bool (*start)(int *size, int *rank);
     bool (*send)(int to, int tag, const void *bytes, size_t size);
-    /* Waits for a message of at most `room` bytes; *size (or NULL) is what came. */
+    /* Waits for a message of at most `room` bytes; *size, unless size is NULL, is the number of bytes received. */
     bool (*receive)(int from, int tag, void *bytes, size_t room, size_t *size);
-    /* Without waiting: whether some rank's message is there, and whose. */
+    /* Whether a message of any rank has arrived, with its sender, tag and size; does not wait. */
     bool (*probe)(int *from, int *tag, size_t *size);
-    /* Ends this rank's part; abort_code not 0 ends all ranks. Does nothing when MPI has ended. */
+    /* Ends MPI on this rank; an abort_code other than 0 aborts all ranks. Does nothing if MPI has ended. */
     void (*finish)(int abort_code);
 } koksma__transport;
 
-/* The module's functions, or NULL with *problem in words. */
+/* The module's functions, or NULL, with the reason in *problem. */
 const koksma__transport *koksma__transport_load(const char **problem);
 
 #endif

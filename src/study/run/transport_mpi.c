@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The module koksma-mpi.so: transport.h by MPI, and nothing else. */
+/* The module koksma-mpi.so, which implements transport.h with MPI. */
 #include <mpi.h>
 
 #include "study/run/transport.h"
 
-/* An MPI count is an int: longer messages go in pieces, which one tag between two ranks keeps in order. */
+/* An MPI count is an int, so longer messages are sent in pieces; MPI keeps messages of one tag between two ranks in
+   order. */
 enum { PIECE = 1 << 30 };
 
 static bool start(int *size, int *rank)

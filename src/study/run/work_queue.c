@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Two bits for each number: taken, and put back. A cursor skips what is taken, so that taking is O(1) unless numbers
-   are not ready; a second cursor goes round those that are out when nothing else is left. */
+/* The queue keeps two bits for each number: taken, and put back. A cursor skips the taken numbers, so that taking is
+   O(1) unless numbers are not ready; a second cursor cycles through the numbers that are taken but not put back when
+   all are taken. */
 #include "study/run/work_queue.h"
 
 #include <stdlib.h>

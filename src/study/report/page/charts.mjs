@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts of a report: as wide as the page, at most eight lines at once, which the reader chooses; the point under the mouse,
-// or the one that arrow keys choose, is named with its values. Marks without lines, as of a scatter plot, are all shown.
+// Charts of a report. A chart is as wide as the page and shows at most eight lines at once, which the reader chooses. A
+// label names the point under the mouse, or the point chosen by arrow keys, with its values. Series of marks without lines,
+// such as those of a scatter plot, are all shown.
 import { chart } from "../../../../explorer/page/chart.mjs";
 import { element, short, svg } from "../../../../explorer/page/dom.mjs";
 
 const lines = 8, near = 40;
-const drawn = []; // again when the window has another width
+const drawn = []; // the functions that draw the charts, called again when the width of the window changes
 
 export function redraw() {
   drawn.forEach(draw => draw());
@@ -15,13 +16,13 @@ const swatch = (className, mark, line) => svg("svg", { class: "swatch", width: 2
   svg("g", { class: `series ${className}` }, line ? svg("path", { class: "line", d: "M1 6h24" }) : null,
     mark === undefined ? null : svg("g", { class: "dots" }, svg("circle", { cx: 13, cy: 6, r: 3.5 }))));
 
-// What is named at a point.
+// The label of a point: its series, values and axes.
 function tell({ x, y }, { label, hollow }, [px, py, low, high]) {
   const range = low < high ? ` (${short(low)} to ${short(high)})` : "";
   return `${label}${hollow ? ", printed" : ""}: ${short(py, 5)}${range} at ${short(px, 6)}; ${y.title} against ${x.title}`;
 }
 
-// The point at the mouse, or of the arrow keys, of what chart() drew last.
+// Marks and labels the point at the mouse, or the point chosen by arrow keys, among the points that chart() drew last.
 function inspect(stage, tip, block, points) {
   let at = null;
   const mark = index => {
@@ -57,7 +58,7 @@ function inspect(stage, tip, block, points) {
 
 export function chartFigure(block) {
   const named = block.series.filter(s => s.style !== "theory" && s.points.length), labels = [...new Set(named.map(s => s.label))];
-  const limited = named.some(s => s.style === "line"), slots = new Map(); // label: its mark
+  const limited = named.some(s => s.style === "line"), slots = new Map(); // from a label to the number of its mark
   labels.slice(0, limited ? lines : labels.length).forEach((label, i) => slots.set(label, i));
   const plot = element("div", { class: "plot" }), tip = element("output", { class: "tip", hidden: true }), legend = element("ul", { class: "legend" });
   const stage = element("div", { class: "stage", tabindex: 0, role: "group", "aria-label": `${block.title}: arrow keys name its points` }, plot, tip);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The head of a report: what was asked, what came out and how sure that is, which are its paragraphs marked as answers, each
-// below its question; then the contents, and a field that chooses rows of all tables.
+// The head of a report: the paragraphs that are marked as answers, each below its question; then the contents, and a field
+// that filters the rows of all tables.
 import { element } from "../../../../explorer/page/dom.mjs";
 import { filterTables, plain, unique, words } from "./tables.mjs";
 
 const mostAnswers = 8, levels = 3;
 
-// Every section gets the id of its heading.
+// Gives every section an anchor, the id of its heading.
 export function addAnchors(content) {
   for (const block of content.filter(b => b.kind === "section")) {
     block.anchor = unique(block.id ?? "part");
@@ -14,7 +14,8 @@ export function addAnchors(content) {
   }
 }
 
-// The question of an answer: the section that holds it; of the list of questions the one below that, or below its plan.
+// The section whose heading is the question of an answer: the innermost section that contains the answer or, in the section
+// "questions", the section at the level below it, or below its plan.
 function questionOf(path) {
   if (path[0]?.id !== "questions") return path.at(-1);
   return path[plain(path[1]?.heading ?? []).startsWith("Results:") ? 2 : 1] ?? path[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the data of a report (docs/report-format.md), which stand in the page's element #data: the answers and contents first
+// Shows the data of a report (docs/report-format.md), which are in the page's element #data: first the answers and contents
 // (overview.mjs), then sections, tables with their CSV files (tables.mjs), charts (charts.mjs), figures and pictures.
 import { byId, element, svg } from "../../../../explorer/page/dom.mjs";
 import { chartFigure, redraw } from "./charts.mjs";
@@ -42,7 +42,7 @@ const luminance = (p, i) => p.channels === 1 ? p.pixels[i]
 const channel = (p, i, c) => p.pixels[p.channels === 1 ? i : 3 * i + c];
 const errorAt = (a, b, i) => errorGain * Math.abs(luminance(a, i) - luminance(b, i));
 
-// value(i, x, c): of channel c of pixel i, which is in column x.
+// Fills a canvas. value(i, x, c) returns channel c of pixel i, which is in column x.
 function paint(canvas, width, height, value) {
   const data = new ImageData(width, height);
   for (let i = 0; i < width * height; i++) {
@@ -63,7 +63,7 @@ function thumbnail({ scene, width, height }, picture, reference) {
   return element("figure", {}, canvas, map, element("figcaption", {}, picture.name));
 }
 
-// Two pictures flipped, split or subtracted, zoomed, with the values of a pixel.
+// Compares two pictures: flips between them, splits or subtracts them, zooms, and shows the values of a pixel.
 function comparer({ scene, width, height }, pictures) {
   const menu = (text, items, index) => {
     const select = element("select", {}, ...items.map((name, i) => element("option", { value: i, selected: i === index }, name)));
@@ -150,7 +150,7 @@ const kinds = {
   chart: chartFigure,
 };
 
-// Neighbouring figures, and charts, stand side by side where they fit.
+// Makes the nodes of blocks. Neighbouring figures, and neighbouring charts, are side by side if they fit.
 function blocks(content, level) {
   const nodes = [];
   content.forEach((block, i) => {
@@ -173,7 +173,7 @@ addEventListener("resize", () => {
   if (innerWidth !== drawnFor) redraw();
   drawnFor = innerWidth;
 });
-// Paper has no folds.
+// Opens all collapsed sections for printing.
 const folded = [];
 addEventListener("beforeprint", () => document.querySelectorAll("#evidence details:not([open], .choice)").forEach(node => { folded.push(node); node.open = true; }));
 addEventListener("afterprint", () => folded.splice(0).forEach(node => { node.open = false; }));

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers, words and tables of a report. A table is sorted by the column that its data name, or by one whose head is
-// clicked: by its values up and down, by the widths of its intervals, then as the data are. What is typed into its field, or
-// into the one of the whole page, chooses rows.
+// Numbers, words and tables of a report. A table is sorted by the column that its data name, or by the column whose head the
+// reader clicks: by values ascending, by values descending, by the widths of the intervals, and then in the order of the
+// data. Text in the table's search field, or in that of the whole page, filters the rows.
 import { element } from "../../../../explorer/page/dom.mjs";
 
-const dash = "–", fewRows = 8, manyIntervals = 5, manyColumns = 8; // intervals then are below their values
-const wideColumns = 6; // above, the first column keeps room for names on narrow screens
+const dash = "–", fewRows = 8, manyIntervals = 5, manyColumns = 8; // beyond these, intervals are below values
+const wideColumns = 6; // beyond this, the first column keeps room for names on narrow screens
 
 // ---- Numbers and words
 
-// As C's %.<digits>g.
+// Formats a number like %.<digits>g in C.
 function general(value, digits) {
   if (value === 0) return "0";
   const [mantissa, exponent] = value.toExponential(digits - 1).split("e").map((part, i) => i ? +part : part);
@@ -28,7 +28,7 @@ export const words = runs => runs.map(run => {
 
 export const plain = runs => runs.map(run => run.text ?? run).join("");
 
-const taken = new Map(); // ids, which studies of several plans may repeat
+const taken = new Map(); // how often each id occurred; studies of several plans may repeat ids
 export function unique(id) {
   if (!id) return null;
   const number = (taken.get(id) ?? 0) + 1;
@@ -40,7 +40,7 @@ export function unique(id) {
 
 const small = text => element("span", { class: "pm" }, text);
 
-// What stands behind a value: its interval, or its standard deviation.
+// The text after a value: its interval or its standard deviation.
 function spread({ value, low, high, sd }, column) {
   const half = h => column.decimals === undefined || h < 0.5 * 10 ** -column.decimals ? general(h, 2) : h.toFixed(column.decimals);
   if (typeof sd === "number") return [" ", small(`± ${general(sd, 2)}`)];
@@ -50,7 +50,7 @@ function spread({ value, low, high, sd }, column) {
   return [" ", small(`${half(low)} … ${half(high)}`)];
 }
 
-// Verdicts have a mark, and z, or the change, behind it or in its tooltip.
+// The mark of a verdict, with z or the relative change after the mark or in its tooltip.
 function verdictMark(cell, withNumber) {
   if (cell.verdict === "new" || cell.verdict === "waiting") return cell.verdict === "new" ? "new" : "not yet";
   const signed = (v, digits) => /[1-9]/.test(v.toFixed(digits)) ? `${v < 0 ? "" : "+"}${v.toFixed(digits)}` : (0).toFixed(digits); // no -0.0
@@ -60,7 +60,7 @@ function verdictMark(cell, withNumber) {
   return element("span", { class: name, title: number }, withNumber ? `${mark} ${number}` : mark);
 }
 
-// What a cell shows: a text, a number, [value, low, high], or an object with more than that.
+// The content of a cell, whose data are a text, a number, [value, low, high], or an object with more fields.
 function cellContent(cell, column) {
   if (typeof cell === "string") return [cell];
   if (typeof cell === "number") return [shown(cell, column)];
@@ -76,7 +76,7 @@ function cellContent(cell, column) {
   return content;
 }
 
-// How many rows from this one on have the same cell in a merged column; 0: the one above stands for it.
+// The number of rows, from this one on, that a cell of a merged column spans; 0: a cell above spans this row.
 function span(rows, row, column) {
   const same = i => rows[i] && rows[i][column] === rows[row][column];
   if (same(row - 1)) return 0;
@@ -94,7 +94,7 @@ function groupHeads(columns) {
   return element("tr", {}, ...heads.map(({ group, n }) => element("th", { colspan: n > 1 ? n : null, scope: group ? "colgroup" : null }, group)));
 }
 
-// A column of the file for each number of a column of the table.
+// The columns of the CSV file for a column of the table: one for each number in its cells.
 function csvParts(column) {
   const numbers = { interval: ["", " low", " high"], spread: ["", " SD"], verdict: ["", " z", " change"] }[column.type] ?? [""];
   const keys = { interval: ["value", "low", "high"], spread: ["value", "sd"], verdict: ["verdict", "z", "change"] }[column.type] ?? ["value"];
@@ -104,7 +104,7 @@ function csvParts(column) {
   }));
 }
 
-// RFC 4180.
+// Writes the table as CSV (RFC 4180).
 function csvOf({ columns, rows }) {
   const parts = columns.map(csvParts), quote = v => typeof v === "string" ? `"${v.replaceAll('"', '""')}"` : v ?? "";
   const lines = [parts.flat().map(p => quote(p.name))];
@@ -112,7 +112,7 @@ function csvOf({ columns, rows }) {
   return lines.map(line => `${line.join(",")}\r\n`).join("");
 }
 
-// What a row is sorted by: null where there is nothing.
+// The key by which a row is sorted; null if the cell has no value.
 function sortKey(cell, by) {
   if (cell === null || cell === undefined || typeof cell !== "object") return by === "width" ? null : cell ?? null;
   const { value, low, high } = Array.isArray(cell) ? { value: cell[0], low: cell[1], high: cell[2] } : cell;
@@ -120,7 +120,7 @@ function sortKey(cell, by) {
   return typeof low === "number" && typeof high === "number" ? high - low : null;
 }
 
-// Rows in the order of a column; those without a value come last, equal ones stay.
+// Sorts rows by a column. Rows without a value come last; rows with equal values keep their order.
 function sorted(rows, { c, by, descending }) {
   const sign = descending ? -1 : 1, keys = new Map(rows.map(r => [r, sortKey(r.row[c], by)]));
   return [...rows].sort((r, s) => {
@@ -130,7 +130,7 @@ function sorted(rows, { c, by, descending }) {
   });
 }
 
-// What a click on the head of a column does to the order.
+// The order of the rows after a click on the head of a column.
 function nextOrder(order, column) {
   const steps = [{ by: "value" }, { by: "value", descending: true }, ...(column.type === "interval" ? [{ by: "width" }] : []), null];
   const at = order?.c === column.c ? steps.findIndex(s => s && s.by === order.by && Boolean(s.descending) === Boolean(order.descending)) : -1;
@@ -141,15 +141,15 @@ function nextOrder(order, column) {
 const says = (order, columns) => `Sorted by ${order.by === "width" ? "the width of the intervals of " : ""}${
   columns.find(column => column.c === order.c).title ?? columns.find(column => column.c === order.c).name}, ${order.descending ? "largest" : "smallest"} first`;
 
-const filters = []; // of all tables, by the field of the page
+const filters = []; // one function per table, called when the search field of the page changes
 
 export function filterTables(text) {
   filters.forEach(filter => filter(text));
 }
 
-// A row of a table; `rows` are all, whose merged cells span those below.
+// Makes row r of a table; `rows` are all rows, because a merged cell spans rows below it.
 function rowNode(rows, r, visible) {
-  const rest = visible[0].merged && !span(rows, r, visible[0].c); // its first cell stands in a row above
+  const rest = visible[0].merged && !span(rows, r, visible[0].c); // a cell above spans this row
   return element("tr", { class: rest ? "rest" : null }, ...visible.map((column, i) => {
     const cell = rows[r][column.c];
     if (cell === undefined) return null;
@@ -166,7 +166,7 @@ export function table(block) {
   const body = element("tbody", {}), state = element("output", {}), field = element("input", { type: "search", size: 16 });
   const moves = rows.length > 2 && !visible.some(column => column.merged);
   let order = block.sort ? { ...block.sort, c: block.columns.findIndex(column => column.name === block.sort.column) } : null, wanted = "";
-  // Chromium repeats the head of a table on each page of paper, without the buttons in it: data-head is printed.
+  // Chromium repeats the head of a table on each printed page, but without its buttons, so CSS prints data-head.
   const heads = visible.map(column => element("th", { scope: "col", class: column.type === "text" ? "name" : null, "data-head": moves ? column.title ?? column.name : null },
     moves ? element("button", { type: "button" }, column.title ?? column.name) : column.title ?? column.name));
   const show = () => {

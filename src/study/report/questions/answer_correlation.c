@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Does a measure order the patterns as the error of images does? For every scene, variant and number of samples the
- * rank correlation, over patterns, of the mean of a measure of n points with the mean error of images of n samples a
- * pixel; its interval is a bootstrap over the patterns that redraws the means. All cases and measures are resampled
- * together, so that the mean correlations of two measures can be compared. The mean over all cases comes first, then
- * the means by scene, by group of scenes and by number of samples, then combinations of measures.
+ * Answers whether a measure orders the patterns as the error of images does. For every scene, variant and number of
+ * samples it computes the rank correlation, over patterns, of the mean of a measure of n points with the mean error
+ * of images of n samples per pixel. The interval of a correlation comes from a bootstrap over the patterns that also
+ * redraws the means. All cases and measures are resampled together, so that the mean correlations of two measures
+ * can be compared. The answer gives the means over all cases, then by group of scenes, by scene and by number of
+ * samples, and then combinations of measures.
  */
 #include <math.h>
 #include <stdio.h>
@@ -22,19 +23,20 @@
 #include "study/report/rho_words.h"
 
 typedef struct listing {
-    koksma__document *list; /* the table of every case */
+    koksma__document *list; /* the table of all cases */
     koksma__rho_means *means;
     koksma__combinations *combinations;
-    size_t most_patterns; /* of a case */
+    size_t most_patterns; /* largest number of patterns in a case */
 } listing;
 
-/* A correlation of a measure that is better when larger, turned. */
+/* A correlation with the other sign, for a measure that is better when larger. */
 static koksma__estimate turned(const koksma__estimate *of)
 {
     return (koksma__estimate){-of->value, -of->high, -of->low};
 }
 
-/* rho, with its resamples, and tau. Kendall's is only shown: a quarter of the resamples will do. */
+/* Computes Spearman's rho with its resamples, and Kendall's tau. As tau is only shown, a quarter of the resamples
+   suffices. */
 static koksma_status correlate(const koksma__case *p, const koksma__pairs *found, double draws[KOKSMA__RHO_SAMPLES],
                                koksma__estimate *rho, koksma__estimate *tau)
 {
@@ -88,7 +90,7 @@ static koksma_status list_row(const koksma__cases *cases, void *context, const k
     return koksma__rho_add(l->means, &source, &rho, draws);
 }
 
-/* What the answer leaves out. */
+/* Writes what the answer leaves out. */
 static void say_limits(koksma__document *d, const listing *l)
 {
     const koksma__rho_means *s = l->means;
@@ -110,7 +112,7 @@ typedef struct plots {
     size_t left;
 } plots;
 
-/* A scatter plot of the best measure in the middle number of samples of a block. */
+/* Adds a scatter plot of a case if it is of the best measure and of the block's middle number of samples. */
 static koksma_status add_scatter(const koksma__cases *cases, void *context, const koksma__case *p)
 {
     plots *to = context;
@@ -138,7 +140,8 @@ static koksma_status add_scatter(const koksma__cases *cases, void *context, cons
     return KOKSMA_OK;
 }
 
-/* Sentence, tables and charts of the correlations, of which there are some. Empties `list`. */
+/* Writes the sentence, tables and charts of the correlations, of which there must be at least one. Empties
+   l->list. */
 static koksma_status report(koksma__document *d, const koksma__cases *cases, const listing *l)
 {
     const koksma__topic *topic = cases->topic;

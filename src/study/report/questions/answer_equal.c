@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * How many samples of each pattern give the error that 16 samples of the block's first pattern give: interpolated in
- * log-log between the sizes that the plan has, or extrapolated beyond them (koksma__samples_for), with an interval
- * from the errors of the means.
+ * Answers how many samples of each pattern give the error that 16 samples of the block's first pattern give. The
+ * number is interpolated in log-log between the plan's numbers of samples, or extrapolated beyond them
+ * (koksma__samples_for); its interval follows from the standard errors of the means.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,13 +15,14 @@
 
 enum { EQUAL_TO = 16 };
 
-/* A scene with its options, of a block. */
+/* A scene of a block, with its options. */
 typedef struct compared {
     const koksma__image_block *image;
     const char *scene, *variant;
 } compared;
 
-/* The errors of a pattern over the block's sizes: arrays of as many numbers. */
+/* Reads the mean errors of a pattern over the block's numbers of samples. n, mean, error: arrays of that many
+   numbers. */
 static koksma_status convergence(koksma_study *study, const compared *c, const char *pattern, double *n, double *mean,
                                  double *error, koksma__convergence *out)
 {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Koksma's inequality shown: the error of the mean of f over N points is at most V(f) D*_N (Koksma 1942; in the plane
- * Hlawka 1961, with the variation of Hardy and Krause). One set a pattern and number of points, seed 0, made here: it
- * takes no rows. Functions of x alone see the points' first coordinates, and their star discrepancy.
+ * Demonstrates Koksma's inequality: the error of the mean of f over N points is at most V(f) D*_N (Koksma 1942; in
+ * the plane Hlawka 1961, with the variation of Hardy and Krause). The answer uses no rows of the store: it generates
+ * one point set of each pattern and number of points, with seed 0. For functions of x alone it uses the points'
+ * first coordinates and their star discrepancy.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,9 +16,9 @@
 
 enum { MAX_POINTS = 4096 };
 
-/* What all rows have to say together. */
+/* The summary of all rows. */
 typedef struct verdict {
-    size_t cases, beyond, no_use, infinite; /* no_use: V(f) D* is finite, but above every error that f can have */
+    size_t cases, beyond, no_use, infinite; /* no_use: V(f) D* is finite, but exceeds every error that f can have */
     double closest;
     char where[KOKSMA_MAX_SPEC + 128];
 } verdict;
@@ -32,7 +33,7 @@ static koksma_status star_of(const koksma_points *points, double *star)
     return status;
 }
 
-/* The points' first coordinates. */
+/* Makes a point set in one dimension of the points' first coordinates. */
 static koksma_status on_line(const koksma_points *points, koksma_points *line)
 {
     const koksma_status status = koksma_points_init(line, points->n, 1);
@@ -71,7 +72,7 @@ static void add_row(koksma__document *d, verdict *all, const char *pattern, cons
     }
 }
 
-/* The row of an integrand, if it is a function of the line or the plane whose variation is known. */
+/* Adds the row of an integrand for a point set of the integrand's dimension. */
 static koksma_status add_integrand(koksma__document *d, verdict *all, const char *pattern,
                                    const koksma_points *points, const koksma_integrand *f, double star)
 {
@@ -108,7 +109,8 @@ static koksma_status add_set(koksma__document *d, verdict *all, const char *patt
     }
     koksma_points_fini(&points);
     koksma_points_fini(&line);
-    return status == KOKSMA_FORBIDDEN ? KOKSMA_OK : status; /* without sets that only the user's word makes */
+    return status == KOKSMA_FORBIDDEN ? KOKSMA_OK
+                                      : status; /* leaves out patterns that the user did not allow to run code */
 }
 
 static void add_heads(koksma__document *d)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What options (of renders) and warps (of points) change: the relative difference to the first of them, paired by
- * trial, because both see the same points. A row has a pattern and a number of points or samples of a case (a scene
- * or a measure); a sentence for each option sums up its rows by the geometric mean of the ratios.
+ * Answers how options (of renders) and warps (of points) change the means: by the relative difference to the first
+ * option or warp, paired by trial, because trials of equal number use the same points. A row is for one pattern and
+ * one number of points or samples in a case (a scene or a measure). A sentence for each option sums up its rows by
+ * the geometric mean of the ratios.
  */
 #include <math.h>
 #include <stdio.h>
@@ -13,10 +14,11 @@
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"
 
-/* One comparison: option v of a pattern at n in a case against option 0. */
+/* The comparisons of one option with option 0, counted over all rows (pattern, number of points or samples,
+   case). */
 typedef struct comparison {
-    size_t cases, better, worse, equal, unknown; /* equal: every trial bit for bit; unknown: without an interval */
-    double logs;                                 /* sum of the logs of the ratios */
+    size_t cases, better, worse, equal, unknown; /* equal: bit for bit in every trial; unknown: without an interval */
+    double logs;                                 /* sum of the logarithms of the ratios */
 } comparison;
 
 typedef struct side {
@@ -24,7 +26,7 @@ typedef struct side {
     koksma__summary mean;
 } side;
 
-/* The values of trials that both sides have; *n: how many. */
+/* Collects the values of the trials that both sides have: *n values of `base`, then *n of `other`. */
 static koksma_status pair(const side *base, const side *other, double **values, size_t *n)
 {
     const size_t room = base->mean.n < other->mean.n ? base->mean.n : other->mean.n;
@@ -42,7 +44,7 @@ static koksma_status pair(const side *base, const side *other, double **values, 
         i += a->trial <= b->trial;
         k += b->trial <= a->trial;
     }
-    if (*n < room) { /* together again */
+    if (*n < room) { /* close the gap between the two lists */
         memmove(*values + *n, *values + room, *n * sizeof **values);
     }
     return KOKSMA_OK;
@@ -57,7 +59,7 @@ static koksma_status compare(koksma__document *d, const side *base, const side *
         return status;
     }
     koksma__estimate e = koksma__relative_change(values + n, values, n);
-    if (n == 1 && base->mean.low == base->mean.high && other->mean.low == other->mean.high) { /* they don't vary */
+    if (n == 1 && base->mean.low == base->mean.high && other->mean.low == other->mean.high) { /* both are exact */
         e.low = e.high = e.value;
     }
     koksma__doc_interval(d, e);
@@ -100,7 +102,8 @@ static void say_change(koksma__document *d, const char *base, const char *other,
     koksma__doc_paragraph_end(d);
 }
 
-/* The rows of one case: patterns x n, the first option's value and the others' relative differences. */
+/* A case whose rows (one per pattern and n) have the first option's mean and the other options' relative
+   differences. */
 typedef struct option_case {
     const char *name, *measure;
     const koksma__texts *patterns, *options;
@@ -157,7 +160,7 @@ static void add_heads(koksma__document *d, const option_case *c)
     }
 }
 
-/* All cases of a block: its scenes, or its measures. */
+/* Adds the sentences and the table of a block, whose cases are its scenes or its measures. */
 static koksma_status add_block(koksma_study *study, koksma__document *d, const char *id, size_t number,
                                option_case *c)
 {

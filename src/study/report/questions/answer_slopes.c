@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * How measures and errors fall with n: average slopes in log-log over the larger half of the sizes, with intervals,
- * beside what theory says is possible; the page sorts the patterns by the widths of the intervals, the best known
- * first. A bound with a logarithm has no slope; the slope of the bound itself over the
- * same sizes stands in its place.
+ * Answers how fast measures and errors fall with n: by average slopes in log-log over the larger half of the sizes,
+ * with intervals, and with the known lower bound of a measure for comparison. The page sorts the patterns by the
+ * widths of the intervals, the narrowest first. A bound with a logarithm is no power law, so its row has the average
+ * slope of the bound over the same sizes.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@
 #include "study/report/questions/topic.h"
 #include "study/report/slope_words.h"
 
-/* The means of one pattern over the sizes, with room for all of them: those above 0, and all. */
+/* The means of one pattern over the sizes: x and y hold the n sizes whose mean is above 0; `all` holds all sizes. */
 typedef struct curve {
     size_t n, zeros;
     double *x;
@@ -37,7 +37,7 @@ static void curve_fini(curve *c)
     free(c->y);
 }
 
-/* What a curve is of. */
+/* The subject of a curve: a measure (with a warp) of points, or the error of images of a scene and variant. */
 typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
@@ -74,14 +74,15 @@ static koksma_status collect(koksma_study *study, const subject *s, const char *
     return status;
 }
 
-/* Over the larger half, at least three sizes where there are as many. */
+/* The trend over the larger half of the sizes, and over at least three sizes if there are that many. */
 static koksma__trend trend_of(const curve *c)
 {
     const size_t half = c->n - c->n / 2, least = c->n < 3 ? c->n : 3, n = half < least ? least : half;
     return koksma__trend_of(c->x + (c->n - n), c->y + (c->n - n), n);
 }
 
-/* The bound over the sizes of a curve; NULL: none is known, else whose it is. */
+/* Computes the lower bound of a measure over the sizes of a curve. Returns the bound's source; NULL: no bound is
+   known. */
 static const char *bound_of(const subject *s, const curve *like, curve *out)
 {
     koksma_spec spec;
@@ -153,7 +154,7 @@ static void add_row(koksma__document *d, const subject *s, const char *pattern, 
     }
 }
 
-/* The bound's row, and its line, a quarter as high as the first pattern's where that begins. */
+/* Adds the row and the line of a bound. The line begins at a quarter of the height of the first pattern's curve. */
 static void add_bound(koksma__document *d, koksma__document *chart, const char *who, const curve *bound, double scale)
 {
     char text[96];
@@ -171,7 +172,7 @@ static void add_bound(koksma__document *d, koksma__document *chart, const char *
     koksma__doc_interval(d, slope);
 }
 
-/* All patterns' rows, slopes and curves, and how many means are 0. */
+/* Adds the rows and curves of all patterns, and stores their slopes and their numbers of means that are 0. */
 static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *s, koksma__document *chart,
                               koksma__trend *trends, size_t *zeros)
 {

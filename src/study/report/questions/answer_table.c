@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Means of every pattern with their intervals: a table for each measure (and warp) of a block of points, and for each
- * scene and options of a block of images. The best pattern of the last column comes first. A sentence says whether it
- * is told apart from all others there, by the intervals of the differences, at 95 % for all of them together
- * (Bonferroni), and else how many trials might tell the first two apart. A table of images has the numbers of samples
- * at which a pattern's error is in visible bands (coherence_rows.h), and names the best pattern without bands.
+ * Tables of the means of every pattern, with their intervals: one for each measure (and warp) of a block of points,
+ * and one for each scene and options of a block of images. The patterns are sorted by the last column, the best
+ * first. A sentence reports whether the best pattern differs from all others in that column, by the intervals of the
+ * differences, at 95 % for all of them together (Bonferroni); if not, how many trials might separate it from the
+ * next. A table of images has the numbers of samples at which a pattern's error is in visible bands
+ * (coherence_rows.h), and the sentence names the best pattern without bands.
  */
 #include <math.h>
 #include <stdio.h>
@@ -18,22 +19,23 @@
 
 enum { NAMED = 4 };
 
-/* A table: means by one measure of points, or of images of one scene and variant. */
+/* The subject of a table: the means of one measure of points, or of the errors of images of one scene and
+   variant. */
 typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
-    const char *scene, *variant; /* of images */
-    const char *measure, *warp;  /* of points; "": no warp */
+    const char *scene, *variant; /* for images */
+    const char *measure, *warp;  /* for points; warp "": none */
     const koksma__texts *patterns;
     const koksma__wholes *n;
-    const char *name, *last; /* heads of the table and of its last column */
-    bool larger;             /* is better */
+    const char *name, *last; /* heading of the table; head of its last column */
+    bool larger;             /* larger means are better */
 } subject;
 
 /* The patterns by their means in the last column, the best first. */
 typedef struct standing {
     koksma__summary *means; /* in the order of the patterns */
-    size_t *by, known;      /* known: patterns with a mean, which come first */
+    size_t *by, known;      /* by: indices of the patterns in order; known: number with a mean, which come first */
 } standing;
 
 static koksma_status cell_of(koksma_study *study, const subject *c, size_t pattern, size_t k, koksma__summary *mean)
@@ -83,7 +85,8 @@ static koksma_status order(koksma_study *study, const subject *c, standing *s)
 
 /* ---- Which is the best, and how sure that is --------------------------------------------------------------- */
 
-/* Half the interval of the difference of two means, at 95 % for so many comparisons together; NaN: not known. */
+/* Half the width of the interval of the difference of two means, at 95 % for all comparisons together; NaN:
+   unknown. */
 static double half_of(const koksma__summary *a, const koksma__summary *b, size_t comparisons)
 {
     const double half = hypot(a->high - a->mean, b->high - b->mean);
@@ -101,7 +104,8 @@ static bool is_tied(const standing *s, size_t i)
            !(fabs(first->mean - other->mean) > half_of(first, other, s->known - 1));
 }
 
-/* How many trials would tell the first from the next that is not told apart from it, place i. */
+/* Writes how many trials would separate the first pattern from pattern i of the order, the first that is tied with
+   it. */
 static void say_trials(koksma__document *d, const subject *c, const standing *s, size_t i)
 {
     const koksma__summary *a = &s->means[s->by[0]], *b = &s->means[s->by[i]];
@@ -110,7 +114,7 @@ static void say_trials(koksma__document *d, const subject *c, const standing *s,
     if (!koksma__compare(a->mean, b->mean)) {
         koksma__doc_say(d, " %s and %s have equal means", first, other);
     } else if (isnan(half)) {
-        koksma__doc_say(d, " One trial has no interval: it takes 2 or more");
+        koksma__doc_say(d, " A mean of one trial has no interval: 2 or more trials are needed");
     } else {
         const double needed = trials * koksma__trials_factor(a->mean - b->mean, half);
         const double unit = pow(10, floor(log10(needed)) - 1);
@@ -161,7 +165,7 @@ static koksma_status coherence_of(koksma_study *study, const subject *c, size_t 
     return koksma__image_coherence(study, c->image, c->scene, c->variant, c->patterns->at[pattern], c->n->at[k], out);
 }
 
-/* The numbers of samples at which a pattern's error is in bands: "4, 16 samples". */
+/* Writes the cell with the numbers of samples at which a pattern's error is in bands, such as "4, 16 samples". */
 static koksma_status add_bands(koksma_study *study, koksma__document *d, const subject *c, size_t pattern)
 {
     koksma_status status = KOKSMA_OK;
@@ -183,7 +187,8 @@ static koksma_status add_bands(koksma_study *study, koksma__document *d, const s
     return status;
 }
 
-/* Says whether the first pattern's error is in visible bands in the last column, and which is the best without. */
+/* Writes whether the first pattern's error is in visible bands in the last column, and which is the best pattern
+   without bands. */
 static koksma_status say_bands(koksma_study *study, koksma__document *d, const subject *c, const standing *s)
 {
     koksma_status status = KOKSMA_OK;
@@ -263,7 +268,7 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const c
     return status;
 }
 
-/* Means of a block's points, by measure, and by warp where it has some. */
+/* Adds the tables of a block of points: one for each measure, and for each warp if the block has warps. */
 static koksma_status add_points(koksma_study *study, koksma__document *d, const char *id,
                                 const koksma__discrepancy_block *block, size_t *number)
 {
@@ -289,7 +294,7 @@ static koksma_status add_points(koksma_study *study, koksma__document *d, const 
     return status;
 }
 
-/* Means of a block's images, by scene and options. */
+/* Adds the tables of a block of images: one for each scene and combination of options. */
 static koksma_status add_images(koksma_study *study, koksma__document *d, const char *id,
                                 const koksma__image_block *i, size_t *number)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Counts how many published means agree with ours, by the verdicts of all tables of the study (koksma__table_judge):
-   those of measures, which are tested statistically, apart from those of images, and of scenes that were fitted to the
-   published numbers. A table over several numbers of points has one mean in each column, others one in each row. */
+/* Counts how many published means agree with ours, by the verdicts of all tables of the study (koksma__table_judge).
+   It counts three groups separately: means of measures, which are tested statistically; means of image errors; and
+   image errors in scenes that were fitted to the published numbers. A table over several numbers of points has one
+   mean per row and column, other tables one per row. */
 #include <string.h>
 
 #include "study/report/published_tables.h"
@@ -29,7 +30,7 @@ static koksma_status count_row(koksma_study *study, const koksma__table *t, cons
     return status;
 }
 
-/* What tables compare. */
+/* The groups of tables that are counted separately. */
 enum { MEASURES, IMAGES, FITTED, GROUPS };
 
 static const char *verb(size_t n)
@@ -37,7 +38,7 @@ static const char *verb(size_t n)
     return n == 1 ? "differs" : "differ";
 }
 
-/* One sentence for a group of tables that has means to compare. */
+/* Writes one sentence for a group of tables, if the group has means to compare. */
 static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
 {
     const size_t agree = counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED],
@@ -53,7 +54,8 @@ static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA
     } else {
         koksma__doc_say(d, "of %s agree within %.0f %%%s",
                         group == IMAGES ? "images" : "images in scenes that were fitted to them",
-                        100 * KOKSMA__IMAGE_TOLERANCE, group == IMAGES ? "" : ", which confirms nothing");
+                        100 * KOKSMA__IMAGE_TOLERANCE,
+                        group == IMAGES ? "" : ", so their agreement confirms nothing");
     }
     if (explained) {
         koksma__doc_say(d, "; %zu %s for a known reason (notes)", explained, verb(explained));

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The figures of a plan, made again from their keys: points as a scatter plot (SVG), scenes as images (PNG), the
- * strata of adaptive sampling in a pixel (SVG), and the random lines that Mitchell 1992 (section 5) measures edges
- * with. Lines are drawn in the square, or as points (m, b) of the lines y = m x + b, where those that meet the square
- * fill a bow-tie: 0 < b < 1 - m for m < 0 and -m < b < 1 for m > 0.
+ * The figures of a plan, computed again from their keys for every report: points as a scatter plot (SVG), scenes as
+ * images (PNG), the strata of adaptive sampling in a pixel (SVG), and the random lines with which Mitchell 1992
+ * (section 5) measures edges. Lines y = m x + b are drawn in the unit square, or as points (m, b); the points of the
+ * lines that meet the square fill a bow-tie: 0 < b < 1 - m for m < 0 and -m < b < 1 for m > 0.
  */
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@
 
 enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 160, PROBES = 16 };
 
-/* note: why there is no picture, for the caption. */
+/* Adds the scatter plot of a point set. note: text for the caption that says why there is no plot. */
 static koksma_status add_points(koksma__document *d, const koksma__figure *f, char note[NOTE])
 {
     koksma_spec spec;
@@ -39,7 +39,7 @@ static koksma_status add_points(koksma__document *d, const koksma__figure *f, ch
     }
     status = koksma_generate(&spec, koksma__job_seed("figure|%s|%lld", f->pattern, f->n), NULL, &points);
     koksma_scatter_options options = {.size = POINTS_WIDTH, .warp = f->warp ? koksma_warp_find(f->warp) : NULL};
-    if (f->cells) { /* the strata: n x n rows and columns, or the cells of a grid */
+    if (f->cells) { /* show the strata: n columns and n rows, or the cells of a sqrt n x sqrt n grid */
         options.columns = options.rows =
             spec.pattern->claims & KOKSMA_CLAIM_LATIN ? (size_t)f->n : (size_t)sqrt((double)f->n);
     }
@@ -50,7 +50,7 @@ static koksma_status add_points(koksma__document *d, const koksma__figure *f, ch
         koksma__doc_svg(d, svg, size, POINTS_WIDTH, f->title);
         free(svg);
     }
-    if (status == KOKSMA_FORBIDDEN) { /* a report runs no code of others unless the user says so */
+    if (status == KOKSMA_FORBIDDEN) { /* a report runs foreign code only if the user allows it */
         snprintf(note, NOTE, " (not drawn: the pattern runs code, which takes --allow-exec)");
         status = KOKSMA_OK;
     }
@@ -87,7 +87,7 @@ static const koksma_space *find_space(const koksma_strata *strata, const char *n
     return NULL;
 }
 
-/* One picture a space, side by side where there is room. */
+/* Adds one picture for each space of the strata; the page shows them side by side if they fit. */
 static koksma_status add_strata(koksma__document *d, const koksma__figure *f, koksma_strata *strata)
 {
     koksma_status status = KOKSMA_OK;
@@ -101,7 +101,8 @@ static koksma_status add_strata(koksma__document *d, const koksma__figure *f, ko
     return status;
 }
 
-/* The part of an image that the figure shows, the larger the smaller it is, and the brighter by its exposure. */
+/* Adds the part of an image that the figure shows, enlarged to the width of the whole image and multiplied by the
+   figure's exposure. */
 static koksma_status add_part(koksma__document *d, const koksma__figure *f, const koksma_image *image)
 {
     koksma_image part;
@@ -127,7 +128,8 @@ static koksma_status add_part(koksma__document *d, const koksma__figure *f, cons
     return status;
 }
 
-/* What the method did to the whole image, for the caption: the first paper's numbers, and its argument as one. */
+/* Writes a note for the caption: how many samples per pixel the adaptive method took over the whole image and, if it
+   splits strata, how many splits were needless. */
 static void describe_adaptive(const koksma__figure *f, double pixels, const koksma_adaptive_report *report,
                               char note[NOTE])
 {
@@ -193,9 +195,9 @@ static koksma_status add_scene(const koksma_study *study, koksma__document *d, c
 
 /* ---- Random lines ------------------------------------------------------------------------------------------ */
 
-static const double MOST_SLOPE = 3; /* of the points that are shown */
+static const double MOST_SLOPE = 3; /* largest |m| of the lines that are shown as points (m, b) */
 
-/* The two points where a x + b y = c meets the square's border; false: fewer. */
+/* Finds the two points where the line a x + b y = c meets the border of the unit square; false: there are fewer. */
 static bool meet_square(double a, double b, double c, double ends[2][2])
 {
     int n = 0;
@@ -210,7 +212,7 @@ static bool meet_square(double a, double b, double c, double ends[2][2])
     return n == 2;
 }
 
-/* The border of the square, or the bow-tie. */
+/* Draws the border of the unit square or, if `dual`, of the bow-tie. */
 static void add_outline(koksma__document *d, bool dual)
 {
     static const double square[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

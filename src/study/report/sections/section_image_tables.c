@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Published tables of image errors. A row has the printed numbers, our means against the block's first reference (the
- * paper's) with the verdict on the printed mean, the coherence of the error, and our means against the last one (the converged image) where there
- * are two. Below a table stands what the choice of the reference changes; below all of them the order of the patterns
- * by their mean rank over the tables, beside the overall order that the paper prints.
+ * The published tables of image errors. A row has the published numbers, our means against the block's first
+ * reference (the paper's) with the verdict on the published mean, the coherence of the error and, if the block has
+ * several references, our means against the last one (the converged image). The text below a table reports the
+ * effect of the choice of the reference. The text below all tables gives the order of the patterns by their mean
+ * rank over the tables, and the overall order that the paper gives.
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +17,7 @@
 #include "study/report/published_columns.h"
 #include "study/report/report.h"
 
-/* The next image table of the scope's plan from *i on; NULL: no more. */
+/* The next image table of the scope's plan, from table *i on, which it advances; NULL: there is none. */
 static const koksma__table *next_table(const koksma__report_scope *scope, size_t *i)
 {
     const koksma__plan *plan = &scope->study->plan;
@@ -35,7 +36,7 @@ static bool is_shown(const koksma__report_scope *scope)
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
-/* Mean, SD and maximum against a reference. */
+/* Adds the columns for the mean, SD and maximum of the error against a reference. */
 static void add_cell_columns(koksma__document *d, const char *of, const char *group)
 {
     static const koksma__column columns[] = {{"mean", "mean 95 %", .type = KOKSMA__COLUMN_INTERVAL, .digits = 5},
@@ -79,9 +80,9 @@ static void add_cell(koksma__document *d, const koksma__cell *cell)
     koksma__doc_number(d, cell->max);
 }
 
-/* The rows' means against the first reference of the block and the last. */
+/* The means of a table's rows against the first [0] and the last [1] reference of the block. */
 typedef struct row_means {
-    size_t *order[2]; /* the rows' positions, best first */
+    size_t *order[2]; /* indices of the rows, best first */
     double *mean[2];
 } row_means;
 
@@ -115,7 +116,7 @@ static koksma_status add_row(koksma_study *study, koksma__document *d, const kok
     return KOKSMA_OK;
 }
 
-/* Insertion sort, ties by position. */
+/* Sorts the rows by mean, by insertion; rows with equal means keep their order. */
 static void order_rows(const double *means, size_t n, size_t *order)
 {
     for (size_t r = 0; r < n; r++) {
@@ -127,7 +128,7 @@ static void order_rows(const double *means, size_t n, size_t *order)
     }
 }
 
-/* How much the choice of the reference changes the means, and whether it changes the order. */
+/* Writes how much the choice of the reference changes the means, and whether it changes the order. */
 static void say_changes(koksma__document *d, const koksma__table *t, const row_means *means)
 {
     double low = INFINITY, high = -INFINITY;
@@ -150,7 +151,7 @@ static void say_changes(koksma__document *d, const koksma__table *t, const row_m
     }
 }
 
-/* What the choice of the reference changes, once every row has a mean. */
+/* Writes the effect of the choice of the reference if every row has a mean. */
 static koksma_status add_reference_remark(koksma_study *study, koksma__document *d, const koksma__table *t,
                                           const row_means *means)
 {
@@ -203,8 +204,9 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const k
 
 /* ---- The overall order ------------------------------------------------------------------------------------- */
 
-/* Adds the rank of every row of the table, by its mean against the first reference, to that of the row of `first`
-   with its pattern. False: a row has no trials yet, or no such row. */
+/* Adds the rank of every row of table t, by its mean against the first reference, to ranks[k], where row k of table
+   `first` has the same pattern. Sets *whole to false if a row has no trials yet or no row of `first` has its
+   pattern. */
 static koksma_status add_ranks(koksma_study *study, const koksma__table *t, const koksma__table *first, double *ranks,
                                bool *whole)
 {
@@ -249,7 +251,8 @@ static void say_order(const koksma__report_scope *scope, koksma__document *d, co
     koksma__doc_paragraph_end(d);
 }
 
-/* The patterns by their mean rank over the tables, where there are several of the same patterns. */
+/* Writes the order of the patterns by their mean rank over the tables, if there are several tables of the same
+   patterns. */
 static koksma_status add_order(const koksma__report_scope *scope, koksma__document *d)
 {
     size_t i = 0, tables = 0;
@@ -278,7 +281,7 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     koksma_status status = KOKSMA_OK;
     koksma__doc_paragraph(d,
                           "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
-                          "are 95 %% over trials. A maximum is the error of one pixel: it is printed, not judged.");
+                          "are 95 %% over trials. A maximum is the error of one pixel; maxima get no verdict.");
     for (const koksma__table *t = next_table(scope, &i); !status && t; t = next_table(scope, &i)) {
         status = add_table(scope->study, d, t);
     }

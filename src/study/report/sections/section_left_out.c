@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What blocks with `skip` left out: the patterns, their numbers of points or samples, and why they have none. */
+/* Lists what blocks with `skip` left out: the patterns, their numbers of points or samples, and the reasons. */
 #include <koksma/study.h>
 
 #include "study/report/report.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What made the report: the program, the plan, and every run with its time and machine. The list of runs is one line
-   of the report's text, so that reports of the same rows differ in that line alone. */
+/* The section on the origin of the report: the program, the plan, and every run with its time and machine. The list
+   of runs is one line of the report's text, so that reports of equal rows differ in that line only. */
 #include "study/report/report.h"
 
 static bool is_shown(const koksma__report_scope *scope)
@@ -25,8 +25,7 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
         "this page in `report.json`. The key of a row is enough to make the row again. Results do "
         "not depend on the number of threads or on interruptions: `koksma study audit` makes rows again and "
         "compares them. The SHA-256 of all rows, as `koksma study export` writes them, is `%s`. A run that was "
-        "killed "
-        "left its rows, and is not in this list:",
+        "killed has left its rows in the store, but is missing from this list:",
         koksma_version(), scope->study->plan.name, scope->rows);
     koksma__doc_list_begin(d, "runs", false);
     for (long long i = 0; !status && found; i++) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Pictures: for every scene of the image blocks, the reference and the first trial of each pattern, from which the
- * page makes maps of the error and comparisons of any two; then the spectrum of the error and its coherence,
- * averaged over some trials. Pictures are not stored: each is rendered again from the key of its row. Only trials
- * that have a row are rendered, since the time that others would take is unknown.
+ * The pictures of a report: for every scene of the image blocks, the reference and the first trial of each pattern,
+ * from which the page makes maps of the error and compares any two pictures; then the spectrum of the error and its
+ * coherence, averaged over some trials. The store has no pictures: each is rendered again from the key of its row.
+ * Only trials that have a row are rendered, because the time that other trials would take is unknown.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,10 +17,11 @@
 #include "study/run/references.h"
 #include "study/run/tasks.h"
 
-/* What the floats of one file may take before their base64, and how many patterns of a scene are shown. */
+/* The largest size in bytes of all floats in a report, before base64, and the largest number of patterns that are
+   shown for a scene. */
 enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
 
-/* Trials whose errors' spectra are averaged, for their rings and for the coherence. */
+/* The number of trials over which the spectrum of the error is averaged, for its chart and for the coherence. */
 enum { SPECTRUM_TRIALS = 8 };
 
 static bool is_shown(const koksma__report_scope *scope)
@@ -28,12 +29,13 @@ static bool is_shown(const koksma__report_scope *scope)
     return scope->study->plan.n_images > 0;
 }
 
-/* Whether the first task's block has pattern p at its number of samples, and which is the first that it has. */
+/* Whether a block has pattern p at the middle one of its numbers of samples, which the pictures show. */
 static bool is_served(const koksma__image_block *block, size_t p)
 {
     return !koksma__is_left_out(&block->left_out, p, block->spp.n, block->spp.n / 2);
 }
 
+/* The first pattern that a block has at the middle one of its numbers of samples. */
 static size_t first_served(const koksma__image_block *block)
 {
     size_t p = 0;
@@ -43,7 +45,7 @@ static size_t first_served(const koksma__image_block *block)
     return p;
 }
 
-/* The picture of a trial of a task. */
+/* Renders the picture of a trial of a task. */
 static koksma_status render(const koksma__task *t, long long trial, const koksma_run *run, koksma_image *out)
 {
     const koksma__picture picture = {.pattern = t->pattern,
@@ -57,7 +59,7 @@ static koksma_status render(const koksma__task *t, long long trial, const koksma
 
 /* ---- Spectra of the error ---------------------------------------------------------------------------------- */
 
-/* Adds the mean spectrum of the first trials' errors as a series, and finds its peak. */
+/* Adds the mean spectrum of the errors of a task's first trials as a series, and computes their coherence. */
 static koksma_status add_spectrum(koksma__document *d, const koksma__task *t, const koksma_image *reference,
                                   const koksma_run *run, koksma_coherence_values *values)
 {
@@ -83,7 +85,7 @@ static koksma_status add_spectrum(koksma__document *d, const koksma__task *t, co
     return status;
 }
 
-/* A row for each of the block's first n patterns. */
+/* Adds the table of coherences, with a row for each of the block's first n patterns. */
 static void add_coherence(koksma__document *d, const koksma__task *first, const koksma_coherence_values *values,
                           size_t n)
 {
@@ -91,9 +93,10 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
     snprintf(name, sizeof name, "coherence-%.30s-%lld", first->scene->name, first->n);
     koksma__doc_paragraph(
         d, "Coherence of the error: the peak of its power spectrum over the mean power, from the same "
-           "trials. 95 %% of white-noise errors, with as large a part in common among the trials, have "
-           "one in the interval beside it. Above what 99.5 %% of them have, the error is coherent: it "
-           "has bands or another pattern, which are seen sooner than noise of the same size.");
+           "trials. The columns _noise from_ and _to_ give the interval of the coherence of 95 %% of "
+           "white-noise errors with as large a part in common among the trials. An error whose coherence "
+           "exceeds that of 99.5 %% of them is coherent: it has bands or another pattern, which the eye sees "
+           "sooner than noise of the same size.");
     koksma__doc_table_begin(d, name);
     koksma__doc_head(d, "pattern");
     koksma__doc_head_interval(d, "coherence", 3);
@@ -146,7 +149,7 @@ static koksma_status add_spectra(koksma__document *d, const koksma__task *first,
 
 /* ---- Pictures ---------------------------------------------------------------------------------------------- */
 
-/* Whether the first trials of the task with each of `n` patterns are in the store. */
+/* Whether the store has the first `trials` trials of the task for each of the first n patterns of its block. */
 static koksma_status are_done(koksma_study *study, const koksma__task *first, size_t n, long long trials, bool *done)
 {
     koksma_status status = KOKSMA_OK;
@@ -168,7 +171,7 @@ static koksma_status are_done(koksma_study *study, const koksma__task *first, si
     return status;
 }
 
-/* The reference and the first trial of the block's first n patterns. */
+/* Adds the pictures of the reference and of the first trial of each of the block's first n patterns. */
 static koksma_status add_pictures(koksma__document *d, const koksma__task *first, size_t n,
                                   const koksma_image *reference, const koksma_run *run, size_t *used)
 {

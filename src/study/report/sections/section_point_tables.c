@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Published tables of discrepancies. A table of one number of points (Shirley 1991) has a row a pattern: the printed
- * numbers, our mean, SD and largest of 100 with the verdict on the printed mean, and a second measure beside it. A
- * table over several numbers of points (Mitchell 1992) has two or three rows a pattern: the printed means, ours with
- * their verdicts, and those of a second measure. At the end of such a row is its slope in log-log: of the printed
- * ends, and of our means by least squares over all columns (koksma__trend_of); the exponent of the theory follows,
- * and a chart of the same means.
+ * The published tables of discrepancies. A table of one number of points (Shirley 1991) has one row per pattern: the
+ * published numbers, our mean, SD and largest of 100 with the verdict on the published mean, and the means of a
+ * second measure. A table over several numbers of points (Mitchell 1992) has two or three rows per pattern: the
+ * published means, our means with their verdicts, and our means of a second measure. Such a row ends with its
+ * log-log slope, which is computed from the first and the last published mean, or from our means by least squares
+ * over all columns (koksma__trend_of), and with the exponent that theory predicts. A chart of the means follows.
  */
 #include <math.h>
 #include <stdio.h>
@@ -32,8 +32,8 @@ static bool is_shown(const koksma__report_scope *scope)
 
 /* ---- Tables of one number of points ------------------------------------------------------------------------ */
 
-/* Adds the columns mean, SD and largest value of a measure; beside: the mean alone, for a second measure beside the
-   first. */
+/* Adds the columns for the mean, SD and largest value of a measure. beside: the measure is the table's second one,
+   of which the page shows only the mean. */
 static void add_cell_columns(koksma__document *d, const char *measure, const char *group, size_t sets, bool beside)
 {
     char name[KOKSMA_MAX_SPEC + 64], largest[64];
@@ -114,7 +114,7 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const k
 
 /* ---- Tables over several numbers of points ----------------------------------------------------------------- */
 
-/* The table that is being written, and the chart that follows it. */
+/* The table over several numbers of points that is being written, and the chart that follows this table. */
 typedef struct sizes_table {
     koksma_study *study;
     koksma__document *document, chart;
@@ -159,7 +159,8 @@ static void add_printed_line(sizes_table *s, const koksma__table_row *row)
     koksma__doc_number(s->document, row->rate);
 }
 
-/* Our means of a measure; judged, and drawn, where it is the table's own. */
+/* Adds a row with our means of a measure. own: it is the table's first measure, whose means get verdicts and a
+   curve. */
 static koksma_status add_our_line(sizes_table *s, const koksma__table_row *row, const char *measure, bool own)
 {
     const koksma__wholes *n = &s->table->n;
@@ -195,7 +196,7 @@ static koksma_status add_our_line(sizes_table *s, const koksma__table_row *row, 
     return KOKSMA_OK;
 }
 
-/* The printed means of a row as hollow marks, in the style of our line. */
+/* Adds the published means of a row to the chart, as hollow marks in the style of our curve. */
 static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
 {
     if (row->n_published) {
@@ -242,8 +243,8 @@ static koksma_status add_sizes_table(koksma_study *study, koksma__document *d, c
     if (!status) {
         koksma__doc_paragraph(
             d,
-            "Printed means are of 100 sets, ours of %s%zu. A slope is that of the printed ends, and "
-            "of our means by least squares; theory is the exponent that is known for the pattern.",
+            "Published means are over 100 sets, ours over %s%zu. A slope is computed from the first and the last "
+            "published mean, and from our means by least squares; _theory_ is the known exponent of the pattern.",
             differ ? "up to " : "", sets);
     }
     koksma__doc_end(&s.chart);
@@ -257,14 +258,15 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     koksma_status status = KOKSMA_OK;
     koksma__doc_paragraph(
         d,
-        "Exact values, means over point sets. z is the difference of the published mean from ours over SD √(1/100 + "
-        "1/T) and half of the last printed digit, with the SD and the number T of our sets: the errors of both means "
-        "and the rounding. A single z below %.1f is taken for chance; in tables over several numbers of points it is "
-        "the tooltip of each mark. Below each table its z are taken together: by chance the largest of k independent "
-        "z exceeds 2 with probability 1 - 0.954^k^ (25 %% for six), and six of -0.8 are as rare as one of -2. The "
-        "largest of 100 is a mean over blocks of 100 sets, with the SD of such a block behind the ±, where others "
-        "are "
-        "95 %% intervals of means; of fewer sets it is the largest of all.",
+        "The numbers are means, over point sets, of exact values. z is the published mean minus ours, divided by "
+        "the sum of SD √(1/100 + 1/T) and half of the last published digit, where SD and T are the standard "
+        "deviation and the number of our sets: it accounts for the errors of both means and for the rounding. A "
+        "single |z| below %.1f is attributed to chance; in tables over several numbers of points, z is the "
+        "tooltip of each mark. The text below each table tests its values of z together: by chance the largest "
+        "|z| of k independent values exceeds 2 with probability 1 - 0.954^k^ (25 %% for six), and six values of "
+        "-0.8 are as rare as one of -2. _Largest of 100_ is the mean of the largest values in blocks of 100 sets; "
+        "its ± is the SD of these largest values, whereas the other intervals are 95 %% intervals of means. With "
+        "fewer than 100 sets it is the largest value of all.",
         KOKSMA__AGREEMENT_Z);
     for (size_t i = 0; !status && i < scope->study->plan.n_tables; i++) {
         const koksma__table *t = &scope->study->plan.tables[i];

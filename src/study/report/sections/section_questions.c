@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The questions of the plans and their answers from the rows that the store has. A plan without tables and questions
- * gets every answer that its blocks can give, in the order of questions.def. An answer is written into a document of
- * its own first: where it says nothing, the report says what it would take.
+ * The questions of the plans, with their answers from the rows of the store. A plan without tables and questions
+ * gets every answer that its blocks can give, in the order of questions.def. An answer is first written into a
+ * separate document; if that stays empty, the report says what the answer would need.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 
 typedef koksma_status (*answer)(koksma_study *study, koksma__document *d, const koksma__topic *topic);
 
-/* In the order of koksma__question_kinds. */
+/* The functions that answer questions, in the order of koksma__question_kinds. */
 static const answer answers[] = {
 #define QUESTION(name, fields, heading, rows) koksma__answer_##name,
 #include "study/plan/questions.def"
@@ -52,7 +52,7 @@ static bool is_asked(const char *wanted, const char *id)
     return wanted && id && !strcmp(id, wanted);
 }
 
-/* A plan's blocks, those that the question (NULL: all) names. */
+/* Collects the blocks of a plan that a question names; q = NULL: all blocks. */
 static void choose_blocks(const koksma__plan *plan, const koksma__plan_part *part, const koksma__question *q,
                           koksma__topic *topic)
 {
@@ -94,7 +94,7 @@ static koksma_status answer_question(koksma_study *study, koksma__document *d, c
     return status;
 }
 
-/* What the blocks of a plan that asks nothing can answer. */
+/* Writes all answers that the blocks of a plan without questions can give. */
 static koksma_status answer_all(koksma_study *study, koksma__document *d, size_t part)
 {
     const koksma__plan *plan = &study->plan;
@@ -107,7 +107,7 @@ static koksma_status answer_all(koksma_study *study, koksma__document *d, size_t
     for (size_t k = 0; !status && k < sizeof answers / sizeof *answers; k++) {
         const koksma__question_kind *kind = &koksma__question_kinds[k];
         koksma__document content = {0};
-        char id[48]; /* "2", and "1.2" of the first of several plans */
+        char id[48]; /* "1.2" for answer 2 of plan 1; "2" if there is only one plan */
         if (kind->fields & KOKSMA__ASKED_BY_NAME) {
             continue;
         }
