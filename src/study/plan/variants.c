@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Variants: the options of a block of images, all combinations of them. A table has the options with their words; a
-   variant is a text "name=word,..." in the table's order, without defaults, which is the key in the store. Options
-   that change the exact image count for references, too; the others do not. */
+/* Variants: all combinations of the options that a block of images lists. The table `known` has the options with
+   their defaults. The canonical text of a variant, "name=word;...", lists the options that are not at their
+   defaults, in the order of the table; it is part of the key in the store. Only options that change the exact
+   image apply to references. */
 #include "study/plan/variants.h"
 
 #include <math.h>
@@ -15,14 +16,15 @@
 
 enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };
 
-/* Something that a variant sets; set checks a word. */
+/* An option of a variant; set() checks a word and stores its value. */
 typedef struct option {
     const char *name, *fallback;
-    enum { NEVER, ALWAYS, UNLESS_BOX } changes_image; /* the exact one: then it has references of its own */
+    enum { NEVER, ALWAYS, UNLESS_BOX } changes_image; /* the exact image, so that it needs its own references */
     koksma_status (*set)(koksma__variant *variant, const char *word);
 } option;
 
-/* The index of a word among names, which end at NULL. */
+/* Finds a word among the names of name_at(), which returns NULL after the last; `what` names the option in the
+   error. */
 static koksma_status find(const char *what, const char *(*name_at)(int i), const char *word, int *index)
 {
     char list[MAX_WORD] = "";
@@ -87,7 +89,7 @@ enum { N_KNOWN = sizeof known / sizeof *known };
 
 /* ---- Canonical texts ----------------------------------------------------------------------------------- */
 
-/* Appends "name=word" unless the word is the default. */
+/* Appends "name=word" unless the word is the option's default. */
 static void append(char *text, const option *o, const char *word)
 {
     const size_t used = strlen(text);
@@ -96,7 +98,7 @@ static void append(char *text, const option *o, const char *word)
     }
 }
 
-/* The word of an option in a canonical text, or its default. */
+/* Copies the word of an option from a canonical text, or its default if the text does not have it. */
 static void word_of(const char *text, const option *o, char word[MAX_WORD])
 {
     const size_t length = strlen(o->name);
@@ -108,7 +110,8 @@ static void word_of(const char *text, const option *o, char word[MAX_WORD])
     }
 }
 
-/* Splatted pixels at the frame's edge have no samples from beyond it, where a filter wider than a pixel reaches. */
+/* Whether an option of the text changes the exact image. Splatting does so with a filter wider than a pixel:
+   pixels at the frame's edge then lack samples from beyond it. */
 static bool changes_image(const char *text, const option *o)
 {
     char filter[MAX_WORD] = "box";
@@ -161,7 +164,8 @@ void koksma__variant_text(const koksma_integrator *integrator, const koksma_filt
 
 /* ---- Rendering ----------------------------------------------------------------------------------------- */
 
-/* Samples of the first round: a method that begins with several sets takes a set for each. */
+/* Samples per pixel of the first round: a quarter of the budget, divided by the number of sets with which the
+   method begins. */
 static int first_spp(const koksma_adaptive_options *adaptive, int budget)
 {
     const koksma_param *params = adaptive->method->params;
@@ -194,7 +198,7 @@ koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__va
 
 /* ---- Parsing ------------------------------------------------------------------------------------------- */
 
-/* The words of one option; none when the plan doesn't name it. */
+/* Reads the words of one option; words stays empty if the plan does not name it. */
 static koksma_status parse_words(const koksma__json_node *node, const option *o, koksma__texts *words)
 {
     if (!koksma__json_has(node, o->name)) {
@@ -211,7 +215,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
         if (status) {
             return koksma__json_fail_in(&item, status);
         }
-        if (scratch.adaptive.method) { /* two texts of one method are one variant */
+        if (scratch.adaptive.method) { /* two texts of equal parameters are one variant */
             char text[KOKSMA_MAX_SPEC];
             koksma_adaptive_text(&scratch.adaptive, text);
             free(words->at[i]);
@@ -225,7 +229,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
     return status;
 }
 
-/* Adaptive sampling has neither splatting nor patterns over the whole image. */
+/* Rejects adaptive sampling with splatting or with patterns over the whole image. */
 static koksma_status check_together(const char *text)
 {
     koksma__variant v;
@@ -260,7 +264,7 @@ static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *
         KOKSMA__REQUIRE_MEMORY(out->at[out->n], strlen(text));
         const koksma_status status = check_together(text);
         if (status) {
-            out->n++; /* the text that was made must be freed */
+            out->n++; /* so that the new text is freed, too */
             return status;
         }
     }
