@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The store's lock and transactions; texts, references and runs. */
+/* The lock and transactions of a store, and its tables of texts, references and runs. Statements are gathered in
+   one transaction until KOKSMA__WRITE_AFTER_S seconds have passed; each transaction ends by writing the seal. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -45,7 +46,7 @@ koksma_status koksma__store_begin(koksma__store *store)
     return status;
 }
 
-/* Writes the seal to meta, in the transaction that is open. */
+/* Writes the seal to table meta, within the open transaction. */
 static koksma_status write_seal(koksma__store *store)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_TEXT];
@@ -158,7 +159,7 @@ koksma_status koksma__seal_read(koksma__store *store)
 
 void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key)
 {
-    const char *of = strcmp(series->pattern, "") ? series->pattern : series->what; /* of a reference */
+    const char *of = strcmp(series->pattern, "") ? series->pattern : series->what; /* a reference has no pattern */
     *key = *series;
     koksma__hash_with_points(&store->files, series->scene_hash, of, store->hash);
     koksma__find_made_by(strcmp(series->kind, "discrepancy") != 0, series->pattern, series->options, series->what,
@@ -172,7 +173,8 @@ static void bind_reference(koksma__store *store, koksma__statement *s, int *colu
                            koksma__series *key)
 {
     koksma__store_bind_key(store, series, key);
-    /* A series of image errors names in measured_by what made the reference; here the reference is the image. */
+    /* A series of image errors has in measured_by the revisions that made its reference; this row is of the
+       reference itself. */
     key->made_by = key->measured_by;
     koksma__bind_text(s, column, key->scene);
     koksma__bind_text(s, column, key->scene_hash);
