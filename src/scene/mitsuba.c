@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Scenes of Mitsuba 3 (Jakob et al. 2022), and of the versions before it where names alone have changed: xml.c makes a tree
- * of the text, and here its sensors, shapes, emitters and BSDFs become ours. A BSDF is made where a shape first refers to
- * it. Not read: media, volumes, motion, .serialized meshes; integrators and samplers are passed over, because the
- * program's own options choose them.
+ * Reads scenes of Mitsuba 3 (Jakob et al. 2022), and of earlier versions that differ only in names. xml.c parses
+ * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
+ * shape first refers to it. Media, volumes, motion and .serialized meshes are not read; integrators and samplers
+ * are ignored, because the program's own options choose them.
  */
 #include "scene/mitsuba.h"
 
@@ -26,7 +26,7 @@ typedef koksma__xml_node node;
 typedef struct reader {
     koksma__import *im;
     koksma__xml xml;
-    int *materials; /* by node: -2: not made, -1: light passes through */
+    int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
     bool has_sensor;
 } reader;
 
@@ -53,7 +53,7 @@ static const node *next_of(const reader *r, const node *n)
     return n->next < 0 ? NULL : &r->xml.nodes[n->next];
 }
 
-/* The child whose name is `name`, or NULL. */
+/* The child element whose attribute "name" is `name`, or NULL. */
 static const node *property(const reader *r, const node *n, const char *name)
 {
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
@@ -86,7 +86,7 @@ static bool flag(const reader *r, const node *n, const char *name, bool otherwis
     return *value ? !strcmp(value, "true") : otherwise;
 }
 
-/* Up to n numbers between blanks and commas; how many there were. */
+/* Reads up to n numbers separated by blanks or commas; returns how many it found. */
 static size_t numbers(const char *value, size_t n, double *out)
 {
     size_t found = 0;
@@ -103,14 +103,14 @@ static size_t numbers(const char *value, size_t n, double *out)
     return found;
 }
 
-/* An attribute of an element as a number. */
+/* Reads an attribute of an element as a number; `otherwise` if there is none. */
 static double coordinate(const node *n, const char *name, double otherwise)
 {
     const char *value = koksma__xml_attribute(n, name);
     return value ? koksma__strtod(value, NULL) : otherwise;
 }
 
-/* <point name x y z> or <point name value="x, y, z">. */
+/* Reads an element of the form <point name x y z> or <point name value="x, y, z">. */
 static void point(const reader *r, const node *n, const char *name, double out[3])
 {
     const node *c = property(r, n, name);
@@ -183,7 +183,7 @@ static koksma_status operation(const node *n, double m[12])
     return KOKSMA_OK;
 }
 
-/* The first operation is the first to act. */
+/* Reads a transform, whose first operation is applied first. */
 static koksma_status transform(const reader *r, const node *n, const char *name, double out[12])
 {
     const node *t = property(r, n, name);
@@ -240,7 +240,7 @@ static koksma_status value_of(reader *r, const node *n, double rgb[3])
     const char *value = koksma__xml_attribute(n, "value");
     double v[3];
     if (value && *value == '#') {
-        const unsigned long hex = strtoul(value + 1, NULL, 16); /* sRGB's levels */
+        const unsigned long hex = strtoul(value + 1, NULL, 16); /* levels of sRGB */
         for (int k = 0; k < 3; k++) {
             const double level = (double)(hex >> (16 - 8 * k) & 255) / 255;
             rgb[k] = level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
@@ -283,7 +283,7 @@ static koksma_status texture(reader *r, const node *n, koksma__import_colour *ou
     return koksma__import_unknown(r->im, n->place, "texture '%s': grey here", type);
 }
 
-/* The colour of a name, or grey of another value. */
+/* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth)
 {
@@ -301,13 +301,13 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
 
-/* The kinds of Mitsuba and what they are here; those that are no more than likened say so. */
+/* Mitsuba's kinds of BSDFs and the materials that replace them; those that are only similar give a warning. */
 typedef struct bsdf_kind {
     const char *name;
-    int kind;           /* -1: light passes through */
-    const char *colour; /* the parameter of its diffuse part or of its reflectance */
+    int kind;           /* kind of the replacement; -1: light passes through */
+    const char *colour; /* name of the parameter with its diffuse albedo or reflectance */
     double otherwise, alpha;
-    const char *instead; /* NULL, or what it is here */
+    const char *instead; /* NULL, or the replacement's name in a warning */
 } bsdf_kind;
 
 static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5, 0, NULL},
@@ -323,7 +323,7 @@ static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5,
                                   {"mask", -1, "", 0, 0, "nothing"},
                                   {"null", -1, "", 0, 0, NULL}};
 
-/* What wraps another BSDF, or several: the first one stands for all. */
+/* BSDFs that contain others; the first one inside is used in place of the whole. */
 static const struct {
     const char *name;
     bool is_exact;
@@ -447,7 +447,7 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
                : KOKSMA_OK;
 }
 
-/* What a shape is made of, from its children. */
+/* Finds a shape's material and emission among its children. */
 static koksma_status surface_of(reader *r, const node *n, koksma__import_surface *out)
 {
     bool has_bsdf = false;
@@ -470,7 +470,7 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
     return KOKSMA_OK;
 }
 
-/* The unit cylinder's matrix from p0 to p1. */
+/* The matrix that places the unit cylinder between p0 and p1. */
 static void cylinder(const reader *r, const node *n, double m[12])
 {
     double from[3] = {0}, to[3] = {0, 0, 1}, axis[3], side[3], over[3];
@@ -488,7 +488,7 @@ static void cylinder(const reader *r, const node *n, double m[12])
     }
 }
 
-/* The form, and the matrix that shapes it. */
+/* Finds the basic shape or mesh, and the matrix that gives it its size. */
 static koksma_status form_of(reader *r, const node *n, koksma__import_item *item, double m[12])
 {
     static const struct {
@@ -524,7 +524,7 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
 
 static koksma_status shape(reader *r, const node *n, const double outer[12], int depth);
 
-/* The shapes of the group that an instance refers to. */
+/* Adds the shapes of the group to which an instance refers. */
 static koksma_status instance(reader *r, const node *n, const double outer[12], int depth)
 {
     double m[12], matrix[12];
@@ -626,7 +626,7 @@ static koksma_status film(reader *r, const node *n)
     return KOKSMA_OK;
 }
 
-/* The angle of the picture's height. */
+/* The vertical angle of view. */
 static double height_angle(const reader *r, const node *n, double width, double height)
 {
     const char *axis = text(r, n, "fov_axis", "x");
@@ -639,7 +639,8 @@ static double height_angle(const reader *r, const node *n, double width, double 
     if (property(r, n, "fov")) {
         return 2 * atan(tan(half) * height / side);
     }
-    return 2 * atan(hypot(36, 24) / 2 / length_mm * height / hypot(width, height)); /* of a 35 mm film's diagonal */
+    /* focal_length refers to the diagonal of 35 mm film */
+    return 2 * atan(hypot(36, 24) / 2 / length_mm * height / hypot(width, height));
 }
 
 static koksma_status sensor(reader *r, const node *n)
@@ -661,7 +662,7 @@ static koksma_status sensor(reader *r, const node *n)
                                  lens ? number(r, n, "focus_distance", 1) : 1);
 }
 
-/* ---- The whole ---------------------------------------------------------------------------------------------- */
+/* ---- The whole scene ---------------------------------------------------------------------------------------- */
 
 static koksma_status read_root(reader *r)
 {

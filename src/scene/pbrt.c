@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4): directives, each with a text and parameters,
- * that change a graphics state or add a shape or light with it. pbrt_values.c makes colours, materials and meshes of
- * parameters. Not read: media, motion, curves; directives that don't say what is in the scene (Sampler, Integrator, ...)
- * are passed over, because the program's own options choose them.
+ * Reads scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4). A scene is a list of
+ * directives, each with a text and parameters, that change a graphics state or use it to add a shape or light.
+ * pbrt_values.c converts parameters to colours, materials and meshes. Media, motion and curves are not read;
+ * directives that do not describe the scene (Sampler, Integrator, ...) are ignored, because the program's own
+ * options choose them.
  */
 #include "scene/pbrt.h"
 
@@ -46,10 +47,10 @@ typedef struct reader {
     named_space *spaces;
     object *objects;
     size_t n_spaces, n_objects;
-    object *open; /* the object that shapes are added to, or NULL */
-    bool fixed;   /* transforms of the end time only */
+    object *open; /* the object to which shapes are added, or NULL */
+    bool fixed;   /* only transforms of the end time are being given, which are ignored */
     koksma__pbrt_parameters *parameters;
-    /* The camera, which the film's aspect completes. */
+    /* The camera, which is completed when the aspect ratio of the film is known. */
     bool has_camera;
     koksma__text_place camera_place;
     double camera[12], fov_deg, lens_radius, focus_distance;
@@ -121,7 +122,7 @@ static koksma_status take_look_at(reader *r, source *s)
     return concat(r, inverse);
 }
 
-/* Columns one after the other. */
+/* Reads a matrix, which is given column by column. */
 static koksma_status take_matrix(source *s, double m[12])
 {
     double v[16];
@@ -206,7 +207,8 @@ static koksma_status push(reader *r, source *s)
     return KOKSMA_OK;
 }
 
-/* The stack keeps its memory: koksma__add_one() sizes it by the number of items alone. */
+/* Restores the state or matrix on top of the stack. The stack keeps its memory, because koksma__add_one() derives
+   the capacity from the number of items alone. */
 static koksma_status pop(reader *r, source *s, bool matrix_alone)
 {
     if (!r->n_stack) {
@@ -325,7 +327,7 @@ static koksma_status take_area_light(reader *r, source *s)
     return koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
 }
 
-/* A point that a matrix moves. */
+/* Transforms a point (w = 1) or a direction (w = 0) by a matrix. */
 static void move_point(const double m[12], const double p[3], double w, double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -455,10 +457,10 @@ static koksma_status take_texture(reader *r, source *s)
     return koksma__pbrt_texture(&r->values, name, kind, r->parameters);
 }
 
-/* What says nothing about the scene: a text and parameters. */
+/* Skips a directive that does not describe the scene: a text and parameters. */
 static koksma_status take_nothing(reader *r, source *s)
 {
-    return koksma__pbrt_parameters_read(s, r->parameters); /* after take_options() has taken the text */
+    return koksma__pbrt_parameters_read(s, r->parameters); /* take_options() has already read the text */
 }
 
 static koksma_status take_options(reader *r, source *s)
@@ -507,7 +509,7 @@ static koksma_status take_include(reader *r, source *s)
     KOKSMA__TRY(koksma__import_text(r->im, s->place, path, &bytes, &size));
     char **kept = koksma__add_one(&r->values.texts, &r->values.n_texts, sizeof *kept);
     char *name = kept ? strdup(path) : NULL;
-    if (!name) { /* places outlive the file: they name it in messages */
+    if (!name) { /* positions in messages refer to the name, which must outlive the file */
         free(bytes);
         return kept ? koksma__fail_memory(sizeof path) : KOKSMA_MEMORY;
     }
@@ -587,7 +589,7 @@ static koksma_status read_source(reader *r, source *s)
     }
 }
 
-/* pbrt's angle is that of the shorter side of the picture. */
+/* Sets the camera; pbrt's angle of view is that of the shorter side of the image. */
 static koksma_status set_camera(reader *r)
 {
     const double width = r->im->scene->width, height = r->im->scene->height, half = r->fov_deg * TURN / 720;
