@@ -55,7 +55,7 @@ static koksma_status check_permission(const koksma_spec *spec, const koksma_patt
         return koksma__fail_interrupted();
     }
     KOKSMA__FAIL_IF(koksma__exec_seconds() <= 0, KOKSMA_FORBIDDEN,
-                    "%s:%s: it runs code of others; --allow-exec allows that (koksma_allow_exec in C, "
+                    "%s:%s: the pattern runs external code; --allow-exec allows that (koksma_allow_exec in C, "
                     "koksma.allow_exec in Python)",
                     p->name, spec->path);
     return KOKSMA_OK;
@@ -114,8 +114,7 @@ koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint
     if (!koksma_has_ranges(spec)) {
         char text[KOKSMA_MAX_SPEC];
         koksma_spec_text(spec, text);
-        return koksma__fail(KOKSMA_UNSUPPORTED,
-                            "%s: it has no ranges: its points are made together from the first on", text);
+        return koksma__fail(KOKSMA_UNSUPPORTED, "%s: no ranges: the pattern makes all points together", text);
     }
     const uint64_t most = KOKSMA_MAX_INDEX < SIZE_MAX ? KOKSMA_MAX_INDEX + 1 : SIZE_MAX;
     const uint64_t end = p->claims & KOKSMA_CLAIM_SEQUENCE ? KOKSMA_MAX_INDEX + 1 : n;

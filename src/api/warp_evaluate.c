@@ -149,7 +149,7 @@ koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *m
     if (checked) {
         return checked;
     }
-    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "%s: it maps points of 2 dimensions, not %d", warp->name,
+    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "%s: a warp maps points of 2 dimensions, not %d", warp->name,
                     points->dim);
     double *mapped = malloc(points->n * 3 * sizeof *mapped);
     KOKSMA__REQUIRE_MEMORY(mapped, points->n * 3 * sizeof *mapped);

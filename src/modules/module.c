@@ -70,8 +70,8 @@ koksma_status koksma__module_load(const koksma__module *module, const void **fun
         const char *reason = dlerror();
         return koksma__fail(KOKSMA_SYSTEM, "%s can't be loaded: %s", path, reason ? reason : "no reason given");
     }
-    KOKSMA__FAIL_IF(strcmp(entry->release, KOKSMA_VERSION) != 0, KOKSMA_SYSTEM, "%s is of release %s, and this is %s",
-                    path, entry->release, KOKSMA_VERSION);
+    KOKSMA__FAIL_IF(strcmp(entry->release, KOKSMA_VERSION) != 0, KOKSMA_SYSTEM,
+                    "%s is of release %s, and this program of %s", path, entry->release, KOKSMA_VERSION);
     *functions = entry->start(&module->host);
     return KOKSMA_OK;
 }

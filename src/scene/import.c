@@ -219,7 +219,7 @@ static koksma_status set_coated(koksma__import *im, koksma__text_place place, co
     KOKSMA__TRY(set_colour(im, place, &from->colour, m));
     if (m->image) {
         m->bsdf = &koksma__bsdf_lambert;
-        return koksma__import_unknown(im, place, "a coat over an image: it has no gloss here");
+        return koksma__import_unknown(im, place, "a coat over an image is ignored");
     }
     const double ratio = (from->ior - 1) / (from->ior + 1), share = ratio * ratio;
     double *reflectance = koksma__material_value(m, "reflectance");
@@ -228,7 +228,7 @@ static koksma_status set_coated(koksma__import *im, koksma__text_place place, co
     for (int k = 0; k < 6; k++) {
         m->albedo[k / 3][k % 3] *= 1 - share;
     }
-    return koksma__import_unknown(im, place, "a coated surface: Lambert and a Phong lobe here");
+    return koksma__import_unknown(im, place, "a coated surface is replaced by Lambert and a Phong lobe");
 }
 
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
@@ -254,13 +254,14 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
             *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
         }
         return *from->colour.image || from->colour.is_checker
-                   ? koksma__import_unknown(im, place, "a metal with a texture: it has one colour here")
+                   ? koksma__import_unknown(im, place, "a metal's texture is replaced by one colour")
                    : KOKSMA_OK;
     case KOKSMA__GLASS: {
         double *tint = koksma__material_value(m, "tint");
         tint[0] = tint[1] = tint[2] = 1;
         *koksma__material_value(m, "ior") = fmin(fmax(from->ior, 1.0001), 10);
-        return from->alpha > 1e-6 ? koksma__import_unknown(im, place, "rough glass: it is smooth here") : KOKSMA_OK;
+        return from->alpha > 1e-6 ? koksma__import_unknown(im, place, "rough glass is replaced by smooth glass")
+                                  : KOKSMA_OK;
     }
     case KOKSMA__COATED:
         return set_coated(im, place, from, m);
@@ -443,17 +444,17 @@ koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place
         c->down[k] = -m[4 * k + 1];
         c->forward[k] = m[4 * k + 2];
         if (!(fabs(c->eye[k]) <= FAR)) {
-            return koksma__import_fail(place, "the camera stands beyond 1e6");
+            return koksma__import_fail(place, "the camera's position is beyond 1e6");
         }
     }
     if (!koksma__normalise(c->right) || !koksma__normalise(c->down) || !koksma__normalise(c->forward)) {
         return koksma__import_fail(place, "the camera's matrix has no inverse");
     }
     if (!(fov_rad >= 1e-4 && fov_rad < 3.13)) {
-        return koksma__import_fail(place, "the camera's angle of view is above 0 and below 180 degrees");
+        return koksma__import_fail(place, "the camera's angle of view must be above 0 and below 180 degrees");
     }
     if (!(lens_radius >= 0 && lens_radius <= FAR && focus_distance > TINY && focus_distance <= FAR)) {
-        return koksma__import_fail(place, "the lens's radius is 0 to 1e6, its distance of focus 1e-6 to 1e6");
+        return koksma__import_fail(place, "the lens's radius must be 0 to 1e6, its focus distance 1e-6 to 1e6");
     }
     return KOKSMA_OK;
 }

@@ -251,7 +251,8 @@ static koksma_status plain(koksma__import *im, koksma__text_place place, int *ma
     }
     snprintf(to->name, sizeof to->name, "%zu", scene->n_materials);
     *material = (int)scene->n_materials++;
-    return koksma__import_unknown(im, place, "a texture on a mesh without texture coordinates: its mean colour here");
+    return koksma__import_unknown(im, place,
+                                  "a texture on a mesh without texture coordinates is replaced by its mean colour");
 }
 
 static koksma_status put_mesh(koksma__import *im, const koksma__import_item *item, int mesh, const double matrix[12])
@@ -410,7 +411,7 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     }
     if (item->form == KOKSMA__FORM_CYLINDER || item->form == KOKSMA__FORM_SPHERE || item->form == KOKSMA__FORM_DISK) {
         KOKSMA__TRY(koksma__import_unknown(
-            im, item->place, "a round shape, stretched, textured or a cylinder: it has %d sides here", SIDES));
+            im, item->place, "a cylinder, or a stretched or textured round shape, has %d sides", SIDES));
     }
     return mesh < 0 ? KOKSMA_OK : put_mesh(im, item, mesh, matrix);
 }

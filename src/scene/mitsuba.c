@@ -132,7 +132,7 @@ static koksma_status look_at(const node *n, double m[12])
     numbers(koksma__xml_attribute(n, "up"), 3, up);
     koksma__subtract(target, origin, ahead);
     if (!koksma__normalise(ahead)) {
-        return koksma__import_fail(n->place, "lookat: origin and target are one point");
+        return koksma__import_fail(n->place, "lookat: origin and target are the same point");
     }
     koksma__cross(up, ahead, left);
     if (!koksma__normalise(left)) {
@@ -156,7 +156,7 @@ static koksma_status operation(const node *n, double m[12])
     }
     if (is(n, "matrix")) {
         if (given != 16 && given != 9) {
-            return koksma__import_fail(n->place, "a matrix has 16 numbers or 9");
+            return koksma__import_fail(n->place, "a matrix must have 16 or 9 numbers");
         }
         for (int i = 0; i < 12; i++) {
             m[i] = given == 16 ? v[i] : i % 4 < 3 ? v[i / 4 * 3 + i % 4] : 0;
@@ -178,7 +178,7 @@ static koksma_status operation(const node *n, double m[12])
             m[scales ? 5 * k : 4 * k + 3] = v[k];
         }
     } else {
-        return koksma__import_fail(n->place, "'%s' is no transform that is read", n->tag);
+        return koksma__import_fail(n->place, "transform '%s' is not supported", n->tag);
     }
     return KOKSMA_OK;
 }
@@ -231,8 +231,9 @@ static koksma_status sampled(reader *r, const node *n, const char *value, double
     for (int k = 0; k < 3; k++) {
         rgb[k] = count[k] > 0 ? sum[k] / count[k] : n_all > 0 ? all / n_all : 1;
     }
-    return koksma__import_unknown(
-        r->im, n->place, n_all > 0 ? "a sampled spectrum: the means of its thirds" : "a spectrum: white here");
+    return koksma__import_unknown(r->im, n->place,
+                                  n_all > 0 ? "a sampled spectrum is replaced by the means of its thirds"
+                                            : "a spectrum is replaced by white");
 }
 
 static koksma_status value_of(reader *r, const node *n, double rgb[3])
@@ -253,7 +254,7 @@ static koksma_status value_of(reader *r, const node *n, double rgb[3])
     }
     if (is(n, "blackbody")) {
         koksma__import_black_body(coordinate(n, "temperature", 6500), rgb);
-        return koksma__import_unknown(r->im, n->place, "a black body: its colour with luminance 1");
+        return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
     }
     return given ? KOKSMA_OK : sampled(r, n, value, rgb);
 }
@@ -277,10 +278,11 @@ static koksma_status texture(reader *r, const node *n, koksma__import_colour *ou
         *out->image = 0;
         out->is_checker = true;
         out->period = m[0] > 1e-6 ? 0.5 / m[0] : 0.5;
-        return m[0] != m[5] ? koksma__import_unknown(r->im, n->place, "a checkerboard's transform: its scale along u")
+        return m[0] != m[5] ? koksma__import_unknown(r->im, n->place,
+                                                     "only the scale along u of a checkerboard's transform is used")
                             : KOKSMA_OK;
     }
-    return koksma__import_unknown(r->im, n->place, "texture '%s': grey here", type);
+    return koksma__import_unknown(r->im, n->place, "texture '%s' is replaced by grey", type);
 }
 
 /* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
@@ -353,7 +355,7 @@ static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
     double rgb[3];
     const char *name = text(r, n, "material", property(r, n, "eta") ? "" : "none");
     if (*name && !koksma__import_metal(name, rgb)) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "metal '%s': chromium here", name));
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "metal '%s' is replaced by chromium", name));
         koksma__import_metal("Cr", rgb);
     } else if (!*name) {
         KOKSMA__TRY(colour(r, n, "eta", 0, &eta, 0));
@@ -372,7 +374,8 @@ static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
 static koksma_status principled(reader *r, const node *n, int *out)
 {
     koksma__import_material m = {.ior = 1.5};
-    KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF 'principled': a metal, glass or coated surface here"));
+    KOKSMA__TRY(
+        koksma__import_unknown(r->im, n->place, "BSDF 'principled' is replaced by metal, glass or a coated surface"));
     KOKSMA__TRY(colour(r, n, "base_color", 0.5, &m.colour, 0));
     const double roughness = number(r, n, "roughness", 0.5);
     m.alpha = roughness * roughness;
@@ -421,7 +424,7 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     m.alpha = sqrt(fmax(u * v, 0));
     m.ior = index_of(r, n, "int_ior", m.kind == KOKSMA__COATED ? 1.49 : 1.5046) / index_of(r, n, "ext_ior", 1.000277);
     if (u != v) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "anisotropic roughness: the mean of both"));
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "anisotropic roughness is replaced by its mean"));
     }
     return koksma__import_add_material(r->im, n->place, &m, out);
 }
@@ -443,7 +446,7 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
     memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
     surface->emits = true;
     return *radiance.image || radiance.is_checker || strcmp(type_of(n), "area") != 0
-               ? koksma__import_unknown(r->im, n->place, "a light's texture or direction: it shines evenly")
+               ? koksma__import_unknown(r->im, n->place, "a light's texture or direction is ignored")
                : KOKSMA_OK;
 }
 
@@ -460,7 +463,7 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
         } else if (is(to, "emitter")) {
             KOKSMA__TRY(area_light(r, to, out));
         } else if (is(to, "medium")) {
-            KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "media: all is in air"));
+            KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "media are ignored"));
         }
     }
     if (!has_bsdf && !out->emits) {
@@ -600,7 +603,7 @@ static koksma_status emitter(reader *r, const node *n)
         KOKSMA__TRY(!strcmp(type, "point")
                         ? KOKSMA_OK
                         : koksma__import_unknown(r->im, n->place,
-                                                 "emitter '%s': a point here, which shines to all sides", type));
+                                                 "emitter '%s': a point light equal in all directions here", type));
     }
     return koksma__import_light(r->im, n->place, &light);
 }
@@ -613,11 +616,11 @@ static koksma_status film(reader *r, const node *n)
             width = number(r, c, "width", width);
             height = number(r, c, "height", height);
             if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
-                return koksma__import_fail(c->place, "a film of %g x %g pixels; its sides are 1 to %d", width, height,
-                                           KOKSMA_MAX_IMAGE_SIDE);
+                return koksma__import_fail(c->place, "a film of %g x %g pixels; each side must be 1 to %d", width,
+                                           height, KOKSMA_MAX_IMAGE_SIDE);
             }
             if (property(r, c, "crop_width") || property(r, c, "crop_height")) {
-                KOKSMA__TRY(koksma__import_unknown(r->im, c->place, "a film's crop: the picture is whole"));
+                KOKSMA__TRY(koksma__import_unknown(r->im, c->place, "a film's crop is ignored"));
             }
         }
     }
@@ -668,13 +671,14 @@ static koksma_status read_root(reader *r)
 {
     const node *root = r->xml.n ? r->xml.nodes : NULL;
     if (!root || !is(root, "scene")) {
-        return koksma__import_fail((koksma__text_place){r->im->path, 1}, "no <scene>: it is no scene of Mitsuba's");
+        return koksma__import_fail((koksma__text_place){r->im->path, 1},
+                                   "no <scene>: the file is not a Mitsuba scene");
     }
     for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
         KOKSMA__TRY(is(n, "sensor")                                       ? sensor(r, n)
                     : is(n, "shape")                                      ? shape(r, n, NULL, 0)
                     : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)
-                    : is(n, "medium") ? koksma__import_unknown(r->im, n->place, "media: all is in air")
+                    : is(n, "medium") ? koksma__import_unknown(r->im, n->place, "media are ignored")
                                       : KOKSMA_OK);
     }
     return r->has_sensor ? KOKSMA_OK : koksma__import_fail(root->place, "no <sensor>");

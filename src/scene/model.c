@@ -201,7 +201,7 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
     koksma_image *pixels = NULL;
     KOKSMA__FAIL_IF(!(radiance >= 0 && radiance <= BRIGHT), KOKSMA_ARGUMENT, "a sky of radiance %g: it takes 0 to %g",
                     radiance, BRIGHT);
-    KOKSMA__FAIL_IF(scene->cache->made, KOKSMA_ARGUMENT, "the scene was rendered already: its sky is set before");
+    KOKSMA__FAIL_IF(scene->cache->made, KOKSMA_ARGUMENT, "the scene was rendered already; set its sky before that");
     if (image) {
         pixels = calloc(1, sizeof *pixels);
         KOKSMA__REQUIRE_MEMORY(pixels, sizeof *pixels);

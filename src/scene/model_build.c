@@ -138,7 +138,7 @@ static void take_map(builder *build, const koksma__file_texture *from, koksma__i
 static void take_colour_map(builder *build, const koksma__file_texture *from, koksma__material *m)
 {
     if (from->name && m->bsdf == &koksma__bsdf_ggx) {
-        snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->name);
+        snprintf(m->lost, sizeof m->lost, "%s: the colour texture of a metal is ignored", from->name);
         return;
     }
     take_map(build, from, KOKSMA__IMAGE_COLOURS, &m->image, &m->mapping, m->lost);
@@ -299,7 +299,7 @@ static koksma_status add_glow(builder *build, koksma__placement *p, const double
     if (scene->n_lights + build->file->lights.n + 2 >= KOKSMA__MAX_LIGHTS) {
         return build->n_dark++
                    ? KOKSMA_OK
-                   : koksma__scene_note(scene, "more meshes glow than there is room for lights: some are dark");
+                   : koksma__scene_note(scene, "more meshes emit light than there is room for lights: some are dark");
     }
     KOKSMA__TRY(koksma__scene_add_glow(scene, p, glow));
     p->material = material;

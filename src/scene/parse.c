@@ -68,7 +68,7 @@ static koksma_status parse_camera(const field *root, koksma__camera *camera)
     }
     camera->fov_rad = fov_deg * TURN / 360;
     koksma__subtract(target, camera->eye, camera->forward);
-    KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->forward), &f, "'eye' and 'target' are one point");
+    KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->forward), &f, "'eye' and 'target' are the same point");
     koksma__cross(camera->forward, up, camera->right);
     KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->right), &f, "'up' is along the line of sight");
     koksma__cross(camera->forward, camera->right, camera->down);
@@ -109,7 +109,7 @@ static koksma_status parse_material(const field *f, const koksma_scene *scene, k
         return status ? status : koksma__json_fail(f, "no material '%s'", name);
     }
     const koksma__material *m = &scene->materials[shape->material];
-    KOKSMA__JSON_FAIL_IF(m->checker && !shape->type->takes_checker, f, "a %s takes no checker",
+    KOKSMA__JSON_FAIL_IF(m->checker && !shape->type->takes_checker, f, "a %s takes no material with a checkerboard",
                          shape->type->kind.name);
     return m->image && !shape->type->takes_image ? refuse_image(f) : KOKSMA_OK;
 }

@@ -108,7 +108,7 @@ static koksma_status take_look_at(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_numbers(s, 9, v));
     koksma__subtract(v + 3, v, ahead);
     if (!koksma__normalise(ahead)) {
-        return koksma__import_fail(s->place, "LookAt: the eye and where it looks are one point");
+        return koksma__import_fail(s->place, "LookAt: the eye and its target are the same point");
     }
     koksma__cross(v + 6, ahead, right);
     if (!koksma__normalise(right)) {
@@ -182,9 +182,7 @@ static koksma_status take_active(reader *r, source *s)
     koksma__pbrt_token t;
     KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
     r->fixed = t.length == 7 && !memcmp(t.at, "EndTime", 7);
-    return r->fixed
-               ? koksma__import_unknown(r->im, s->place, "motion by ActiveTransform: everything stands as it starts")
-               : KOKSMA_OK;
+    return r->fixed ? koksma__import_unknown(r->im, s->place, "motion by ActiveTransform is ignored") : KOKSMA_OK;
 }
 
 static koksma_status take_times(reader *r, source *s)
@@ -251,7 +249,7 @@ static koksma_status take_object_begin(reader *r, source *s)
     char name[256];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
     if (r->open) {
-        return koksma__import_fail(s->place, "an object within an object");
+        return koksma__import_fail(s->place, "an object within another object");
     }
     KOKSMA__TRY(push(r, s));
     object *to = koksma__add_one(&r->objects, &r->n_objects, sizeof *to);
@@ -309,7 +307,7 @@ static koksma_status take_shape(reader *r, source *s)
     koksma__import_item item = {.surface = r->now.surface, .place = r->parameters->place};
     if (r->open && item.surface.emits) {
         item.surface.emits = false;
-        KOKSMA__TRY(koksma__import_unknown(r->im, item.place, "a light within an object: it is dark"));
+        KOKSMA__TRY(koksma__import_unknown(r->im, item.place, "a light within an object is dark"));
     }
     memcpy(form, koksma__import_identity, sizeof form);
     KOKSMA__TRY(koksma__pbrt_shape(&r->values, type, r->parameters, &item, form, &is_there));
@@ -373,8 +371,8 @@ static koksma_status take_light(reader *r, source *s)
     } else {
         move_point(r->now.matrix, from, 1, light.centre);
         if (strcmp(type, "point") != 0) {
-            KOKSMA__TRY(
-                koksma__import_unknown(r->im, p->place, "light '%s': a point here, which shines to all sides", type));
+            KOKSMA__TRY(koksma__import_unknown(
+                r->im, p->place, "light '%s' is replaced by a point light equal in all directions", type));
         }
     }
     return koksma__import_light(r->im, p->place, &light);
@@ -398,7 +396,7 @@ static koksma_status take_camera(reader *r, source *s)
     r->lens_radius = koksma__pbrt_number(p, "lensradius", 0);
     r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
     if (koksma__pbrt_find(p, "screenwindow") || koksma__pbrt_find(p, "frameaspectratio")) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "the camera's screen window: it is that of fov"));
+        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "the camera's screen window is ignored"));
     }
     return name_space(r, "camera", r->camera);
 }
@@ -412,13 +410,13 @@ static koksma_status take_film(reader *r, source *s)
     const double width = koksma__pbrt_number(p, "xresolution", 1280),
                  height = koksma__pbrt_number(p, "yresolution", 720);
     if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
-        return koksma__import_fail(p->place, "a film of %g x %g pixels; its sides are 1 to %d", width, height,
+        return koksma__import_fail(p->place, "a film of %g x %g pixels; each side must be 1 to %d", width, height,
                                    KOKSMA_MAX_IMAGE_SIDE);
     }
     r->im->scene->width = (int)width;
     r->im->scene->height = (int)height;
     return koksma__pbrt_find(p, "iso") || koksma__pbrt_find(p, "exposuretime") || koksma__pbrt_find(p, "sensor")
-               ? koksma__import_unknown(r->im, p->place, "the film's sensor: brightness is radiance")
+               ? koksma__import_unknown(r->im, p->place, "the film's sensor is ignored: brightness is radiance")
                : KOKSMA_OK;
 }
 
@@ -472,7 +470,7 @@ static koksma_status take_options(reader *r, source *s)
 
 static koksma_status take_medium(reader *r, source *s)
 {
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media: all is in air"));
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media are ignored"));
     return take_options(r, s);
 }
 
@@ -480,7 +478,7 @@ static koksma_status take_interface(reader *r, source *s)
 {
     char name[256];
     koksma__pbrt_token t;
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media: all is in air"));
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media are ignored"));
     for (int i = 0; i < 2; i++) {
         KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
         KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(s, name, sizeof name) : KOKSMA_OK);
@@ -490,7 +488,7 @@ static koksma_status take_interface(reader *r, source *s)
 
 static koksma_status take_attribute(reader *r, source *s)
 {
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "Attribute: it changes nothing"));
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "Attribute is ignored"));
     return take_options(r, s);
 }
 

@@ -54,7 +54,7 @@ static koksma_status bands(koksma__pbrt_scene *scene, koksma__text_place place, 
     for (int k = 0; k < 3; k++) {
         rgb[k] = count[k] ? sum[k] / (double)count[k] : n > 1 ? all / (double)(n / 2) : 0;
     }
-    return koksma__import_unknown(scene->im, place, "a sampled spectrum: the means of its thirds");
+    return koksma__import_unknown(scene->im, place, "a sampled spectrum is replaced by the means of its thirds");
 }
 
 /* Reads a named spectrum: "metal-Au-eta" and similar names give the metal's reflectance, others white. */
@@ -71,7 +71,7 @@ static koksma_status named_spectrum(koksma__pbrt_scene *scene, koksma__text_plac
     }
     return !strncmp(name, "stdillum-", 9)
                ? KOKSMA_OK
-               : koksma__import_unknown(scene->im, place, "spectrum '%s': white here", name);
+               : koksma__import_unknown(scene->im, place, "spectrum '%s' is replaced by white", name);
 }
 
 static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place place, const koksma__pbrt_parameter *p,
@@ -128,8 +128,7 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
     }
     for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
         if (koksma__pbrt_find(p, unknown[i]) && koksma__pbrt_flag(p, unknown[i], true)) {
-            KOKSMA__TRY(
-                koksma__import_unknown(scene->im, p->place, "a light's '%s': it changes nothing", unknown[i]));
+            KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "a light's '%s' is ignored", unknown[i]));
         }
     }
     return KOKSMA_OK;
@@ -160,7 +159,7 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
         status = koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image);
         if (!status && (koksma__pbrt_number(p, "uscale", 1) != 1 || koksma__pbrt_number(p, "vscale", 1) != 1 ||
                         koksma__pbrt_number(p, "scale", 1) != 1)) {
-            status = koksma__import_unknown(scene->im, p->place, "an image's scale: it is 1");
+            status = koksma__import_unknown(scene->im, p->place, "an image's scale is ignored");
         }
     } else if (!strcmp(kind, "constant")) {
         status = find_colour(scene, p, "value", 1, c);
@@ -172,7 +171,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
             c->second[k] *= second.rgb[k];
         }
         if (!status && (*c->image || *second.image)) {
-            status = koksma__import_unknown(scene->im, p->place, "an image times a colour: the image alone");
+            status =
+                koksma__import_unknown(scene->im, p->place, "an image times a colour is replaced by the image alone");
         }
     } else if (!strcmp(kind, "checkerboard") && koksma__pbrt_number(p, "dimension", 2) == 2) {
         status = find_colour(scene, p, "tex1", 1, c);
@@ -183,14 +183,14 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
         const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
         c->period = u > 1e-6 ? 1 / u : 1;
         if (!status && u != v) {
-            status = koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale: it is uscale");
+            status = koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale is replaced by uscale");
         }
     } else {
         status = find_colour(scene, p, "tex1", 0.5, &first);
         status = status ? status : find_colour(scene, p, "tex2", 0.5, &second);
         if (!status) {
             mean_of(&first, &second, c->rgb);
-            status = koksma__import_unknown(scene->im, p->place, "texture '%s': one colour here", kind);
+            status = koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
         }
     }
     scene->n_textures += !status;
@@ -244,7 +244,7 @@ static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_par
     const double u = koksma__pbrt_number(p, u_name, both), v = koksma__pbrt_number(p, v_name, both);
     m->alpha = koksma__pbrt_flag(p, "remaproughness", true) ? sqrt(fmax(u * v, 0)) : fmax(u * v, 0);
     m->alpha = sqrt(m->alpha); /* the geometric mean for u and v */
-    return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness: the mean of both")
+    return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness is replaced by its mean")
                   : KOKSMA_OK;
 }
 
@@ -279,7 +279,7 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
     const material_kind *found = &other;
     koksma__import_material m = {.ior = 1.5};
     if (!strcmp(type, "mix")) {
-        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material 'mix': its first one"));
+        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material 'mix' is replaced by its first material"));
         return koksma__pbrt_find_material(scene, p->place, koksma__pbrt_word(p, "materials", ""), out);
     }
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -289,8 +289,7 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
         KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material '%s': %s here", type, found->instead));
     }
     if (koksma__pbrt_find(p, "displacement") || koksma__pbrt_find(p, "normalmap")) {
-        KOKSMA__TRY(
-            koksma__import_unknown(scene->im, p->place, "displacement or a map of normals: surfaces are smooth"));
+        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "displacement and normal maps are ignored"));
     }
     *out = -1;
     if (found->kind < 0) {
@@ -301,7 +300,8 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
                                         : find_colour(scene, p, found->colour ? found->colour : "", 0.5, &m.colour));
     m.ior = koksma__pbrt_number(p, "eta", 1.5);
     if (*koksma__pbrt_word(p, "eta", "") && m.kind == KOKSMA__GLASS) {
-        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "the spectrum of a glass: its index is 1.5"));
+        KOKSMA__TRY(
+            koksma__import_unknown(scene->im, p->place, "the spectrum of a glass is replaced by the index 1.5"));
     }
     KOKSMA__TRY(set_alpha(scene, p, found->prefix, &m));
     return koksma__import_add_material(scene->im, p->place, &m, out);
@@ -409,7 +409,7 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
     koksma__import *im = scene->im;
     koksma_status status = KOKSMA_OK;
     if (koksma__pbrt_find(p, "alpha")) {
-        KOKSMA__TRY(koksma__import_unknown(im, p->place, "a shape's 'alpha': it is opaque"));
+        KOKSMA__TRY(koksma__import_unknown(im, p->place, "a shape's 'alpha' is ignored"));
     }
     item->mesh = -1;
     if (!strcmp(type, "sphere") || !strcmp(type, "disk") || !strcmp(type, "cylinder")) {
@@ -426,7 +426,7 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
                    matrix);
         if (koksma__pbrt_number(p, "phimax", 360) < 360 || koksma__pbrt_number(p, "innerradius", 0) > 0 ||
             (!cylinder && !disk && (koksma__pbrt_find(p, "zmin") || koksma__pbrt_find(p, "zmax")))) {
-            status = koksma__import_unknown(im, p->place, "a part of a %s: it is whole", type);
+            status = koksma__import_unknown(im, p->place, "a part of a %s is replaced by the whole", type);
         }
         return status;
     }

@@ -252,7 +252,7 @@ static void refuse_doctype(void *data, const char *name, const char *system, con
 {
     reading *r = data;
     (void)name, (void)system, (void)public, (void)internal;
-    stop(r, koksma__import_fail(here(r), "a document type: scenes have none, and its entities are not read"));
+    stop(r, koksma__import_fail(here(r), "a document type declaration is not allowed in a scene"));
 }
 
 static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char *file, const char *text, size_t size,

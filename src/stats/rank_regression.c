@@ -260,7 +260,8 @@ koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_c
     if (!scores) {
         status = koksma__fail_memory((most + 1) * sizeof *scores);
     } else if (n_used < 3) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "rank regression: %zu scenes have cases; 3 would do", n_used);
+        status =
+            koksma__fail(KOKSMA_ARGUMENT, "rank regression: %zu scenes have cases; at least 3 are needed", n_used);
     }
     for (size_t scene = 0; !status && scene < n_scenes; scene++) {
         out[scene] = (koksma__held_out){0};

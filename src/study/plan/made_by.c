@@ -109,7 +109,7 @@ koksma_status koksma__reference_parse(const char *text, char name[KOKSMA_MAX_SPE
     const bool fits = colon && at && at > colon && colon - text < KOKSMA_MAX_SPEC && at - colon - 1 < KOKSMA_MAX_SPEC;
     KOKSMA__FAIL_IF(!fits || sscanf(at, "@%18lldx%18lld%n", spp, replicates, &end) != 2 || at[end] || *spp < 1 ||
                         *replicates < 1,
-                    KOKSMA_MALFORMED, "'%.100s' names no reference", text);
+                    KOKSMA_MALFORMED, "'%.100s' is not the text of a reference", text);
     snprintf(name, KOKSMA_MAX_SPEC, "%.*s", (int)(colon - text), text);
     snprintf(pattern, KOKSMA_MAX_SPEC, "%.*s", (int)(at - colon - 1), colon + 1);
     return KOKSMA_OK;

@@ -70,7 +70,7 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
             }
         }
     }
-    return b->warps.n && b->dim != 2 ? koksma__json_fail(node, "warps take dim 2") : KOKSMA_OK;
+    return b->warps.n && b->dim != 2 ? koksma__json_fail(node, "warps need dim 2") : KOKSMA_OK;
 }
 
 /* Reads the members "measures" and "integrands", of which a block has one or both. */
@@ -123,9 +123,10 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
     status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
     status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
-    KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "its name has more than %d letters", MAX_NAME);
+    KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "the name has more than %d characters",
+                         MAX_NAME);
     if (!status && strchr(r->name, ':')) { /* a ':' ends the name in the key of rows (made_by.h) */
-        return koksma__json_fail(node, "its name has a ':'");
+        return koksma__json_fail(node, "the name contains ':'");
     }
     return status ? status : koksma__plan_check_reference(node, r);
 }

@@ -97,7 +97,7 @@ static koksma_status from_plan(const koksma__json_node *node, bool is_scene, cha
     }
     const bool fits = (size_t)(to - joined) < KOKSMA_MAX_SPEC;
     const koksma_status status =
-        fits ? KOKSMA_OK : koksma__json_fail(node, "'%.60s...': the path is too long behind the plan's", *text);
+        fits ? KOKSMA_OK : koksma__json_fail(node, "'%.60s...': the path is too long after the plan's folder", *text);
     free(fits ? *text : joined);
     *text = fits ? joined : *text;
     return status;

@@ -119,7 +119,7 @@ static koksma_status check_shape(const koksma__json_node *node, const koksma__ta
     const bool over_n = koksma__table_is_over_n(t);
     KOKSMA__JSON_FAIL_IF(!t->scene == !t->measure, node, "a table has either a scene or a measure");
     KOKSMA__JSON_FAIL_IF(t->scene && over_n, node, "a table of a scene has one number of samples");
-    KOKSMA__JSON_FAIL_IF(t->measure && t->fitted, node, "'fitted' goes with a scene: a measure has nothing to fit");
+    KOKSMA__JSON_FAIL_IF(t->measure && t->fitted, node, "'fitted' needs a scene: a measure has nothing to fit");
     for (size_t i = 0; i + 1 < t->n.n; i++) {
         KOKSMA__JSON_FAIL_IF(t->n.at[i] >= t->n.at[i + 1], node,
                              "a table's numbers of points rise: %lld comes before %lld", t->n.at[i], t->n.at[i + 1]);

@@ -100,7 +100,7 @@ static koksma_status check_options(const koksma_datasheet_options *o)
                             "sampler: it takes a pattern's spec, a file of points or my_{n}_{seed}.npy");
     }
     if (o->beside && o->n_beside > KOKSMA_MAX_BESIDE) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n_beside: %zu samplers beside; at most %d", o->n_beside,
+        return koksma__fail(KOKSMA_ARGUMENT, "n_beside: %zu samplers to compare with; at most %d", o->n_beside,
                             KOKSMA_MAX_BESIDE);
     }
     if (o->scenes && o->n_scenes > KOKSMA_MAX_SHEET_SCENES) {

@@ -132,7 +132,7 @@ static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
         } else if (o == EQUAL) {
             koksma__doc_say(d, "equal within 2 %% to %s", sheet->samplers[r->rows[0].pattern]->text);
         } else {
-            koksma__doc_say(d, "not decided by %lld images of each", r->ranking.trials);
+            koksma__doc_say(d, "undecided after %lld images of each sampler", r->ranking.trials);
         }
         if (row && row->coherence.coherent) {
             koksma__doc_say(d, "; its error has a pattern, not noise alone");
@@ -155,8 +155,7 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     koksma__doc_section(d, "verdict", "Verdict");
     koksma__doc_paragraph_begin(d);
     if (sheet->n_samplers == 1) {
-        koksma__doc_say(d, "Nothing is beside %s on this sheet: it has numbers and no comparison.",
-                        sheet->samplers[0]->text);
+        koksma__doc_say(d, "This sheet compares %s with no other sampler.", sheet->samplers[0]->text);
         koksma__doc_paragraph_end(d);
         koksma__doc_end(d);
         return;

@@ -131,7 +131,7 @@ static koksma_status look_at(const char *path, bool *exists, long long *size)
     *size = *exists ? (long long)info.st_size : 0;
     KOKSMA__FAIL_IF(!*exists && errno != ENOENT, errno == ENOTDIR ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path,
                     strerror(errno));
-    return *exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: it is no plain file", path)
+    return *exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: not a regular file", path)
                                              : KOKSMA_OK;
 }
 
@@ -229,7 +229,7 @@ static koksma_status prepare_to_read(koksma__database *database)
     status = status ? status : look_beside(database->real, "-wal", &log);
     if (!status && journal) {
         status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s-journal: another program was at work on the database, and has to "
+                              "%s-journal: another program left a journal of the database, and has to "
                               "end it first",
                               database->path);
     }
@@ -289,7 +289,7 @@ koksma_status koksma__database_open(const char *path, koksma__database_mode mode
     } else if (!(whole = *path ? realpath(path, NULL) : strdup(""))) {
         status = koksma__fail(errno == ENOENT ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path, strerror(errno));
     } else if (strlen(whole) >= MAX_PATH) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "%s: its path is too long", path);
+        status = koksma__fail(KOKSMA_ARGUMENT, "%s: the path is too long", path);
     }
     if (!status) {
         strcpy(database->real, whole);

@@ -36,7 +36,8 @@ double koksma__store_seconds(koksma__store *store)
 
 koksma_status koksma__store_begin(koksma__store *store)
 {
-    KOKSMA__FAIL_IF(store->failed, KOKSMA_IO, "%s: writing failed before", koksma__database_path(store->database));
+    KOKSMA__FAIL_IF(store->failed, KOKSMA_IO, "%s: an earlier write failed, and nothing more is written",
+                    koksma__database_path(store->database));
     if (store->in_transaction) {
         return KOKSMA_OK;
     }
@@ -147,7 +148,7 @@ koksma_status koksma__seal_read(koksma__store *store)
     koksma_status status = koksma__store_find_text(store, "seal", &text);
     if (!status &&
         (!text || sscanf(text, "%lld %" SCNu64 "%n", &store->seal.rows, &store->seal.sum, &end) != 2 || text[end])) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: it has no seal; move it away to begin anew",
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: the database has no seal; move it away to begin anew",
                               koksma__database_path(store->database));
     }
     store->sealed = store->seal;
