@@ -25,7 +25,7 @@ typedef struct job {
     koksma__domain_kind kind;
     size_t n, dim;
     const double *xs;
-    koksma__sum *sums; /* two for each block: pairs, potentials */
+    koksma__sum *sums; /* two sums for each block of rows: over pairs, and of potentials */
 } job;
 
 static koksma_status sum_rows(void *context, size_t block)

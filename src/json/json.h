@@ -60,7 +60,7 @@ bool koksma__json_is_text(const koksma__json_node *node);
    koksma__json_item: an item of an array. */
 bool koksma__json_has(const koksma__json_node *node, const char *key);
 koksma_status koksma__json_member(const koksma__json_node *node, const char *key, koksma__json_node *out);
-/* the length of an array, which must be at most `max` */
+/* Sets *length to the length of an array, which must be at most `max`. */
 koksma_status koksma__json_length(const koksma__json_node *node, size_t max, size_t *length);
 koksma__json_node koksma__json_item(const koksma__json_node *node, size_t i);
 

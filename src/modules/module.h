@@ -21,7 +21,7 @@ typedef struct koksma__host {
 
 /* The symbol koksma__entry that a module exports. start stores the host and returns the module's functions. */
 typedef struct koksma__module_entry {
-    const char *release; /* KOKSMA_VERSION: a module of another release is rejected */
+    const char *release; /* KOKSMA_VERSION of the module: another release than the library's is rejected */
     const void *(*start)(const koksma__host *host);
 } koksma__module_entry;
 

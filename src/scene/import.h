@@ -37,7 +37,7 @@ typedef struct koksma__import_colour {
 /* A material as the nearest kind that Koksma has. */
 typedef struct koksma__import_material {
     enum { KOKSMA__MATTE, KOKSMA__METAL, KOKSMA__GLASS, KOKSMA__COATED } kind;
-    koksma__import_colour colour; /* of matte and coated materials; for metals, the reflectance along the normal */
+    koksma__import_colour colour; /* colour of matte and coated materials; reflectance of metals along the normal */
     double alpha;                 /* GGX width of metals and coats; 0: smooth */
     double ior;
 } koksma__import_material;

@@ -26,7 +26,7 @@ enum { SIDES = 64, RINGS = 32 };
 
 /* A mesh that was made before, identified by its file's path or by its basic shape. */
 struct koksma__known_mesh {
-    char *path; /* NULL: made from a basic shape */
+    char *path; /* path of the mesh's file; NULL: made from a basic shape */
     koksma__form form;
     bool with_normals;
     int mesh;

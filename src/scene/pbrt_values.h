@@ -10,7 +10,7 @@ typedef struct koksma__pbrt_scene {
     koksma__import *im;
     struct koksma__pbrt_named *materials;
     struct koksma__pbrt_texture *textures;
-    char **texts; /* names of files */
+    char **texts; /* names of the files that were read */
     size_t n_materials, n_textures, n_texts;
 } koksma__pbrt_scene;
 

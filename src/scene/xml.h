@@ -7,14 +7,14 @@
 
 typedef struct koksma__xml_node {
     char *tag;
-    char **attributes; /* name, value, name, value, ..., NULL */
+    char **attributes; /* names and values in turn, ended by NULL */
     koksma__text_place place;
     int first, last, next; /* first and last child; next child of the same parent; -1: none */
 } koksma__xml_node;
 
 typedef struct koksma__xml {
     koksma__xml_node *nodes; /* the first node is the root */
-    char **files;            /* names of included files */
+    char **files;            /* names of included files, to which positions refer */
     struct koksma__xml_default *defaults;
     size_t n, n_files, n_defaults;
 } koksma__xml;

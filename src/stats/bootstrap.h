@@ -5,7 +5,7 @@
 
 #include "stats/statistics.h"
 
-enum { KOKSMA__LEAST_PAIRS = 7 }; /* the fewest pairs for an interval */
+enum { KOKSMA__LEAST_PAIRS = 7 }; /* the fewest pairs for which an interval is computed */
 
 /* A statistic of n pairs (x, y); NaN when it has no value. */
 typedef double (*koksma__pair_statistic)(const double *x, const double *y, size_t n);

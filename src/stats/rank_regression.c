@@ -25,8 +25,8 @@ static const double penalties[PENALTIES] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 
 
 /* The matrices G (k x k) and c (k) of each scene and of sums over scenes, with memory for the computations. */
 typedef struct sums {
-    size_t k, n_scenes, size; /* size: numbers for one scene, k (k + 1) */
-    double *of;               /* G and c of each scene, `size` numbers each */
+    size_t k, n_scenes, size; /* size: how many numbers G and c of a scene have, k (k + 1) */
+    double *of;               /* G and c of each scene, `size` numbers for each */
     size_t *cases;            /* number of cases in each scene */
     /* sum over all scenes; sum over the training scenes; a Cholesky factor; k weights */
     double *all, *train, *factor, *weights;

@@ -15,8 +15,8 @@ enum { KOKSMA__RENDERER_REVISION = 1 };
 
 /* Revisions as texts of the form "name revision, name revision". */
 typedef struct koksma__made_by {
-    char points[KOKSMA__MADE_BY]; /* of the pattern; for an image, of the renderer and all patterns */
-    /* of the measure and the warp; for an image, of the renderer and patterns of the reference */
+    char points[KOKSMA__MADE_BY]; /* revisions of the pattern; for an image, of the renderer and all patterns */
+    /* Revisions of the measure and the warp; for an image, of the renderer and patterns of its reference. */
     char value[KOKSMA__MADE_BY];
 } koksma__made_by;
 

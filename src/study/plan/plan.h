@@ -19,7 +19,7 @@ typedef struct koksma__wholes {
 
 /* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make. */
 typedef struct koksma__left_out {
-    bool *is;            /* flag of each pattern and size; NULL: no size is left out */
+    bool *is;            /* a flag for each pattern and size, true if left out; NULL: no size is left out */
     koksma__texts lines; /* messages, each with a pattern, its sizes and the reason */
 } koksma__left_out;
 
@@ -69,14 +69,16 @@ enum { KOKSMA__TABLE_PRINTED = 8 };
 typedef struct koksma__table_row {
     char *pattern, *label;
     size_t n_published;
-    koksma__printed published[KOKSMA__TABLE_PRINTED]; /* mean, SD, max; in a table over several n, the means */
-    double rate;                                      /* exponent of n that theory predicts; NaN: unknown */
+    /* printed mean, SD and maximum; in a table over several n, the means */
+    koksma__printed published[KOKSMA__TABLE_PRINTED];
+    /* exponent of n that theory predicts for the row's pattern; NaN: unknown */
+    double rate;
 } koksma__table_row;
 
 /* A note on why a published cell differs from the computed one. */
 typedef struct koksma__note {
-    char *pattern; /* pattern of the cell's row; NULL: all rows of the column */
-    long long n;   /* column of a table over several n; 0: all columns */
+    char *pattern; /* pattern of the cell that differs; NULL: all rows of the column */
+    long long n;   /* n of the cell's column, in a table over several n; 0: all columns */
     int statistic; /* which statistic: 0 mean, 1 SD, 2 max */
     char *reason;
     bool explained; /* true: `reason` explains the difference; false: it lists what was tried */
@@ -109,7 +111,7 @@ typedef struct koksma__figure {
     long long strata[2];  /* the pixel whose strata are shown; -1: none */
     koksma__texts spaces; /* names of the sample spaces whose strata are shown; if empty, all of them */
     double exposure;      /* in a figure of a scene: factor on the image's values */
-    bool cells;           /* draw the grid cells, or rows and columns */
+    bool cells;           /* draw the grid cells, or rows and columns, of the pattern */
     bool lines, dual;     /* lines: show random lines; dual: show each as its point (slope, intercept) */
 } koksma__figure;
 
@@ -117,9 +119,9 @@ typedef struct koksma__figure {
    needs one of `discrepancies` and `images`. A plan without questions is answered by all kinds but those with
    ASKED_BY_NAME. */
 enum {
-    KOKSMA__NEEDS_POINTS = 1, /* needs `discrepancies` */
-    KOKSMA__NEEDS_IMAGES = 2, /* needs `images` */
-    KOKSMA__TAKES_GROUPS = 4, /* takes `groups` */
+    KOKSMA__NEEDS_POINTS = 1, /* the question needs `discrepancies` */
+    KOKSMA__NEEDS_IMAGES = 2, /* the question needs `images` */
+    KOKSMA__TAKES_GROUPS = 4, /* the question takes `groups` */
     KOKSMA__ASKED_BY_NAME = 8
 };
 
@@ -143,7 +145,7 @@ typedef struct koksma__question {
     char *id, *title;
     size_t part; /* index of the plan part that has this question */
     const koksma__question_kind *kind;
-    char *discrepancies, *images; /* ids of blocks; NULL: none */
+    char *discrepancies, *images; /* ids of the question's blocks; NULL: none */
     size_t n_groups;
     koksma__scene_group *groups;
 } koksma__question;
@@ -152,7 +154,7 @@ typedef struct koksma__question {
 typedef struct koksma__plan_part {
     char *title;
     char *about, *order;     /* order: the overall order of the patterns, as printed; both may be NULL */
-    bool asks;               /* has tables or questions */
+    bool asks;               /* whether the part has tables or questions */
     size_t discrepancies[2]; /* indices of the part's blocks: the first, and one past the last */
     size_t images[2];
     size_t figures[2];
@@ -160,7 +162,7 @@ typedef struct koksma__plan_part {
 
 typedef struct koksma__plan {
     char *name, *title, *about;
-    char *order; /* set while the plan is parsed, then moved to its part */
+    char *order; /* order of the patterns: set while the plan is parsed, then moved to its part */
     size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions;
     koksma__plan_part *parts;
     koksma__question *questions;

@@ -19,7 +19,8 @@ enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };
 /* An option of a variant; set() checks a word and stores its value. */
 typedef struct option {
     const char *name, *fallback;
-    enum { NEVER, ALWAYS, UNLESS_BOX } changes_image; /* the exact image, so that it needs its own references */
+    /* when the option changes the exact image, so that it needs its own references */
+    enum { NEVER, ALWAYS, UNLESS_BOX } changes_image;
     koksma_status (*set)(koksma__variant *variant, const char *word);
 } option;
 
@@ -264,7 +265,7 @@ static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *
         KOKSMA__REQUIRE_MEMORY(out->at[out->n], strlen(text));
         const koksma_status status = check_together(text);
         if (status) {
-            out->n++; /* so that the new text is freed, too */
+            out->n++; /* count the new text, so that it is freed, too */
             return status;
         }
     }

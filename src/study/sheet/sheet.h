@@ -26,9 +26,9 @@ enum {
 typedef struct koksma__sheet_sampler {
     char text[KOKSMA_MAX_SPEC]; /* canonical text of the spec */
     koksma_spec spec;
-    uint64_t seed; /* seed of the first set */
-    size_t sets;   /* number of sets with consecutive seeds; SIZE_MAX: no limit */
-    bool same;     /* the set is the same for every seed */
+    uint64_t seed; /* seed of the sampler's first set */
+    size_t sets;   /* number of the sampler's sets with consecutive seeds; SIZE_MAX: no limit */
+    bool same;     /* whether the set is the same for every seed */
 } koksma__sheet_sampler;
 
 /* A measure in two or more dimensions. left_out: a sampler has no value at some size, so that the sheet omits the
@@ -50,7 +50,7 @@ typedef struct koksma__sheet_values {
     const size_t *sizes;
     koksma__sheet_measure measures[KOKSMA__SHEET_MEASURES];
     koksma_tally *tallies;
-    koksma_joint *joints; /* index: s * n_measures + m */
+    koksma_joint *joints; /* a joint's index is s * n_measures + m */
 } koksma__sheet_values;
 
 /* The ranking of the samplers in one scene at one number of samples per pixel. */
@@ -73,8 +73,8 @@ typedef struct koksma__sheet {
     int spp[KOKSMA__SHEET_SPP];
     size_t n_spp;
     int max_dim;               /* highest dimension that samplers[0] supports */
-    size_t trials;             /* sets of each size */
-    size_t max_trials;         /* images of each sampler in a scene */
+    size_t trials;             /* number of sets of each size */
+    size_t max_trials;         /* largest number of images of each sampler in a scene */
     koksma_metric_spec metric; /* metric of the images' errors */
     char metric_text[KOKSMA_MAX_SPEC];
     const char *const *scenes;
@@ -84,7 +84,7 @@ typedef struct koksma__sheet {
     koksma__document notes; /* list items: what is left out, and why */
     size_t n_notes;
     koksma__sheet_values plane;
-    koksma__sheet_ranking *rankings; /* index: scene * n_spp + spp */
+    koksma__sheet_ranking *rankings; /* a ranking's index is scene * n_spp + spp */
     size_t n_rankings;
 } koksma__sheet;
 

@@ -26,8 +26,8 @@
 typedef struct evaluation {
     koksma__sheet_values *values;
     size_t trials;         /* the largest number of trials of any sampler */
-    double *found;         /* index: ((sampler * sizes + size) * trials + trial) * measures + measure */
-    unsigned char *status; /* same index as `found`; 0: a value, 1: a bound, 2: no value */
+    double *found;         /* a value's index is ((sampler * sizes + size) * trials + trial) * measures + measure */
+    unsigned char *status; /* indexed as `found`; 0: a value, 1: a bound, 2: no value */
 } evaluation;
 
 static koksma_status evaluate_set(void *context, size_t job)

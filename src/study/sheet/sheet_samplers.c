@@ -184,7 +184,7 @@ static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *
     } else if (!status && first) {
         status = size_of_file(sheet, sampler);
     }
-    if (!koksma__file_has(path, "{seed}")) { /* one set of each size, the same for every seed */
+    if (!koksma__file_has(path, "{seed}")) { /* the family has one set of each size, the same for every seed */
         sampler->seed = 0;
         sampler->sets = SIZE_MAX;
     }

@@ -13,7 +13,7 @@ typedef struct sqlite3_stmt koksma__statement;
 /* Facts about a file from its first 100 bytes, read before SQLite opens it. */
 typedef struct koksma__database_header {
     bool exists, is_empty, has_journal; /* has_journal: another program was killed while it wrote */
-    uint32_t application_id, version;   /* from PRAGMA application_id and user_version */
+    uint32_t application_id, version;   /* values of PRAGMA application_id and user_version */
 } koksma__database_header;
 
 /* Reads the header of a file. Errors: MALFORMED (neither empty nor a database, or not a regular file), IO (can't
@@ -31,7 +31,7 @@ typedef enum koksma__database_mode {
 } koksma__database_mode;
 
 koksma_status koksma__database_open(const char *path, koksma__database_mode mode, koksma__database **out);
-/* close the statements before; what was not committed is lost */
+/* Closes a database whose statements are closed; what was not committed is lost. */
 void koksma__database_close(koksma__database *database);
 
 /* Attaches the file `old`, which must stay open, as it is now: its tables are then called old.NAME. */

@@ -160,7 +160,8 @@ koksma_status koksma__seal_read(koksma__store *store)
 
 void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key)
 {
-    const char *of = strcmp(series->pattern, "") ? series->pattern : series->what; /* a reference has no pattern */
+    /* the row of a reference has no pattern */
+    const char *of = strcmp(series->pattern, "") ? series->pattern : series->what;
     *key = *series;
     koksma__hash_with_points(&store->files, series->scene_hash, of, store->hash);
     koksma__find_made_by(strcmp(series->kind, "discrepancy") != 0, series->pattern, series->options, series->what,

@@ -72,7 +72,7 @@ struct koksma__store {
     koksma__statement *queries[KOKSMA__N_QUERIES];
     pthread_mutex_t lock;        /* guards the database and the members below */
     bool in_transaction, failed; /* failed: a write has failed, and nothing more is written */
-    koksma__seal seal, sealed;   /* seal: of all rows written; sealed: as table meta has it */
+    koksma__seal seal, sealed;   /* seal: of all rows written so far; sealed: the seal in table meta */
     koksma__seal found;          /* seal of the rows that the last scan read */
     bool for_audit;              /* no error if `found` differs from `seal` */
     double began_s, entered_s, seconds;
@@ -84,7 +84,7 @@ struct koksma__store {
     koksma__rows gathered;
     double written_s; /* when rows were last written, in seconds */
     koksma__point_files files;
-    char hash[KOKSMA__HASH_TEXT]; /* bound to statements, as is made_by */
+    char hash[KOKSMA__HASH_TEXT]; /* the hash is bound to statements, as is made_by */
     koksma__made_by made_by;
 };
 

@@ -266,7 +266,8 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     if (!status && koksma__database_has_moved(database)) {
         status = koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
     }
-    status = status ? status : koksma__database_look(path, &header); /* again, now that no other program can write */
+    /* look again, now that no other program can write */
+    status = status ? status : koksma__database_look(path, &header);
     status = status ? status : koksma__schema_of(database, &header, &schema);
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
