@@ -77,8 +77,9 @@ static koksma_status set_adaptive(koksma__variant *variant, const char *word)
     return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
 }
 
-/* One line for each option that studies may vary. Splatting comes before the filter. Older versions wrote it after the
-   filter and compared such rows with references that were not splatted; with this order the old rows are not found. */
+/* The options that studies may vary, one a line. Splatting comes before the filter, so that rows of older
+   versions, which wrote "filter=...;splat=yes" and compared such images with references that were not splatted,
+   are not found. */
 static const option known[] = {
     {"pairing", "shuffled", NEVER, set_pairing}, {"scope", "pixel", NEVER, set_scope},
     {"lights", "all", NEVER, set_lights},        {"splat", "no", UNLESS_BOX, set_splat},

@@ -34,7 +34,7 @@ CREATE TABLE result (        -- up to four measures of one point set, or one ren
                                            -- error's power spectrum divided by its mean, 0 without an error
   v1 REAL CHECK (abs(v1) < 9e999),         -- value of series + 1; for an image the SD of the absolute error; for a
                                            -- coherence p, the probability that white noise has as large a peak
-  v2 REAL CHECK (abs(v2) < 9e999),         -- value of series + 2; the error's maximum; the peak's x frequency, cycles/pixel
+  v2 REAL CHECK (abs(v2) < 9e999),         -- value of series + 2; the error's maximum; the peak's x frequency (1/pixel)
   v3 REAL CHECK (abs(v3) < 9e999)          -- value of series + 3; the RMSE; the peak's y frequency
 ) STRICT;
 

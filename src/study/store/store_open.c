@@ -272,7 +272,7 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
     if (!status) {                      /* report damage before any byte is written */
-        (*out)->in_transaction = false; /* the scan would end the transaction */
+        (*out)->in_transaction = false; /* a scan would end the open transaction */
         status = koksma__store_scan(*out, pass, NULL);
         (*out)->in_transaction = true;
     }
