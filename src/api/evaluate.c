@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_evaluate: the checks of arguments that every measure can rely on, then the measure's own function. A value
-   that is exact is its own lower and upper bound. */
+/* koksma_evaluate: checks the arguments on behalf of all measures, then calls the measure's own function. An
+   exact value is its own lower and upper bound. */
 #include "api/evaluate.h"
 
 #include <math.h>

@@ -4,8 +4,9 @@
 
 #include <koksma/koksma.h>
 
-/* What koksma_evaluate asks of its arguments: a measure's spec with parameters that it takes, and points of the unit
-   cube in as many dimensions as it has a form for. caller is what errors call the function. Errors: ARGUMENT, DIM. */
+/* Checks the arguments of koksma_evaluate: a measure's spec with valid parameters, and points in the unit cube in
+   a dimension that the measure supports. `caller` is the name of the function in error texts. Errors: ARGUMENT,
+   DIM. */
 koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec, const koksma_points *points);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_generate, koksma_generate_range and koksma_generate_whole: the checks of arguments that every pattern can rely
-   on, the pattern's own function, and the modifiers that every pattern takes. */
+/* koksma_generate, koksma_generate_range and koksma_generate_whole: check the arguments on behalf of all
+   patterns, call the pattern's own function, and apply the modifiers that every pattern accepts. */
 #include "api/generate.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
 
-/* What does not depend on the dimension: the path and the modifiers. */
+/* Checks the parts of a spec that do not depend on the dimension: the path and the modifiers. */
 static koksma_status check_spec(const koksma_spec *spec, const koksma_pattern *p)
 {
     return memchr(spec->path, '\0', sizeof spec->path)
@@ -47,20 +47,22 @@ bool koksma__spec_is_deterministic(const koksma_spec *spec)
     return deterministic;
 }
 
-/* Who only tries a pattern's arguments, and stops at once, needs no permission. */
+/* Checks that patterns which run other programs' code are allowed. A call that stops at once, to check a
+   pattern's arguments, needs no permission. */
 static koksma_status check_permission(const koksma_spec *spec, const koksma_pattern *p, const koksma_run *run)
 {
     if (!koksma__keep_going(run, 0)) {
         return koksma__fail_interrupted();
     }
     KOKSMA__FAIL_IF(koksma__exec_seconds() <= 0, KOKSMA_FORBIDDEN,
-                    "%s:%s: it runs code of others; --allow-exec allows that (koksma_allow_exec in C, "
+                    "%s:%s: the pattern runs external code; --allow-exec allows that (koksma_allow_exec in C, "
                     "koksma.allow_exec in Python)",
                     p->name, spec->path);
     return KOKSMA_OK;
 }
 
-/* Points first .. first + out->n - 1 of the n of a set, or of a sequence, whose points do not depend on n. */
+/* Generates points first .. first + out->n - 1 of a set of n points, or of a sequence, whose points do not depend
+   on n. */
 static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, uint64_t seed, uint64_t n,
                               uint64_t first, const koksma_run *run, koksma_points *out)
 {
@@ -112,8 +114,7 @@ koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint
     if (!koksma_has_ranges(spec)) {
         char text[KOKSMA_MAX_SPEC];
         koksma_spec_text(spec, text);
-        return koksma__fail(KOKSMA_UNSUPPORTED,
-                            "%s: it has no ranges: its points are made together from the first on", text);
+        return koksma__fail(KOKSMA_UNSUPPORTED, "%s: no ranges: the pattern makes all points together", text);
     }
     const uint64_t most = KOKSMA_MAX_INDEX < SIZE_MAX ? KOKSMA_MAX_INDEX + 1 : SIZE_MAX;
     const uint64_t end = p->claims & KOKSMA_CLAIM_SEQUENCE ? KOKSMA_MAX_INDEX + 1 : n;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_generate_write: points from a pattern to a file. A pattern with ranges is generated and written in pieces of
-   4 MiB, which stay in the cache: memory does not grow with the number of points. */
+/* koksma_generate_write: writes the points of a pattern to a file. A pattern that can generate ranges is
+   generated and written in pieces of 4 MiB, which fit into the cache, so that memory does not grow with the
+   number of points. */
 #include <koksma/koksma.h>
 
 #include "core/points_io.h"
 #include "core/status.h"
 
-enum { PIECE = 1 << 19 }; /* coordinates */
+enum { PIECE = 1 << 19 }; /* coordinates in a piece */
 
 typedef struct job {
     const koksma_spec *spec;
@@ -14,7 +15,8 @@ typedef struct job {
     bool ranges;
 } job;
 
-/* Points j->first + done .. of a range, or the whole set. Progress is the writer's where there are several pieces. */
+/* Generates the points of a range from j->first + done on, or the whole set. With several pieces only the writer
+   reports progress. */
 static koksma_status make(const job *j, uint64_t done, const koksma_run *run, koksma_points *piece)
 {
     const koksma_run quiet = {.threads = run ? run->threads : 0};
@@ -28,7 +30,7 @@ static koksma_status write_pieces(const job *j, const char *path, const char *co
 {
     koksma__points_writer writer;
     koksma_points last = {1, piece->dim, piece->xs};
-    if (j->ranges) { /* what can't be generated up to the last point leaves the file alone */
+    if (j->ranges) { /* a request that cannot be generated to its last point must not change the file */
         KOKSMA__TRY(make(j, j->n - 1, run, &last));
     }
     KOKSMA__TRY(make(j, 0, run, piece));

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Exponents of decay of patterns, by their claims (those that no points can exceed: lower_bounds.c):
- *   points that are independent                         1/2: the sum of n independent terms
- *   also one uniform in each cell of a cubic grid       1/2 + 1/(2 dim): only the cells that a border cuts have any
- *                                                       variance, n^(1 - 1/dim) of them (Beck and Chen 1987)
- *   and with a given number of columns                  1/2: a border cuts a fixed share of the cells
- *   centres of a cubic grid, or near them, for boxes    1/dim: a side can cut a whole layer of cells unfairly; none
- *                                                       with a given number of columns, whose layers do not shrink
- *   Latin sets without more, unbiased                   1/2: the variance that is left beside the main effects
+ * Convergence rates of discrepancies, from the claims of a pattern (rates that no points can exceed: lower_bounds.c).
+ * With the exponent r, a discrepancy falls as n^-r:
+ *   independent points                                  1/2: the sum of n independent terms
+ *   one uniform point in each cell of a cubic grid      1/2 + 1/(2 dim): only cells that a region's boundary cuts have
+ *                                                       any variance, n^(1 - 1/dim) of them (Beck and Chen 1987)
+ *   the same with a given number of columns             1/2: a boundary cuts a fixed share of the cells
+ *   centres of a cubic grid, or near them, for boxes    1/dim: a side can cut a whole layer of cells unfairly; no
+ *                                                       rate with a given number of columns, as layers do not shrink
+ *   Latin sets without further claims, unbiased         1/2: the variance that is left beside the main effects
  *                                                       (Stein 1987)
  *   nets, and Halton's sequence, for boxes              1 (Niederreiter 1992)
  */
@@ -36,7 +37,7 @@ koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_
     return status;
 }
 
-/* Whether the number of columns is fixed for every n, so that cells get more elongated as n grows. */
+/* Whether the number of columns is the same for every n, so that cells become more elongated as n grows. */
 static bool columns_are_given(const koksma_spec *spec)
 {
     for (int k = 0; spec->pattern->params && spec->pattern->params[k].name; k++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_pattern_spec and koksma_measure_spec: a text becomes a member of the tables of patterns or measures with its
-   parameters. Beside its own, every pattern takes the modifiers; an alias becomes the pattern that it names. */
+/* koksma_pattern_spec and koksma_measure_spec: parse a text into a pattern or measure with its parameters. Every
+   pattern also accepts the modifiers; an alias is replaced by the pattern that it stands for. */
 #include <string.h>
 
 #include "core/lookup.h"

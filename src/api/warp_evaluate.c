@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The measures of mapped points. Half-planes as in measures/edge.c and measures/l2_edge.c, with another domain; disks
-   of one radius and caps in closed form (measures/shared/warp_disks.h).
-   Sampled disks are those that meet the unit disk: radius by the law, centres uniform within 1 + radius of its
-   centre. */
+/* Evaluates measures of points that a warp has mapped to another domain. Half-planes are treated as in
+   measures/edge.c and measures/l2_edge.c but in this domain; disks of one radius and caps have closed forms
+   (measures/shared/warp_disks.h). Sampled disks are those that meet the unit disk: the radius follows the disk
+   law, and centres are uniform within 1 + radius of the unit disk's centre. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +25,7 @@ typedef struct job {
     koksma__domain_kind kind;
     size_t n, dim;
     const double *xs;
-    koksma__sum *sums; /* two a block: pairs, potentials */
+    koksma__sum *sums; /* two sums for each block of rows: over pairs, and of potentials */
 } job;
 
 static koksma_status sum_rows(void *context, size_t block)
@@ -63,7 +63,7 @@ static koksma_status l2_edge(job *j, const koksma_run *run, koksma_value *out)
     return status;
 }
 
-/* The square of a random disk's deviation. */
+/* The squared local discrepancy of a random disk. */
 static double sample_disk(const job *j, koksma__disk_law law, double r_max, uint64_t seed, uint64_t index)
 {
     double u[2], v[2];
@@ -100,7 +100,7 @@ static koksma_status disk_sampled(const job *j, const koksma_spec *measure, cons
     return stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* What can be measured in a domain, for error texts. */
+/* The measures that each domain supports, for error texts. */
 static const char *const taken[] = {
     [KOKSMA_DOMAIN_DISK] = "edge, l2-edge, l2-disk and disk-sampled",
     [KOKSMA_DOMAIN_TRIANGLE] = "edge and l2-edge",
@@ -149,7 +149,7 @@ koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *m
     if (checked) {
         return checked;
     }
-    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "%s: it maps points of 2 dimensions, not %d", warp->name,
+    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "%s: a warp maps points of 2 dimensions, not %d", warp->name,
                     points->dim);
     double *mapped = malloc(points->n * 3 * sizeof *mapped);
     KOKSMA__REQUIRE_MEMORY(mapped, points->n * 3 * sizeof *mapped);

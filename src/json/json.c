@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* JSON files by jansson, with errors that name file, line and path. jansson keeps no lines of values: a small scanner
-   finds the line of a node again, once something is wrong with it. Long because reading, checking and finding lines
-   share what a node is. */
+/* Reads JSON files with jansson and reports errors with file, line and path. jansson does not keep the lines of
+   values, so that an error makes a small scanner walk the text again to find the line of a node. The file is long
+   because reading, checking and finding lines share the definition of a node. */
 #include "json/json.h"
 
 #include <stdarg.h>
@@ -21,8 +21,7 @@ struct koksma__json {
     size_t size;
 };
 
-/* ---- From steps to a line: jansson keeps no positions, so the text is walked again when an error needs one -----
- */
+/* ---- The line of a node: jansson keeps no positions, so that an error walks the text again ------------------ */
 
 typedef struct walker {
     const char *at, *end;
@@ -67,7 +66,7 @@ static void skip_value(walker *w)
     } while (depth && w->at < w->end);
 }
 
-/* Goes from the start of a list or object to that of its i-th item, or its member's value. */
+/* Moves from the start of a list or object to the start of its item number `index`, or of that member's value. */
 static bool enter(walker *w, size_t index)
 {
     const bool object = w->at < w->end && *w->at == '{';
@@ -77,7 +76,7 @@ static bool enter(walker *w, size_t index)
         if (object) {
             skip_string(w);
             skip_space(w);
-            w->at++; /* the colon */
+            w->at++; /* skip the colon */
             skip_space(w);
         }
         if (i == index) {
@@ -85,12 +84,12 @@ static bool enter(walker *w, size_t index)
         }
         skip_value(w);
         skip_space(w);
-        w->at++; /* the comma */
+        w->at++; /* skip the comma */
     }
     return false;
 }
 
-/* Where the member of that key stands: jansson keeps them in the text's order. */
+/* The index of the member with this key in the text; jansson keeps members in the text's order. */
 static size_t number_of(const json_t *object, const char *key)
 {
     size_t number = 0;
@@ -148,21 +147,21 @@ koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status 
 
 /* ---- Documents and nodes --------------------------------------------------------------------------------- */
 
-/* Reads the text when as much memory as its longest string could take, twice over, is there: jansson 2.14 doesn't
-   look whether it got the memory for a longer string, and writes on (lex_save() in its load.c). */
+/* Parses the text, after checking that twice the memory that its longest string could take is free: jansson 2.14
+   does not check whether it got the memory for a longer string, and writes on (lex_save() in its load.c). */
 static koksma_status read_text(koksma__json *d, json_error_t *error)
 {
     const size_t room = 4 * d->size + 4096;
-    char *volatile there = malloc(room); /* volatile: compilers leave out what is only freed */
+    char *volatile there = malloc(room); /* volatile, because a compiler may remove memory that is only freed */
     KOKSMA__REQUIRE_MEMORY(there, room);
-    memset(there, 1, room); /* addresses alone are cheap */
+    memset(there, 1, room); /* touch the memory: an allocation alone may succeed without it */
     free(there);
     d->root = json_loadb(d->text, d->size, JSON_REJECT_DUPLICATES, error);
     return KOKSMA_OK;
 }
 
-/* Where memory runs out inside jansson it may call the text malformed. What it says is believed after a second
-   reading. */
+/* Parses the document, a second time after an error, because jansson may call a text malformed when memory runs
+   out. */
 static koksma_status load(koksma__json *d)
 {
     json_error_t error;
@@ -211,8 +210,9 @@ koksma__json_node koksma__json_root(const koksma__json *document)
     return (koksma__json_node){.document = document, .value = document->root};
 }
 
-/* Writes the other spelling of a key to other: "centre" and "colour" are British, "center" and "color" American, also as
-   parts of a key. False: the key has one spelling only. This is the one place where files may use both. */
+/* Writes the other spelling of a key: "centre" and "colour" are British, "center" and "color" American, also
+   within a longer key. Returns false if the key has only one spelling. Only this function accepts both spellings
+   in files. */
 static bool other_spelling(const char *key, char *other, size_t size)
 {
     static const char *const spellings[][2] = {{"centre", "center"}, {"colour", "color"}};
@@ -229,7 +229,7 @@ static bool other_spelling(const char *key, char *other, size_t size)
     return false;
 }
 
-/* The member of an object whose key has this spelling, or the other one; NULL: there is none. */
+/* Finds the member of an object whose key has this spelling or the other one; NULL if there is none. */
 static const json_t *find(const json_t *object, const char *key)
 {
     char other[KOKSMA__JSON_PATH];
@@ -296,7 +296,7 @@ bool koksma__json_has(const koksma__json_node *node, const char *key)
     return find(node->value, key) != NULL;
 }
 
-/* The node below the parent; its path is still the caller's to write. */
+/* Makes the node of a member or item of `parent`; the caller must still write its path. */
 static koksma__json_node below(const koksma__json_node *parent, const json_t *value, const char *key, size_t item)
 {
     koksma__json_node out = *parent;
@@ -385,8 +385,8 @@ koksma_status koksma__json_numbers(const koksma__json_node *node, double min, do
 
 /* ---- Members --------------------------------------------------------------------------------------------- */
 
-/* Whether the member is absent or an error: then there is nothing to read, and *status is OK only if it is optional.
-   */
+/* Whether the member is absent or has an error, so that there is nothing to read. *status is OK if the member is
+   absent and optional. */
 static bool absent(const koksma__json_node *node, const char *key, bool needed, koksma__json_node *member,
                    koksma_status *status)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds and loads modules: beside the program or library that this is in, in koksma/ beside an installed library or in
-   the library folder of a program's prefix, and where the build installs them; never by a search path or a variable. */
-#define _GNU_SOURCE /* dladdr */
+/* Finds and loads modules. They are searched beside the program or library that contains this code, in the folder
+   koksma/ beside an installed library, in the library folder of a program's prefix, and where the build installs
+   them, but never through a search path or an environment variable. */
+#define _GNU_SOURCE /* for dladdr */
 #include "modules/module.h"
 
 #include <dlfcn.h>
@@ -11,17 +12,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Where modules are looked for, relative to the folder of the library or program that this code is in. The second is
-   for programs in folders below the build's. */
+/* Folders with modules, relative to the folder of the library or program that contains this code. The second one
+   is for programs in folders below the build's. */
 static const char *const PLACES[] = {"", "../", "koksma/", "../" KOKSMA_LIBDIR "/koksma/"};
 
 bool koksma__module_path(const char *name, char *path, size_t room)
 {
-    static const char here = 0; /* an address in this object */
+    static const char here = 0; /* an address in the program or library that contains this code */
     Dl_info info;
     if (dladdr(&here, &info) && info.dli_fname) {
-        /* A program's name may be what it was called by: without a folder, or from one that it has left since. A link
-           leads to the folder. */
+        /* The name of a program may be the one by which it was called: without a folder, or relative to a folder
+           that it has left. realpath also resolves symbolic links. */
         char *object = strchr(info.dli_fname, '/') ? realpath(info.dli_fname, NULL) : NULL;
         object = object ? object : realpath("/proc/self/exe", NULL);
         const char *slash = object ? strrchr(object, '/') : NULL;
@@ -51,7 +52,8 @@ koksma_status koksma__module_missing(const koksma__module *module)
                         module->library);
 }
 
-/* Loading twice is harmless: the loader counts, and a module keeps the same host. It is never unloaded. */
+/* Loads a module, which is never unloaded. Loading it twice is harmless: the loader counts, and the module stores
+   the same host again. */
 koksma_status koksma__module_load(const koksma__module *module, const void **functions)
 {
     char path[4096];
@@ -59,7 +61,7 @@ koksma_status koksma__module_load(const koksma__module *module, const void **fun
     if (!koksma__module_path(module->name, path, sizeof path)) {
         return koksma__module_missing(module);
     }
-    fenv_t mode; /* libraries may change it while they start */
+    fenv_t mode; /* libraries may change the floating-point environment while they are loaded */
     fegetenv(&mode);
     void *file = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     const koksma__module_entry *entry = file ? dlsym(file, KOKSMA__MODULE_SYMBOL) : NULL;
@@ -68,8 +70,8 @@ koksma_status koksma__module_load(const koksma__module *module, const void **fun
         const char *reason = dlerror();
         return koksma__fail(KOKSMA_SYSTEM, "%s can't be loaded: %s", path, reason ? reason : "no reason given");
     }
-    KOKSMA__FAIL_IF(strcmp(entry->release, KOKSMA_VERSION) != 0, KOKSMA_SYSTEM, "%s is of release %s, and this is %s",
-                    path, entry->release, KOKSMA_VERSION);
+    KOKSMA__FAIL_IF(strcmp(entry->release, KOKSMA_VERSION) != 0, KOKSMA_SYSTEM,
+                    "%s is of release %s, and this program of %s", path, entry->release, KOKSMA_VERSION);
     *functions = entry->start(&module->host);
     return KOKSMA_OK;
 }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The sources of modules include this after all other headers: it makes calls of the library's functions go through the
-   table that the host hands to the module. One source of a module contains KOKSMA__MODULE(its functions). */
+/* Included by a module's sources after all other headers: makes calls of the library's functions go through the
+   table of functions that the host passes to the module. One source of each module contains KOKSMA__MODULE(its
+   functions). */
 #ifndef KOKSMA_MODULES_MODULE_SIDE_H
 #define KOKSMA_MODULES_MODULE_SIDE_H
 
 #include "modules/module.h"
 
-/* Every thread that loads the module writes it: the same value, while others read. */
+/* Each thread that loads the module stores the same pointer, possibly while other threads read it. */
 extern const koksma__host *_Atomic koksma__own_host;
 
 #define koksma__fail koksma__own_host->fail

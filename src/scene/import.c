@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the readers of other renderers' scenes share: paths, the list of what was unknown, materials, lights, camera.
- * import_shapes.c has the shapes. Every material becomes the nearest kind that we have: that a conductor's Fresnel
- * reflectance is Schlick's here, and that surfaces have two sides, docs/scenes.md says for all; whatever else is lost is
- * said with file and line.
+ * Functions that the readers of other renderers' scenes share: paths, warnings about unsupported features,
+ * materials, lights and the camera; import_shapes.c has the shapes. Every material becomes the nearest kind that
+ * Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
+ * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other loss is reported with file
+ * and line.
  */
 #include "scene/import.h"
 
@@ -62,7 +63,7 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
         }
     }
     if (scene->n_unknown == MOST_UNKNOWN) {
-        scene->unknown[MOST_UNKNOWN - 1].n++; /* as many more places, of whatever */
+        scene->unknown[MOST_UNKNOWN - 1].n++; /* the list is full: count this in the last entry */
         return KOKSMA_OK;
     }
     koksma__unknown *to = koksma__add_one(&scene->unknown, &scene->n_unknown, sizeof *to);
@@ -79,7 +80,8 @@ koksma_status koksma__import_path(const koksma__import *im, koksma__text_place p
     return koksma__path_beside(im->path, name, out) ? KOKSMA_OK : koksma__import_fail(place, "the path is too long");
 }
 
-/* Whether `full`, without links, is below the folder of the scene. A file that isn't there is refused when it is opened. */
+/* Whether the file `full` is below the folder of the scene, after following symbolic links. A file that does not
+   exist passes; opening it fails later. */
 static bool is_below(const char *scene, const char *full)
 {
     char folder[KOKSMA__MAX_PATH];
@@ -209,14 +211,15 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     return KOKSMA_OK;
 }
 
-/* A Phong lobe of the reflectance along a dielectric's normal over what is left of Lambert; an image leaves no lobe. */
+/* Sets a Phong lobe with a dielectric's reflectance along the normal over a Lambert surface with the rest of the
+   light. With an image as the colour, only the Lambert surface is set. */
 static koksma_status set_coated(koksma__import *im, koksma__text_place place, const koksma__import_material *from,
                                 koksma__material *m)
 {
     KOKSMA__TRY(set_colour(im, place, &from->colour, m));
     if (m->image) {
         m->bsdf = &koksma__bsdf_lambert;
-        return koksma__import_unknown(im, place, "a coat over an image: it has no gloss here");
+        return koksma__import_unknown(im, place, "a coat over an image is ignored");
     }
     const double ratio = (from->ior - 1) / (from->ior + 1), share = ratio * ratio;
     double *reflectance = koksma__material_value(m, "reflectance");
@@ -225,7 +228,7 @@ static koksma_status set_coated(koksma__import *im, koksma__text_place place, co
     for (int k = 0; k < 6; k++) {
         m->albedo[k / 3][k % 3] *= 1 - share;
     }
-    return koksma__import_unknown(im, place, "a coated surface: Lambert and a Phong lobe here");
+    return koksma__import_unknown(im, place, "a coated surface is replaced by Lambert and a Phong lobe");
 }
 
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
@@ -251,13 +254,14 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
             *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
         }
         return *from->colour.image || from->colour.is_checker
-                   ? koksma__import_unknown(im, place, "a metal with a texture: it has one colour here")
+                   ? koksma__import_unknown(im, place, "a metal's texture is replaced by one colour")
                    : KOKSMA_OK;
     case KOKSMA__GLASS: {
         double *tint = koksma__material_value(m, "tint");
         tint[0] = tint[1] = tint[2] = 1;
         *koksma__material_value(m, "ior") = fmin(fmax(from->ior, 1.0001), 10);
-        return from->alpha > 1e-6 ? koksma__import_unknown(im, place, "rough glass: it is smooth here") : KOKSMA_OK;
+        return from->alpha > 1e-6 ? koksma__import_unknown(im, place, "rough glass is replaced by smooth glass")
+                                  : KOKSMA_OK;
     }
     case KOKSMA__COATED:
         return set_coated(im, place, from, m);
@@ -294,7 +298,8 @@ koksma_status koksma__import_light(koksma__import *im, koksma__text_place place,
     return KOKSMA_OK;
 }
 
-/* The octahedral square [0, 1]^2 of a direction, equal areas (Clarberg 2008); the pole is z. */
+/* The point of the octahedral map, a square [0, 1]^2 with equal areas, for a direction (Clarberg 2008); the pole
+   is z. */
 static void octahedral_square(const double w[3], double uv[2])
 {
     const double x = fabs(w[0]), y = fabs(w[1]), z = fabs(w[2]), r = sqrt(fmax(0, 1 - z));
@@ -310,7 +315,8 @@ static void octahedral_square(const double w[3], double uv[2])
     uv[1] = (copysign(v, w[1]) + 1) / 2;
 }
 
-/* The square of a direction in an image of latitude and longitude, as Mitsuba has it: y is up, column 0 along -z. */
+/* The point of a latitude-longitude image for a direction, with Mitsuba's axes: y is up, column 0 is in direction
+   -z. */
 static void latitude_square(const double w[3], double uv[2])
 {
     const double turn = atan2(w[0], -w[2]) / TURN;
@@ -318,7 +324,8 @@ static void latitude_square(const double w[3], double uv[2])
     uv[1] = acos(fmin(fmax(w[1], -1), 1)) / M_PI;
 }
 
-/* A new image by latitude and longitude in our own frame; the nearest of the old one's pixels, four to each new one. */
+/* Resamples an environment to a latitude-longitude image with Koksma's axes; each new pixel is the mean of the
+   nearest old pixels of four points. */
 static koksma_status turn_image(const koksma_image *from, bool octahedral, const double inverse[12],
                                 koksma_image *out)
 {
@@ -437,17 +444,17 @@ koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place
         c->down[k] = -m[4 * k + 1];
         c->forward[k] = m[4 * k + 2];
         if (!(fabs(c->eye[k]) <= FAR)) {
-            return koksma__import_fail(place, "the camera stands beyond 1e6");
+            return koksma__import_fail(place, "the camera's position is beyond 1e6");
         }
     }
     if (!koksma__normalise(c->right) || !koksma__normalise(c->down) || !koksma__normalise(c->forward)) {
         return koksma__import_fail(place, "the camera's matrix has no inverse");
     }
     if (!(fov_rad >= 1e-4 && fov_rad < 3.13)) {
-        return koksma__import_fail(place, "the camera's angle of view is above 0 and below 180 degrees");
+        return koksma__import_fail(place, "the camera's angle of view must be above 0 and below 180 degrees");
     }
     if (!(lens_radius >= 0 && lens_radius <= FAR && focus_distance > TINY && focus_distance <= FAR)) {
-        return koksma__import_fail(place, "the lens's radius is 0 to 1e6, its distance of focus 1e-6 to 1e6");
+        return koksma__import_fail(place, "the lens's radius must be 0 to 1e6, its focus distance 1e-6 to 1e6");
     }
     return KOKSMA_OK;
 }

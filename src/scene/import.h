@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the readers of other renderers' scenes (pbrt.c, mitsuba.c) share: a scene that grows by surfaces, lights and a
- * camera given with matrices, and the list of what was unknown and taken for something else. Matrices are three rows of
- * four, as everywhere (meshes/mesh.h).
+ * Functions and types that the readers of other renderers' scenes (pbrt.c, mitsuba.c) share: a scene to which
+ * surfaces, lights and a camera are added with their matrices, and the list of unsupported features and their
+ * replacements. Matrices are three rows of four, as everywhere (meshes/mesh.h).
  */
 #ifndef KOKSMA_SCENE_IMPORT_H
 #define KOKSMA_SCENE_IMPORT_H
@@ -10,7 +10,7 @@
 #include "core/read_file.h"
 #include "render/description.h"
 
-/* Where in a text something stands. */
+/* A position in a text, for messages. */
 typedef struct koksma__text_place {
     const char *file;
     unsigned long line;
@@ -18,39 +18,39 @@ typedef struct koksma__text_place {
 
 typedef struct koksma__import {
     koksma_scene *scene;
-    const char *path; /* of the scene's own file */
+    const char *path; /* path of the scene's own file */
     bool rows_down;   /* texture coordinate 0 is an image's upper edge */
-    size_t n_files;   /* texts that were read */
+    size_t n_files;   /* number of texts that were read */
     struct koksma__known_mesh *known;
-    int *twins; /* of a mesh: the same inside out, or -1 */
+    int *twins; /* for each mesh: the mesh with the same triangles turned inside out, or -1 */
     size_t n_known, n_twins;
 } koksma__import;
 
-/* A colour, an image over texture coordinates, or the squares of a checker. */
+/* A colour, or an image over texture coordinates, or a checkerboard with two colours. */
 typedef struct koksma__import_colour {
     double rgb[3];
-    char image[KOKSMA__MAX_PATH]; /* "": none */
+    char image[KOKSMA__MAX_PATH]; /* path of the image; "": no image */
     bool is_checker;
     double second[3], period;
 } koksma__import_colour;
 
-/* A material by what it is nearest to here. */
+/* A material as the nearest kind that Koksma has. */
 typedef struct koksma__import_material {
     enum { KOKSMA__MATTE, KOKSMA__METAL, KOKSMA__GLASS, KOKSMA__COATED } kind;
-    koksma__import_colour colour; /* of matte and coated ones; of metals the reflectance of light along the normal */
+    koksma__import_colour colour; /* colour of matte and coated materials; reflectance of metals along the normal */
     double alpha;                 /* GGX width of metals and coats; 0: smooth */
     double ior;
 } koksma__import_material;
 
-/* What a shape is made of. */
+/* The material and emission of a shape. */
 typedef struct koksma__import_surface {
-    int material;       /* -1: nothing that light meets */
-    bool emits, turned; /* turned: fronts are backs */
+    int material;       /* -1: no surface, light passes through */
+    bool emits, turned; /* turned: fronts and backs are swapped */
     double radiance[3];
 } koksma__import_surface;
 
-/* Forms within [-1, 1]^3 before their matrix: the unit sphere, the square and the disk of z = 0 that face +z, the cube,
-   the side of the cylinder about z from z = 0 to 1. */
+/* Basic shapes in [-1, 1]^3, before their matrix is applied: the unit sphere, the square and the disk in the
+   plane z = 0 that face +z, the cube, and the side of the cylinder around the z axis from z = 0 to 1. */
 typedef enum koksma__form {
     KOKSMA__FORM_MESH,
     KOKSMA__FORM_SPHERE,
@@ -60,10 +60,10 @@ typedef enum koksma__form {
     KOKSMA__FORM_CYLINDER
 } koksma__form;
 
-/* A shape before it is placed. */
+/* A shape with its matrix and surface, before it is added to the scene. */
 typedef struct koksma__import_item {
     koksma__form form;
-    int mesh; /* of KOKSMA__FORM_MESH */
+    int mesh; /* the mesh, if form is KOKSMA__FORM_MESH */
     double matrix[12];
     koksma__import_surface surface;
     koksma__text_place place;
@@ -71,50 +71,53 @@ typedef struct koksma__import_item {
 
 extern const double koksma__import_identity[12];
 
-/* Fails with "FILE:LINE: ...", MALFORMED; or puts the place in front of a failure's text. */
+/* The first function fails with MALFORMED and the text "FILE:LINE: ..."; the second puts "FILE:LINE" before the
+   text of another failure. */
 koksma_status koksma__import_fail(koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(2, 3);
 koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status status);
 
-/* Says what is taken for something else: "FILE:LINE: ...". The same text is said once, with the number of places.
-   Errors: MEMORY. */
+/* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...". Equal texts give one warning
+   with the number of places. Errors: MEMORY. */
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
     KOKSMA_PRINTF(3, 4);
 
-/* Reads a text that the scene includes: only files below the scene's folder, KOKSMA__MAX_INCLUDES in all. The caller
-   frees *bytes. */
+/* Reads a text that the scene includes. It must be below the scene's folder, and a scene has at most
+   MOST_INCLUDES of them. The caller frees *bytes. */
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size);
 
-/* The path of a mesh or image that the scene names. */
+/* Writes the path of a mesh or image that the scene names. */
 koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH]);
 
-/* Colours within what scenes take: albedos to [0, 1], radiance to at most 1e6. */
+/* Clamp a colour to what a scene allows: albedos to [0, 1], radiance to at most 1e6. */
 void koksma__import_albedo(double rgb[3]);
 void koksma__import_radiance(koksma__import *im, double rgb[3]);
 
-/* The colour of a black body of so many kelvins, with luminance 1 (Kim et al. 2002, by its chromaticity). */
+/* The colour of a black body at a temperature in kelvins, with luminance 1, from its chromaticity (Kim et al.
+   2002). */
 void koksma__import_black_body(double kelvin, double rgb[3]);
 
-/* The reflectance of light along the normal of a metal by its name ("Au", "Cu", ...); false: an unknown one. */
+/* The reflectance along the normal of a metal with this name ("Au", "Cu", ...); false if the name is unknown. */
 bool koksma__import_metal(const char *name, double rgb[3]);
 
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
                                           const koksma__import_material *from, int *out);
 
-/* One more light of a kind; its radiance is cut to what scenes take. */
+/* Adds a light; its radiance is clamped to what scenes allow. */
 koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light);
 
-/* An environment from an image by latitude and longitude, or by the octahedral map of pbrt-v4 (Clarberg 2008), times
-   scale; matrix turns its own directions into the scene's. */
+/* Adds an environment from a latitude-longitude image or from the octahedral map of pbrt-v4 (Clarberg 2008),
+   multiplied by `scale`; `matrix` transforms the image's directions to the scene's. */
 koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
                                  const double scale[3], const double matrix[12]);
 
-/* The camera whose matrix has the direction to the right (times `right`, 1 or -1), upwards, and ahead as its columns. */
+/* Sets the camera. The columns of its matrix are the direction to the right (times `right`, 1 or -1), the
+   direction up, the direction ahead and the position. */
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
                                     double right, double fov_rad, double lens_radius, double focus_distance);
 
-/* Finds x -> matrix^-1 x; false where there is none. */
+/* Finds the inverse of a matrix; false if there is none. */
 bool koksma__import_invert(const double matrix[12], double out[12]);
 void koksma__import_rotation(double angle_deg, const double axis[3], double out[12]);
 

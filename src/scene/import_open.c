@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Opens scenes of other renderers: the reader that the name's ending says fills an empty scene. */
+/* Opens scenes of other renderers: the ending of the file's name selects the reader, which fills an empty scene. */
 #include "scene/import_open.h"
 
 #include <math.h>

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Shapes of other renderers' scenes. Spheres, squares and disks that their matrix leaves round or rectangular become our
- * own shapes and lights; everything else a mesh: read from a file once, handed over, or made of a form (a sphere of 64 x
- * 32 rectangles, a disk or cylinder of 64 sides), and placed by its matrix as often as the scene has it. A placement whose
- * matrix mirrors, or whose fronts are turned, takes the mesh's twin, which is inside out (glTF 2.0, section 3.7.4, has the
- * reason).
+ * Adds the shapes of other renderers' scenes. Spheres, squares and disks that stay round or rectangular under
+ * their matrix become Koksma's own shapes and lights. All others become meshes: read from a file once, passed by
+ * the reader, or made from a basic shape (a sphere of 64 x 32 rectangles, a disk or cylinder with 64 sides). A
+ * mesh is placed by a matrix as often as the scene contains it. A placement whose matrix mirrors, or whose fronts
+ * and backs are swapped, uses a copy of the mesh that is turned inside out, for the reason in glTF 2.0, section
+ * 3.7.4.
  */
 #include "scene/import_shapes.h"
 
@@ -23,9 +24,9 @@
 
 enum { SIDES = 64, RINGS = 32 };
 
-/* A mesh by its file's path, or by its form. */
+/* A mesh that was made before, identified by its file's path or by its basic shape. */
 struct koksma__known_mesh {
-    char *path; /* NULL: of a form */
+    char *path; /* path of the mesh's file; NULL: made from a basic shape */
     koksma__form form;
     bool with_normals;
     int mesh;
@@ -64,7 +65,7 @@ koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, 
     return KOKSMA_OK;
 }
 
-/* Remembers a mesh; the path, which may be NULL, is copied. */
+/* Appends a mesh to the list of those made; copies the path, which may be NULL. */
 static koksma_status remember(koksma__import *im, const char *path, koksma__form form, bool with_normals, int mesh)
 {
     struct koksma__known_mesh *known = koksma__add_one(&im->known, &im->n_known, sizeof *known);
@@ -74,7 +75,7 @@ static koksma_status remember(koksma__import *im, const char *path, koksma__form
     return KOKSMA_OK;
 }
 
-/* Texture coordinates with the rows of images downwards. */
+/* Inverts the second texture coordinate, so that rows of images go downwards. */
 static void turn_rows(koksma__mesh *mesh)
 {
     for (size_t i = 0; mesh->uvs && i < mesh->n_vertices; i++) {
@@ -115,7 +116,7 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     return remember(im, full, KOKSMA__FORM_MESH, with_normals, *out);
 }
 
-/* A copy inside out: two corners of each triangle are swapped, normals turned round. */
+/* Copies a mesh and turns the copy inside out: swaps two corners of each triangle and inverts the normals. */
 static koksma_status make_twin(const koksma__mesh *from, koksma__mesh *to)
 {
     KOKSMA__TRY(koksma__mesh_init(from->n_vertices, from->n_triangles, from->normals != NULL, from->uvs != NULL, to));
@@ -149,9 +150,9 @@ static koksma_status find_twin(koksma__import *im, koksma__text_place place, int
     return KOKSMA_OK;
 }
 
-/* ---- Forms as meshes --------------------------------------------------------------------------------------- */
+/* ---- Meshes of basic shapes -------------------------------------------------------------------------------- */
 
-/* Point (u, v) of a form, u and v from 0 to 1; its normal. */
+/* The point and the normal of a basic shape at (u, v), both from 0 to 1. */
 static void form_point(koksma__form form, double u, double v, double p[3], double n[3])
 {
     const double phi = TURN * u, theta = M_PI * (1 - v);
@@ -170,7 +171,8 @@ static void form_point(koksma__form form, double u, double v, double p[3], doubl
     }
 }
 
-/* The cube's side `side` from the square's point and normal: its coordinates go round, and back for the lower sides. */
+/* Turns a point and normal of the square into those of a side of the cube: rotates the coordinates cyclically,
+   and reverses one for the sides with negative normals. */
 static void to_side(int side, double p[3], double n[3])
 {
     const double sign = side % 2 ? 1 : -1, a = sign * p[0], b = p[1];
@@ -230,9 +232,9 @@ static koksma_status find_form(koksma__import *im, koksma__text_place place, kok
     return remember(im, NULL, form, true, *out);
 }
 
-/* ---- Placed ------------------------------------------------------------------------------------------------ */
+/* ---- Placing shapes ---------------------------------------------------------------------------------------- */
 
-/* A copy of a material without image and checker, for a mesh without texture coordinates. */
+/* Replaces a material by a copy without image and checkerboard, for a mesh without texture coordinates. */
 static koksma_status plain(koksma__import *im, koksma__text_place place, int *material)
 {
     koksma_scene *scene = im->scene;
@@ -249,7 +251,8 @@ static koksma_status plain(koksma__import *im, koksma__text_place place, int *ma
     }
     snprintf(to->name, sizeof to->name, "%zu", scene->n_materials);
     *material = (int)scene->n_materials++;
-    return koksma__import_unknown(im, place, "a texture on a mesh without texture coordinates: its mean colour here");
+    return koksma__import_unknown(im, place,
+                                  "a texture on a mesh without texture coordinates is replaced by its mean colour");
 }
 
 static koksma_status put_mesh(koksma__import *im, const koksma__import_item *item, int mesh, const double matrix[12])
@@ -284,7 +287,7 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
                          : KOKSMA_OK;
 }
 
-/* The lengths of a matrix's columns; whether they are square to each other. */
+/* Finds the lengths of a matrix's columns, and whether the columns are perpendicular. */
 static bool is_square(const double m[12], double length[3])
 {
     double axes[3][3];
@@ -316,7 +319,7 @@ static const koksma__shape_type *shape_type(const char *name)
     return koksma__shape_types[i];
 }
 
-/* Our own shape for an item: its kind; NULL where a matrix, a texture or the side from which it shines leaves none. */
+/* The type of Koksma's own shape for an item; NULL if the matrix, a texture or the emitting side rules it out. */
 static const koksma__shape_type *own_shape(const koksma__import *im, const koksma__import_item *item,
                                            const double matrix[12], double length[3])
 {
@@ -340,13 +343,13 @@ static const koksma__shape_type *own_shape(const koksma__import *im, const koksm
     }
 }
 
-/* The shape of the type at the matrix, and the light that it is the surface of. */
+/* Adds a shape of Koksma's own type with this matrix, and its light if it emits. */
 static koksma_status put_own(koksma__import *im, const koksma__import_item *item, const koksma__shape_type *type,
                              const double m[12], const double length[3])
 {
     const bool sphere = type == shape_type("sphere"), disk = type == shape_type("disk");
     const double side =
-        item->surface.turned ? -1 : 1; /* u is turned with the normal, so that the frame keeps its hand */
+        item->surface.turned ? -1 : 1; /* u is reversed with the normal, so that the axes stay right-handed */
     koksma__shape shape = {.type = type, .material = item->surface.material, .light = -1}, *added;
     double normal[3];
     for (int k = 0; k < 3; k++) {
@@ -391,7 +394,7 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     double matrix[12], length[3];
     int mesh = item->mesh;
     if (item->surface.material < 0 && !item->surface.emits) {
-        return KOKSMA_OK; /* light passes through */
+        return KOKSMA_OK; /* no surface: light passes through */
     }
     koksma__matrix_multiply(outer ? outer : koksma__import_identity, item->matrix, matrix);
     for (int i = 0; i < 12; i++) {
@@ -408,7 +411,7 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     }
     if (item->form == KOKSMA__FORM_CYLINDER || item->form == KOKSMA__FORM_SPHERE || item->form == KOKSMA__FORM_DISK) {
         KOKSMA__TRY(koksma__import_unknown(
-            im, item->place, "a round shape, stretched, textured or a cylinder: it has %d sides here", SIDES));
+            im, item->place, "a cylinder, or a stretched or textured round shape, has %d sides", SIDES));
     }
     return mesh < 0 ? KOKSMA_OK : put_mesh(im, item, mesh, matrix);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The kinds of materials, lights and shapes that a scene file may have, with their fields: from the tables of render. */
+/* Lists the kinds of materials, lights and shapes that scene files may contain, with their fields, from the
+   tables in src/render. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Scenes of Mitsuba 3 (Jakob et al. 2022), and of the versions before it where names alone have changed: xml.c makes a tree
- * of the text, and here its sensors, shapes, emitters and BSDFs become ours. A BSDF is made where a shape first refers to
- * it. Not read: media, volumes, motion, .serialized meshes; integrators and samplers are passed over, because the
- * program's own options choose them. Long because one file knows Mitsuba's names.
+ * Reads scenes of Mitsuba 3 (Jakob et al. 2022), and of earlier versions that differ only in names. xml.c parses
+ * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
+ * shape first refers to it. Media, volumes, motion and .serialized meshes are not read; integrators and samplers
+ * are ignored, because the program's own options choose them.
+ * Long because one file knows Mitsuba's names.
  */
 #include "scene/mitsuba.h"
 
@@ -26,7 +27,7 @@ typedef koksma__xml_node node;
 typedef struct reader {
     koksma__import *im;
     koksma__xml xml;
-    int *materials; /* by node: -2: not made, -1: light passes through */
+    int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
     bool has_sensor;
 } reader;
 
@@ -53,7 +54,7 @@ static const node *next_of(const reader *r, const node *n)
     return n->next < 0 ? NULL : &r->xml.nodes[n->next];
 }
 
-/* The child whose name is `name`, or NULL. */
+/* The child element whose attribute "name" is `name`, or NULL. */
 static const node *property(const reader *r, const node *n, const char *name)
 {
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
@@ -86,7 +87,7 @@ static bool flag(const reader *r, const node *n, const char *name, bool otherwis
     return *value ? !strcmp(value, "true") : otherwise;
 }
 
-/* Up to n numbers between blanks and commas; how many there were. */
+/* Reads up to n numbers separated by blanks or commas; returns how many it found. */
 static size_t numbers(const char *value, size_t n, double *out)
 {
     size_t found = 0;
@@ -103,14 +104,14 @@ static size_t numbers(const char *value, size_t n, double *out)
     return found;
 }
 
-/* An attribute of an element as a number. */
+/* Reads an attribute of an element as a number; `otherwise` if there is none. */
 static double coordinate(const node *n, const char *name, double otherwise)
 {
     const char *value = koksma__xml_attribute(n, name);
     return value ? koksma__strtod(value, NULL) : otherwise;
 }
 
-/* <point name x y z> or <point name value="x, y, z">. */
+/* Reads an element of the form <point name x y z> or <point name value="x, y, z">. */
 static void point(const reader *r, const node *n, const char *name, double out[3])
 {
     const node *c = property(r, n, name);
@@ -132,7 +133,7 @@ static koksma_status look_at(const node *n, double m[12])
     numbers(koksma__xml_attribute(n, "up"), 3, up);
     koksma__subtract(target, origin, ahead);
     if (!koksma__normalise(ahead)) {
-        return koksma__import_fail(n->place, "lookat: origin and target are one point");
+        return koksma__import_fail(n->place, "lookat: origin and target are the same point");
     }
     koksma__cross(up, ahead, left);
     if (!koksma__normalise(left)) {
@@ -156,7 +157,7 @@ static koksma_status operation(const node *n, double m[12])
     }
     if (is(n, "matrix")) {
         if (given != 16 && given != 9) {
-            return koksma__import_fail(n->place, "a matrix has 16 numbers or 9");
+            return koksma__import_fail(n->place, "a matrix must have 16 or 9 numbers");
         }
         for (int i = 0; i < 12; i++) {
             m[i] = given == 16 ? v[i] : i % 4 < 3 ? v[i / 4 * 3 + i % 4] : 0;
@@ -178,12 +179,12 @@ static koksma_status operation(const node *n, double m[12])
             m[scales ? 5 * k : 4 * k + 3] = v[k];
         }
     } else {
-        return koksma__import_fail(n->place, "'%s' is no transform that is read", n->tag);
+        return koksma__import_fail(n->place, "transform '%s' is not supported", n->tag);
     }
     return KOKSMA_OK;
 }
 
-/* The first operation is the first to act. */
+/* Reads a transform, whose first operation is applied first. */
 static koksma_status transform(const reader *r, const node *n, const char *name, double out[12])
 {
     const node *t = property(r, n, name);
@@ -231,8 +232,9 @@ static koksma_status sampled(reader *r, const node *n, const char *value, double
     for (int k = 0; k < 3; k++) {
         rgb[k] = count[k] > 0 ? sum[k] / count[k] : n_all > 0 ? all / n_all : 1;
     }
-    return koksma__import_unknown(
-        r->im, n->place, n_all > 0 ? "a sampled spectrum: the means of its thirds" : "a spectrum: white here");
+    return koksma__import_unknown(r->im, n->place,
+                                  n_all > 0 ? "a sampled spectrum is replaced by the means of its thirds"
+                                            : "a spectrum is replaced by white");
 }
 
 static koksma_status value_of(reader *r, const node *n, double rgb[3])
@@ -240,7 +242,7 @@ static koksma_status value_of(reader *r, const node *n, double rgb[3])
     const char *value = koksma__xml_attribute(n, "value");
     double v[3];
     if (value && *value == '#') {
-        const unsigned long hex = strtoul(value + 1, NULL, 16); /* sRGB's levels */
+        const unsigned long hex = strtoul(value + 1, NULL, 16); /* levels of sRGB */
         for (int k = 0; k < 3; k++) {
             const double level = (double)(hex >> (16 - 8 * k) & 255) / 255;
             rgb[k] = level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
@@ -253,7 +255,7 @@ static koksma_status value_of(reader *r, const node *n, double rgb[3])
     }
     if (is(n, "blackbody")) {
         koksma__import_black_body(coordinate(n, "temperature", 6500), rgb);
-        return koksma__import_unknown(r->im, n->place, "a black body: its colour with luminance 1");
+        return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
     }
     return given ? KOKSMA_OK : sampled(r, n, value, rgb);
 }
@@ -277,13 +279,14 @@ static koksma_status texture(reader *r, const node *n, koksma__import_colour *ou
         *out->image = 0;
         out->is_checker = true;
         out->period = m[0] > 1e-6 ? 0.5 / m[0] : 0.5;
-        return m[0] != m[5] ? koksma__import_unknown(r->im, n->place, "a checkerboard's transform: its scale along u")
+        return m[0] != m[5] ? koksma__import_unknown(r->im, n->place,
+                                                     "only the scale along u of a checkerboard's transform is used")
                             : KOKSMA_OK;
     }
-    return koksma__import_unknown(r->im, n->place, "texture '%s': grey here", type);
+    return koksma__import_unknown(r->im, n->place, "texture '%s' is replaced by grey", type);
 }
 
-/* The colour of a name, or grey of another value. */
+/* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth)
 {
@@ -301,13 +304,13 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
 
-/* The kinds of Mitsuba and what they are here; those that are no more than likened say so. */
+/* Mitsuba's kinds of BSDFs and the materials that replace them; those that are only similar give a warning. */
 typedef struct bsdf_kind {
     const char *name;
-    int kind;           /* -1: light passes through */
-    const char *colour; /* the parameter of its diffuse part or of its reflectance */
+    int kind;           /* kind of the replacement; -1: light passes through */
+    const char *colour; /* name of the parameter with its diffuse albedo or reflectance */
     double otherwise, alpha;
-    const char *instead; /* NULL, or what it is here */
+    const char *instead; /* NULL, or the replacement's name in a warning */
 } bsdf_kind;
 
 static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5, 0, NULL},
@@ -323,7 +326,7 @@ static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5,
                                   {"mask", -1, "", 0, 0, "nothing"},
                                   {"null", -1, "", 0, 0, NULL}};
 
-/* What wraps another BSDF, or several: the first one stands for all. */
+/* BSDFs that contain others; the first one inside is used in place of the whole. */
 static const struct {
     const char *name;
     bool is_exact;
@@ -353,7 +356,7 @@ static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
     double rgb[3];
     const char *name = text(r, n, "material", property(r, n, "eta") ? "" : "none");
     if (*name && !koksma__import_metal(name, rgb)) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "metal '%s': chromium here", name));
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "metal '%s' is replaced by chromium", name));
         koksma__import_metal("Cr", rgb);
     } else if (!*name) {
         KOKSMA__TRY(colour(r, n, "eta", 0, &eta, 0));
@@ -372,7 +375,8 @@ static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
 static koksma_status principled(reader *r, const node *n, int *out)
 {
     koksma__import_material m = {.ior = 1.5};
-    KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF 'principled': a metal, glass or coated surface here"));
+    KOKSMA__TRY(
+        koksma__import_unknown(r->im, n->place, "BSDF 'principled' is replaced by metal, glass or a coated surface"));
     KOKSMA__TRY(colour(r, n, "base_color", 0.5, &m.colour, 0));
     const double roughness = number(r, n, "roughness", 0.5);
     m.alpha = roughness * roughness;
@@ -421,7 +425,7 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     m.alpha = sqrt(fmax(u * v, 0));
     m.ior = index_of(r, n, "int_ior", m.kind == KOKSMA__COATED ? 1.49 : 1.5046) / index_of(r, n, "ext_ior", 1.000277);
     if (u != v) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "anisotropic roughness: the mean of both"));
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "anisotropic roughness is replaced by its mean"));
     }
     return koksma__import_add_material(r->im, n->place, &m, out);
 }
@@ -443,11 +447,11 @@ static koksma_status area_light(reader *r, const node *n, koksma__import_surface
     memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
     surface->emits = true;
     return *radiance.image || radiance.is_checker || strcmp(type_of(n), "area") != 0
-               ? koksma__import_unknown(r->im, n->place, "a light's texture or direction: it shines evenly")
+               ? koksma__import_unknown(r->im, n->place, "a light's texture or direction is ignored")
                : KOKSMA_OK;
 }
 
-/* What a shape is made of, from its children. */
+/* Finds a shape's material and emission among its children. */
 static koksma_status surface_of(reader *r, const node *n, koksma__import_surface *out)
 {
     bool has_bsdf = false;
@@ -460,7 +464,7 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
         } else if (is(to, "emitter")) {
             KOKSMA__TRY(area_light(r, to, out));
         } else if (is(to, "medium")) {
-            KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "media: all is in air"));
+            KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "media are ignored"));
         }
     }
     if (!has_bsdf && !out->emits) {
@@ -470,7 +474,7 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
     return KOKSMA_OK;
 }
 
-/* The unit cylinder's matrix from p0 to p1. */
+/* The matrix that places the unit cylinder between p0 and p1. */
 static void cylinder(const reader *r, const node *n, double m[12])
 {
     double from[3] = {0}, to[3] = {0, 0, 1}, axis[3], side[3], over[3];
@@ -488,7 +492,7 @@ static void cylinder(const reader *r, const node *n, double m[12])
     }
 }
 
-/* The form, and the matrix that shapes it. */
+/* Finds the basic shape or mesh, and the matrix that gives it its size. */
 static koksma_status form_of(reader *r, const node *n, koksma__import_item *item, double m[12])
 {
     static const struct {
@@ -524,7 +528,7 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
 
 static koksma_status shape(reader *r, const node *n, const double outer[12], int depth);
 
-/* The shapes of the group that an instance refers to. */
+/* Adds the shapes of the group to which an instance refers. */
 static koksma_status instance(reader *r, const node *n, const double outer[12], int depth)
 {
     double m[12], matrix[12];
@@ -600,7 +604,7 @@ static koksma_status emitter(reader *r, const node *n)
         KOKSMA__TRY(!strcmp(type, "point")
                         ? KOKSMA_OK
                         : koksma__import_unknown(r->im, n->place,
-                                                 "emitter '%s': a point here, which shines to all sides", type));
+                                                 "emitter '%s': a point light equal in all directions here", type));
     }
     return koksma__import_light(r->im, n->place, &light);
 }
@@ -613,11 +617,11 @@ static koksma_status film(reader *r, const node *n)
             width = number(r, c, "width", width);
             height = number(r, c, "height", height);
             if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
-                return koksma__import_fail(c->place, "a film of %g x %g pixels; its sides are 1 to %d", width, height,
-                                           KOKSMA_MAX_IMAGE_SIDE);
+                return koksma__import_fail(c->place, "a film of %g x %g pixels; each side must be 1 to %d", width,
+                                           height, KOKSMA_MAX_IMAGE_SIDE);
             }
             if (property(r, c, "crop_width") || property(r, c, "crop_height")) {
-                KOKSMA__TRY(koksma__import_unknown(r->im, c->place, "a film's crop: the picture is whole"));
+                KOKSMA__TRY(koksma__import_unknown(r->im, c->place, "a film's crop is ignored"));
             }
         }
     }
@@ -626,7 +630,7 @@ static koksma_status film(reader *r, const node *n)
     return KOKSMA_OK;
 }
 
-/* The angle of the picture's height. */
+/* The vertical angle of view. */
 static double height_angle(const reader *r, const node *n, double width, double height)
 {
     const char *axis = text(r, n, "fov_axis", "x");
@@ -639,7 +643,8 @@ static double height_angle(const reader *r, const node *n, double width, double 
     if (property(r, n, "fov")) {
         return 2 * atan(tan(half) * height / side);
     }
-    return 2 * atan(hypot(36, 24) / 2 / length_mm * height / hypot(width, height)); /* of a 35 mm film's diagonal */
+    /* focal_length refers to the diagonal of 35 mm film */
+    return 2 * atan(hypot(36, 24) / 2 / length_mm * height / hypot(width, height));
 }
 
 static koksma_status sensor(reader *r, const node *n)
@@ -661,19 +666,20 @@ static koksma_status sensor(reader *r, const node *n)
                                  lens ? number(r, n, "focus_distance", 1) : 1);
 }
 
-/* ---- The whole ---------------------------------------------------------------------------------------------- */
+/* ---- The whole scene ---------------------------------------------------------------------------------------- */
 
 static koksma_status read_root(reader *r)
 {
     const node *root = r->xml.n ? r->xml.nodes : NULL;
     if (!root || !is(root, "scene")) {
-        return koksma__import_fail((koksma__text_place){r->im->path, 1}, "no <scene>: it is no scene of Mitsuba's");
+        return koksma__import_fail((koksma__text_place){r->im->path, 1},
+                                   "no <scene>: the file is not a Mitsuba scene");
     }
     for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
         KOKSMA__TRY(is(n, "sensor")                                       ? sensor(r, n)
                     : is(n, "shape")                                      ? shape(r, n, NULL, 0)
                     : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)
-                    : is(n, "medium") ? koksma__import_unknown(r->im, n->place, "media: all is in air")
+                    : is(n, "medium") ? koksma__import_unknown(r->im, n->place, "media are ignored")
                                       : KOKSMA_OK);
     }
     return r->has_sensor ? KOKSMA_OK : koksma__import_fail(root->place, "no <sensor>");

@@ -4,7 +4,8 @@
 
 #include "scene/import.h"
 
-/* Reads a scene of Mitsuba 3 into an empty one. Errors: MISSING, MALFORMED, MEMORY; UNSUPPORTED (this build lacks expat). */
+/* Reads a scene of Mitsuba 3 into an empty scene. Errors: MISSING, MALFORMED, MEMORY; UNSUPPORTED (this build
+   lacks expat). */
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *text, size_t size);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a bare mesh file lacks as a scene: a picture's size, where it has none a camera, and where it has no lights but
- * meshes that glow a studio: a key light, a dim sky, and, if the camera is ours too, a ground. And the sky that a user
- * wants in place of what any scene has.
+ * Completes a scene that consists of a mesh file alone: it gets an image size; if it has no camera, a camera; and
+ * if it has no lights but emissive meshes, a studio: a key light, a dim sky and, if the camera was added, a
+ * ground. Also replaces the sky of any scene by the user's.
  */
 #include "scene/model.h"
 #include "render/lights/lights.h"
@@ -20,7 +20,7 @@
 #include "render/shapes/shapes.h"
 #include "scene/parse.h"
 
-/* Part of the hash of bare models: raised when the same file gives another picture. */
+/* Part of the hash of scenes from mesh files; raised when the same file gives another image. */
 #define MODEL_REVISION 2
 
 bool koksma__camera_aim(const double eye[3], const double forward[3], const double up[3], double fov_rad,
@@ -43,7 +43,8 @@ bool koksma__camera_aim(const double eye[3], const double forward[3], const doub
     return true;
 }
 
-/* The ball around the box around everything; low: the box's lowest height. */
+/* Finds the sphere around the bounding box of all meshes; returns its radius. *low_y is the lowest height of the
+   box. */
 static double surround(const koksma_scene *scene, double centre[3], double *low_y)
 {
     double low[3], high[3], square = 0;
@@ -61,7 +62,8 @@ static double surround(const koksma_scene *scene, double centre[3], double *low_
     return sqrt(square);
 }
 
-/* From the front, a little from above and the right, so far that a ball around everything fills the height. */
+/* Sets a camera that looks from the front, a little from above and from the right, at a distance where a sphere
+   around everything fills the image's height. */
 static void frame_all(koksma_scene *scene, const double centre[3], double radius)
 {
     static const double up[3] = {0, 1, 0};
@@ -74,7 +76,7 @@ static void frame_all(koksma_scene *scene, const double centre[3], double radius
     koksma__camera_aim(eye, forward, up, fov, &scene->camera);
 }
 
-/* A grey plane just below everything. */
+/* Adds a grey plane just below everything. */
 static koksma_status add_ground(koksma_scene *scene, const double centre[3], double low_y, double radius)
 {
     koksma__material *grey = &scene->materials[scene->n_materials];
@@ -100,8 +102,9 @@ static koksma_status add_ground(koksma_scene *scene, const double centre[3], dou
     return koksma__scene_add_shape(scene, &plane, &added);
 }
 
-/* A square that no ray sees, from the upper left in front, as large as the model, five of its radii away; a surface in
-   the centre that faces it has an irradiance of 2. */
+/* Adds the key light: a square, invisible to rays, with sides as long as the model's diameter, to the upper left
+   in front of the model and five radii away. A surface in the model's centre that faces the square has an
+   irradiance of 2. */
 static koksma_status add_key(koksma_scene *scene, const double centre[3], double radius)
 {
     static const double up[3] = {0, 1, 0};
@@ -133,8 +136,9 @@ static koksma_status add_sky(koksma_scene *scene, double radiance)
     return KOKSMA_OK;
 }
 
-/* Lights of glTF are in lux and candela, and whoever shows them chooses an exposure: those that make a white surface in the
-   centre more than ten times white are dimmed together, to white, with a warning. */
+/* Limits the brightness of lights from a file. glTF gives lights in lux and candela and leaves the exposure to
+   the viewer. If the lights make a white surface in the centre more than ten times as bright as white, all are
+   dimmed by the same factor, to white, with a warning. */
 static koksma_status expose(koksma_scene *scene, const double centre[3])
 {
     double sum = 0;
@@ -159,7 +163,8 @@ static koksma_status expose(koksma_scene *scene, const double centre[3])
     return koksma__scene_note(scene, text);
 }
 
-/* The studio: what a model lacks. Its lights and its ground are the scene's last, for koksma_scene_set_sky(). */
+/* Adds the camera and the studio, where the model lacks them. The studio's lights and ground come last in their
+   lists, so that koksma_scene_set_sky() can remove them. */
 static koksma_status complete(koksma_scene *scene, bool has_camera)
 {
     double centre[3], low_y;
@@ -180,7 +185,7 @@ static koksma_status complete(koksma_scene *scene, bool has_camera)
     return has_camera ? KOKSMA_OK : add_ground(scene, centre, low_y, radius);
 }
 
-/* The studio's lights and shapes are the last. */
+/* Removes the studio, whose lights and shapes are the last in their lists. */
 static void take_down(koksma_scene *scene)
 {
     scene->n_lights -= scene->studio.lights;
@@ -196,7 +201,7 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
     koksma_image *pixels = NULL;
     KOKSMA__FAIL_IF(!(radiance >= 0 && radiance <= BRIGHT), KOKSMA_ARGUMENT, "a sky of radiance %g: it takes 0 to %g",
                     radiance, BRIGHT);
-    KOKSMA__FAIL_IF(scene->cache->made, KOKSMA_ARGUMENT, "the scene was rendered already: its sky is set before");
+    KOKSMA__FAIL_IF(scene->cache->made, KOKSMA_ARGUMENT, "the scene was rendered already; set its sky before that");
     if (image) {
         pixels = calloc(1, sizeof *pixels);
         KOKSMA__REQUIRE_MEMORY(pixels, sizeof *pixels);

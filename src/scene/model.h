@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A bare mesh file as a scene. */
+/* Makes a scene from a mesh file alone. */
 #ifndef KOKSMA_SCENE_MODEL_H
 #define KOKSMA_SCENE_MODEL_H
 
 #include "core/read_file.h"
 #include "scene/scene.h"
 
-/* Fills an empty scene from a mesh file; where it has no camera, one is set up that sees all of it; where it has no
-   light, there is a studio (model.c). Whatever comes of it, the caller calls fini. */
+/* Fills an empty scene from a mesh file. If the file has no camera, the scene gets one that sees everything; if
+   it has no lights, a studio (model.c). The caller must call koksma__scene_fini even after an error. */
 koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_scene *scene);
 
-/* Everything in a file, as a scene: meshes where its nodes place them, materials, cameras, lights. scene is empty;
-   what the file has none of is left so. has_camera: scene->camera has eye, axes and angle. Errors: as
-   koksma__mesh_read. In model_build.c. */
+/* Reads everything in a file into the empty scene: meshes where its nodes place them, materials, cameras, lights.
+   Members for which the file has nothing stay empty. has_camera: scene->camera has position, axes and angle.
+   Errors: those of koksma__mesh_read. Defined in model_build.c. */
 koksma_status koksma__model_read(const char *path, koksma__named by, koksma_scene *scene, bool *has_camera);
 
-/* The camera at eye that looks along forward; false where up is along it. */
+/* Sets the camera at `eye` that looks along `forward`; false if `up` is parallel to `forward`. */
 bool koksma__camera_aim(const double eye[3], const double forward[3], const double up[3], double fov_rad,
                         koksma__camera *camera);
 

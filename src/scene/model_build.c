@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A scene of what a mesh file holds (meshes/mesh_file.h): its materials with their textures, its meshes where they
- * are placed, its camera and lights. A mesh goes into the scene when it is first placed; if other placements mirror
- * it (glTF 2.0, section 3.7.4), or the first one did and others don't, it is there a second time, turned inside out.
+ * Makes a scene from the contents of a mesh file (meshes/mesh_file.h): its materials with their textures, its
+ * meshes where its nodes place them, its camera and lights. A mesh is added to the scene when it is first placed.
+ * If some placements mirror a mesh and others do not, the scene contains it twice, once turned inside out (glTF
+ * 2.0, section 3.7.4).
  */
 #include <math.h>
 #include <stdio.h>
@@ -23,10 +24,10 @@
 typedef struct builder {
     koksma_scene *scene;
     koksma__mesh_file *file;
-    int (*meshes)[2];     /* the scene's, by the file's numbers, and mirrored; -1: not yet */
-    double (*glows)[3];   /* by material */
-    size_t n_dark;        /* meshes that should glow */
-    koksma_status status; /* of the materials so far */
+    int (*meshes)[2];     /* for each mesh of the file: the scene's mesh and its mirrored copy; -1: not made yet */
+    double (*glows)[3];   /* emitted radiance of each material */
+    size_t n_dark;        /* number of emissive meshes that stay dark */
+    koksma_status status; /* first error among the materials */
 } builder;
 
 /* ---- Materials --------------------------------------------------------------------------------------------- */
@@ -36,8 +37,9 @@ static double clamp01(float x)
     return x > 0 ? fmin((double)x, 1) : 0;
 }
 
-/* Reads a part of an image that is embedded in the model file (glb) or stands beside it. Errors: MALFORMED (there is no
-   such file, or it is no image that we read), MISSING (the file exists and can't be opened), MEMORY. */
+/* Reads one part of an image, which is embedded in the model file (glb) or is a file beside it. Errors: MALFORMED
+   (there is no such file, or it is not an image that Koksma reads), MISSING (the file exists and can't be
+   opened), MEMORY. */
 static koksma_status read_texture(const builder *build, const koksma__file_texture *from, koksma__image_part part,
                                   koksma_image *image)
 {
@@ -59,7 +61,7 @@ static koksma_status read_texture(const builder *build, const koksma__file_textu
     return status || !image->pixels ? status : koksma__image_check(image, from->name);
 }
 
-/* Radiance beyond what scenes take is dimmed, in its own colour. */
+/* Scales radiance down to what scenes allow and keeps its colour. */
 static void dim(builder *build, double rgb[3])
 {
     const double largest = fmax(fmax(rgb[0], rgb[1]), rgb[2]);
@@ -69,7 +71,8 @@ static void dim(builder *build, double rgb[3])
     }
 }
 
-/* What isn't there or can't be made out is a warning; what fails otherwise is build->status. */
+/* Handles the error of a texture: one that is missing or malformed becomes a warning in `text`, any other error
+   becomes build->status. */
 static void note(builder *build, koksma_status status, char text[256])
 {
     if (status == KOKSMA_MISSING || koksma_status_exit_code(status) == koksma_status_exit_code(KOKSMA_SYSTEM)) {
@@ -79,7 +82,7 @@ static void note(builder *build, koksma_status status, char text[256])
     }
 }
 
-/* Multiplies the pixels with a colour; a grey image becomes a coloured one where it must. */
+/* Multiplies the pixels by a colour; a grey image becomes a colour image if necessary. */
 static koksma_status tint(koksma_image *image, const double colour[3])
 {
     const size_t n = (size_t)image->width * (size_t)image->height;
@@ -101,7 +104,8 @@ static koksma_status tint(koksma_image *image, const double colour[3])
     return KOKSMA_OK;
 }
 
-/* Reads a texture into *out, which stays NULL where it isn't there, for a reason in text, or has no such part. */
+/* Reads a texture into *out. *out stays NULL if the texture has no such part, or can't be read, for the reason in
+   `text`. */
 static void take_map(builder *build, const koksma__file_texture *from, koksma__image_part part, koksma_image **out,
                      koksma__mapping *mapping, char text[256])
 {
@@ -130,11 +134,11 @@ static void take_map(builder *build, const koksma__file_texture *from, koksma__i
     }
 }
 
-/* A texture that isn't there leaves the colour alone. */
+/* Reads the colour texture; without it the material's colour stays. */
 static void take_colour_map(builder *build, const koksma__file_texture *from, koksma__material *m)
 {
     if (from->name && m->bsdf == &koksma__bsdf_ggx) {
-        snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->name);
+        snprintf(m->lost, sizeof m->lost, "%s: the colour texture of a metal is ignored", from->name);
         return;
     }
     take_map(build, from, KOKSMA__IMAGE_COLOURS, &m->image, &m->mapping, m->lost);
@@ -144,7 +148,8 @@ static void take_colour_map(builder *build, const koksma__file_texture *from, ko
     }
 }
 
-/* One that isn't there leaves the surface dark, as most of such a texture is. */
+/* Reads the emission texture. If it is missing, the surface emits nothing, because most of such a texture is
+   dark. */
 static void take_glow_map(builder *build, const koksma__file_texture *from, double glow[3], koksma__material *m)
 {
     koksma__map *map = &m->maps[KOKSMA__MAP_EMISSION];
@@ -159,7 +164,7 @@ static void take_glow_map(builder *build, const koksma__file_texture *from, doub
     }
 }
 
-/* What only glTF has: metal and roughness, normals, alpha. */
+/* Sets what only glTF's materials have: metallic and roughness textures, normals, alpha. */
 static void take_principled(builder *build, const koksma__file_material *from, koksma__material *m)
 {
     const struct {
@@ -224,7 +229,7 @@ static void build_material(builder *build, size_t i)
 
 /* ---- Placements, camera, lights -------------------------------------------------------------------------- */
 
-/* Turns a mesh inside out: two corners of each triangle are swapped, normals turned round. */
+/* Turns a mesh inside out: swaps two corners of each triangle and inverts the normals. */
 static void flip(koksma__mesh *mesh)
 {
     for (size_t t = 0; t < mesh->n_triangles; t++) {
@@ -260,7 +265,7 @@ static koksma_status copy(const koksma__mesh *from, koksma__mesh *to)
     return KOKSMA_OK;
 }
 
-/* The scene's mesh for one of the file's, made where it is first placed. */
+/* Finds the scene's mesh for a mesh of the file, and makes it when it is first placed. */
 static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int *out)
 {
     int *known = build->meshes[number];
@@ -275,7 +280,7 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
     if (known[!mirrored] >= 0) {
         status = copy(&scene->meshes[known[!mirrored]], to);
     } else {
-        *to = *from; /* the file's own: nothing else needs it */
+        *to = *from; /* move the file's mesh, which is not needed again */
         *from = (koksma__mesh){0};
     }
     if (!status && (mirrored || known[!mirrored] >= 0)) {
@@ -285,7 +290,8 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
     return status ? status : koksma__mesh_check(to);
 }
 
-/* A light that reflects, too. There is room for those of the file and for two more. */
+/* Makes a placed mesh a light that also reflects. Keeps room in the list of lights for the file's own and two
+   more. */
 static koksma_status add_glow(builder *build, koksma__placement *p, const double glow[3])
 {
     koksma_scene *scene = build->scene;
@@ -293,7 +299,7 @@ static koksma_status add_glow(builder *build, koksma__placement *p, const double
     if (scene->n_lights + build->file->lights.n + 2 >= KOKSMA__MAX_LIGHTS) {
         return build->n_dark++
                    ? KOKSMA_OK
-                   : koksma__scene_note(scene, "more meshes glow than there is room for lights: some are dark");
+                   : koksma__scene_note(scene, "more meshes emit light than there is room for lights: some are dark");
     }
     KOKSMA__TRY(koksma__scene_add_glow(scene, p, glow));
     p->material = material;
@@ -341,7 +347,7 @@ static bool within(const double v[3], double bound)
     return fabs(v[0]) <= bound && fabs(v[1]) <= bound && fabs(v[2]) <= bound;
 }
 
-/* At the origin of its node, looking down its -z. */
+/* Sets the camera: it is at the origin of its node and looks in the direction -z of the node. */
 static bool build_camera(builder *build)
 {
     static const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1}, over[3] = {0, 1, 0};
@@ -354,7 +360,7 @@ static bool build_camera(builder *build)
            koksma__camera_aim(eye, forward, up, fov, &build->scene->camera);
 }
 
-/* Likewise. */
+/* Adds a light: it is at the origin of its node and points in the direction -z of the node. */
 static koksma_status build_light(builder *build, size_t i)
 {
     static const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
@@ -379,7 +385,7 @@ static koksma_status build_light(builder *build, size_t i)
     return KOKSMA_OK;
 }
 
-/* ---- The whole ---------------------------------------------------------------------------------------------- */
+/* ---- The whole scene --------------------------------------------------------------------------------------- */
 
 static koksma_status build_all(builder *build, bool *has_camera)
 {

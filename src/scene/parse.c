@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Scene files: the root object and its lists, in the order that references need (materials before shapes before
- * lights), as docs/scenes.md says. Every failure names file, line and field.
+ * Reads scene files, as docs/scenes.md describes them: the root object and its lists, in the order that
+ * references need (materials before shapes before lights). Every error names file, line and field.
  */
 #include "scene/parse.h"
 
@@ -68,7 +68,7 @@ static koksma_status parse_camera(const field *root, koksma__camera *camera)
     }
     camera->fov_rad = fov_deg * TURN / 360;
     koksma__subtract(target, camera->eye, camera->forward);
-    KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->forward), &f, "'eye' and 'target' are one point");
+    KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->forward), &f, "'eye' and 'target' are the same point");
     koksma__cross(camera->forward, up, camera->right);
     KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->right), &f, "'up' is along the line of sight");
     koksma__cross(camera->forward, camera->right, camera->down);
@@ -78,8 +78,8 @@ static koksma_status parse_camera(const field *root, koksma__camera *camera)
 /* ---- Shapes --------------------------------------------------------------------------------------------- */
 
 /*
- * Shapes of a scene file: the kinds, their fields and what they refuse come from the table of render/shapes. Here is
- * the field that all have: "material", or for some kinds "emission" in its place.
+ * Reads shapes. The kinds of shapes, their fields and the allowed values come from the table in render/shapes.
+ * Read here is the field that all shapes have: "material", or "emission" in its place for some kinds.
  */
 
 static koksma_status refuse_image(const field *f)
@@ -94,7 +94,7 @@ static koksma_status refuse_image(const field *f)
     return koksma__json_fail(f, "it takes no material with an image; these do:%s", known);
 }
 
-/* The number of the material; -1 for emission. */
+/* Finds the index of the shape's material; it stays -1 for a shape with "emission". */
 static koksma_status parse_material(const field *f, const koksma_scene *scene, koksma__shape *shape)
 {
     const char *name = "";
@@ -109,7 +109,7 @@ static koksma_status parse_material(const field *f, const koksma_scene *scene, k
         return status ? status : koksma__json_fail(f, "no material '%s'", name);
     }
     const koksma__material *m = &scene->materials[shape->material];
-    KOKSMA__JSON_FAIL_IF(m->checker && !shape->type->takes_checker, f, "a %s takes no checker",
+    KOKSMA__JSON_FAIL_IF(m->checker && !shape->type->takes_checker, f, "a %s takes no material with a checkerboard",
                          shape->type->kind.name);
     return m->image && !shape->type->takes_image ? refuse_image(f) : KOKSMA_OK;
 }
@@ -132,7 +132,7 @@ static koksma_status parse_shape(const char *scene_name, const field *f, koksma_
 
 /* ---- Lights --------------------------------------------------------------------------------------------- */
 
-/* Lights of a scene file: the kinds, their fields and what they refuse come from the table of render/lights. */
+/* Reads lights. The kinds of lights, their fields and the allowed values come from the table in render/lights. */
 
 static koksma_status parse_light(const char *name, const field *f, koksma_scene *scene)
 {
@@ -166,7 +166,7 @@ static koksma_status parse_image(const field *root, koksma_scene *scene)
     return status;
 }
 
-/* The list `key`; room for its items (size bytes each) in *out when out is given. */
+/* Opens the list `key`; if `out` is given, allocates an array for its items of `size` bytes each. */
 static koksma_status open_list(const field *root, const char *key, size_t max, size_t size, void *out, field *list,
                                size_t *n)
 {
@@ -185,7 +185,7 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
 {
     field list, item;
     size_t n = 0;
-    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights); /* meshes bring some, too */
+    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights); /* meshes may add lights, too */
     KOKSMA__REQUIRE_MEMORY(scene->lights, KOKSMA__MAX_LIGHTS * sizeof *scene->lights);
     koksma_status status =
         open_list(root, "materials", KOKSMA__MAX_MATERIALS, sizeof *scene->materials, &scene->materials, &list, &n);

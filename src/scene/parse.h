@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Materials of a scene file, the longest of its parts; parse.c has the others. */
+/* Reads the materials of a scene file; parse.c reads everything else. */
 #ifndef KOKSMA_SCENE_PARSE_H
 #define KOKSMA_SCENE_PARSE_H
 
 #include "render/fields.h"
 #include "scene/scene.h"
 
-/* name: of the scene's file, next to which the files that it names are looked for. */
+/* Reads a material. `name` is the path of the scene's file; files that the material names are searched beside it. */
 koksma_status koksma__parse_material(const char *name, const field *f, koksma_scene *scene);
 
 #endif

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Materials of a scene file. The kinds, their parameters and what they refuse come from the table of
- * render/materials; here are the fields that several kinds share: the name, and the diffuse part, which is one
- * albedo, two in the squares of a checker, or an image.
+ * Reads the materials of a scene file. The kinds of materials, their parameters and the allowed values come from
+ * the table in render/materials. Read here are the fields that several kinds share: the name, and the diffuse
+ * albedo, which is one colour, two colours in the squares of a checkerboard, or an image.
  */
 #include <string.h>
 
 #include "render/materials/materials.h"
 #include "scene/parse.h"
 
-/* "albedo", or "albedos" of a checker and how its squares lie. */
+/* Reads "albedo", or for a checkerboard "albedos" and the size and position of its squares. */
 static koksma_status parse_albedo(const field *f, koksma__material *m)
 {
     field pair, item;
@@ -35,7 +35,8 @@ static koksma_status parse_albedo(const field *f, koksma__material *m)
     return status;
 }
 
-/* "albedo": {"image": FILE} of a Lambert surface; its mean colour stands where one number must do. */
+/* Reads "albedo": {"image": FILE} of a Lambert surface; the image's mean colour is used where a single colour is
+   needed. */
 static koksma_status parse_texture(const char *name, const field *f, koksma__material *m)
 {
     field albedo;
@@ -50,7 +51,7 @@ static koksma_status parse_texture(const char *name, const field *f, koksma__mat
     return status;
 }
 
-/* The diffuse part, in one of the forms that the kind takes. */
+/* Reads the diffuse albedo, in one of the forms that the kind of material allows. */
 static koksma_status parse_diffuse(const char *scene_name, const field *f, koksma__material *m)
 {
     const unsigned forms = m->bsdf->diffuse;

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4): directives, each with a text and parameters,
- * that change a graphics state or add a shape or light with it. pbrt_values.c makes colours, materials and meshes of
- * parameters. Not read: media, motion, curves; directives that don't say what is in the scene (Sampler, Integrator, ...)
- * are passed over, because the program's own options choose them. Long because one file knows pbrt's directives.
+ * Reads scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4). A scene is a list of
+ * directives, each with a text and parameters, that change a graphics state or use it to add a shape or light.
+ * pbrt_values.c converts parameters to colours, materials and meshes. Media, motion and curves are not read;
+ * directives that do not describe the scene (Sampler, Integrator, ...) are ignored, because the program's own
+ * options choose them.
+ * Long because one file knows pbrt's directives.
  */
 #include "scene/pbrt.h"
 
@@ -46,10 +48,10 @@ typedef struct reader {
     named_space *spaces;
     object *objects;
     size_t n_spaces, n_objects;
-    object *open; /* the object that shapes are added to, or NULL */
-    bool fixed;   /* transforms of the end time only */
+    object *open; /* the object to which shapes are added, or NULL */
+    bool fixed;   /* only transforms of the end time are being given, which are ignored */
     koksma__pbrt_parameters *parameters;
-    /* The camera, which the film's aspect completes. */
+    /* The camera, which is completed when the aspect ratio of the film is known. */
     bool has_camera;
     koksma__text_place camera_place;
     double camera[12], fov_deg, lens_radius, focus_distance;
@@ -107,7 +109,7 @@ static koksma_status take_look_at(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_numbers(s, 9, v));
     koksma__subtract(v + 3, v, ahead);
     if (!koksma__normalise(ahead)) {
-        return koksma__import_fail(s->place, "LookAt: the eye and where it looks are one point");
+        return koksma__import_fail(s->place, "LookAt: the eye and its target are the same point");
     }
     koksma__cross(v + 6, ahead, right);
     if (!koksma__normalise(right)) {
@@ -121,7 +123,7 @@ static koksma_status take_look_at(reader *r, source *s)
     return concat(r, inverse);
 }
 
-/* Columns one after the other. */
+/* Reads a matrix, which is given column by column. */
 static koksma_status take_matrix(source *s, double m[12])
 {
     double v[16];
@@ -181,9 +183,7 @@ static koksma_status take_active(reader *r, source *s)
     koksma__pbrt_token t;
     KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
     r->fixed = t.length == 7 && !memcmp(t.at, "EndTime", 7);
-    return r->fixed
-               ? koksma__import_unknown(r->im, s->place, "motion by ActiveTransform: everything stands as it starts")
-               : KOKSMA_OK;
+    return r->fixed ? koksma__import_unknown(r->im, s->place, "motion by ActiveTransform is ignored") : KOKSMA_OK;
 }
 
 static koksma_status take_times(reader *r, source *s)
@@ -206,7 +206,8 @@ static koksma_status push(reader *r, source *s)
     return KOKSMA_OK;
 }
 
-/* The stack keeps its memory: koksma__add_one() sizes it by the number of items alone. */
+/* Restores the state or matrix on top of the stack. The stack keeps its memory, because koksma__add_one() derives
+   the capacity from the number of items alone. */
 static koksma_status pop(reader *r, source *s, bool matrix_alone)
 {
     if (!r->n_stack) {
@@ -249,7 +250,7 @@ static koksma_status take_object_begin(reader *r, source *s)
     char name[256];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
     if (r->open) {
-        return koksma__import_fail(s->place, "an object within an object");
+        return koksma__import_fail(s->place, "an object within another object");
     }
     KOKSMA__TRY(push(r, s));
     object *to = koksma__add_one(&r->objects, &r->n_objects, sizeof *to);
@@ -307,7 +308,7 @@ static koksma_status take_shape(reader *r, source *s)
     koksma__import_item item = {.surface = r->now.surface, .place = r->parameters->place};
     if (r->open && item.surface.emits) {
         item.surface.emits = false;
-        KOKSMA__TRY(koksma__import_unknown(r->im, item.place, "a light within an object: it is dark"));
+        KOKSMA__TRY(koksma__import_unknown(r->im, item.place, "a light within an object is dark"));
     }
     memcpy(form, koksma__import_identity, sizeof form);
     KOKSMA__TRY(koksma__pbrt_shape(&r->values, type, r->parameters, &item, form, &is_there));
@@ -325,7 +326,7 @@ static koksma_status take_area_light(reader *r, source *s)
     return koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
 }
 
-/* A point that a matrix moves. */
+/* Transforms a point (w = 1) or a direction (w = 0) by a matrix. */
 static void move_point(const double m[12], const double p[3], double w, double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -371,8 +372,8 @@ static koksma_status take_light(reader *r, source *s)
     } else {
         move_point(r->now.matrix, from, 1, light.centre);
         if (strcmp(type, "point") != 0) {
-            KOKSMA__TRY(
-                koksma__import_unknown(r->im, p->place, "light '%s': a point here, which shines to all sides", type));
+            KOKSMA__TRY(koksma__import_unknown(
+                r->im, p->place, "light '%s' is replaced by a point light equal in all directions", type));
         }
     }
     return koksma__import_light(r->im, p->place, &light);
@@ -396,7 +397,7 @@ static koksma_status take_camera(reader *r, source *s)
     r->lens_radius = koksma__pbrt_number(p, "lensradius", 0);
     r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
     if (koksma__pbrt_find(p, "screenwindow") || koksma__pbrt_find(p, "frameaspectratio")) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "the camera's screen window: it is that of fov"));
+        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "the camera's screen window is ignored"));
     }
     return name_space(r, "camera", r->camera);
 }
@@ -410,13 +411,13 @@ static koksma_status take_film(reader *r, source *s)
     const double width = koksma__pbrt_number(p, "xresolution", 1280),
                  height = koksma__pbrt_number(p, "yresolution", 720);
     if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
-        return koksma__import_fail(p->place, "a film of %g x %g pixels; its sides are 1 to %d", width, height,
+        return koksma__import_fail(p->place, "a film of %g x %g pixels; each side must be 1 to %d", width, height,
                                    KOKSMA_MAX_IMAGE_SIDE);
     }
     r->im->scene->width = (int)width;
     r->im->scene->height = (int)height;
     return koksma__pbrt_find(p, "iso") || koksma__pbrt_find(p, "exposuretime") || koksma__pbrt_find(p, "sensor")
-               ? koksma__import_unknown(r->im, p->place, "the film's sensor: brightness is radiance")
+               ? koksma__import_unknown(r->im, p->place, "the film's sensor is ignored: brightness is radiance")
                : KOKSMA_OK;
 }
 
@@ -455,10 +456,10 @@ static koksma_status take_texture(reader *r, source *s)
     return koksma__pbrt_texture(&r->values, name, kind, r->parameters);
 }
 
-/* What says nothing about the scene: a text and parameters. */
+/* Skips a directive that does not describe the scene: a text and parameters. */
 static koksma_status take_nothing(reader *r, source *s)
 {
-    return koksma__pbrt_parameters_read(s, r->parameters); /* after take_options() has taken the text */
+    return koksma__pbrt_parameters_read(s, r->parameters); /* take_options() has already read the text */
 }
 
 static koksma_status take_options(reader *r, source *s)
@@ -470,7 +471,7 @@ static koksma_status take_options(reader *r, source *s)
 
 static koksma_status take_medium(reader *r, source *s)
 {
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media: all is in air"));
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media are ignored"));
     return take_options(r, s);
 }
 
@@ -478,7 +479,7 @@ static koksma_status take_interface(reader *r, source *s)
 {
     char name[256];
     koksma__pbrt_token t;
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media: all is in air"));
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media are ignored"));
     for (int i = 0; i < 2; i++) {
         KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
         KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(s, name, sizeof name) : KOKSMA_OK);
@@ -488,7 +489,7 @@ static koksma_status take_interface(reader *r, source *s)
 
 static koksma_status take_attribute(reader *r, source *s)
 {
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "Attribute: it changes nothing"));
+    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "Attribute is ignored"));
     return take_options(r, s);
 }
 
@@ -507,7 +508,7 @@ static koksma_status take_include(reader *r, source *s)
     KOKSMA__TRY(koksma__import_text(r->im, s->place, path, &bytes, &size));
     char **kept = koksma__add_one(&r->values.texts, &r->values.n_texts, sizeof *kept);
     char *name = kept ? strdup(path) : NULL;
-    if (!name) { /* places outlive the file: they name it in messages */
+    if (!name) { /* positions in messages refer to the name, which must outlive the file */
         free(bytes);
         return kept ? koksma__fail_memory(sizeof path) : KOKSMA_MEMORY;
     }
@@ -587,7 +588,7 @@ static koksma_status read_source(reader *r, source *s)
     }
 }
 
-/* pbrt's angle is that of the shorter side of the picture. */
+/* Sets the camera; pbrt's angle of view is that of the shorter side of the image. */
 static koksma_status set_camera(reader *r)
 {
     const double width = r->im->scene->width, height = r->im->scene->height, half = r->fov_deg * TURN / 720;

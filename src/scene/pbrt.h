@@ -4,7 +4,7 @@
 
 #include "scene/import.h"
 
-/* Reads a scene of pbrt-v4 into an empty one. Errors: MISSING, MALFORMED, MEMORY. */
+/* Reads a scene of pbrt-v4 into an empty scene. Errors: MISSING, MALFORMED, MEMORY. */
 koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t size);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The tokens of pbrt-v4's scene files: words, texts in quotation marks, brackets; '#' starts a comment. A parameter is a
- * text "type name" and a value, or values in brackets. Numbers are read as floats, as pbrt itself has them; integers
- * exactly. Nothing is copied but parameters, whose number and lengths have limits.
+ * Splits pbrt-v4's scene files into tokens: words, texts in quotation marks, and brackets; '#' starts a comment.
+ * A parameter is a text "type name" and a value, or values in brackets. Numbers are rounded to floats, as in pbrt
+ * itself; integers are exact. Only parameters are copied, and their number and lengths are limited.
  */
 #include "scene/pbrt_tokens.h"
 
@@ -88,7 +88,7 @@ static koksma_status number_of(const koksma__pbrt_source *s, const koksma__pbrt_
         read = koksma__text_whole(&at, end, &count) && at == end;
         *out = negative ? -(double)count : (double)count;
     }
-    if (!read) { /* whole numbers may be written with a point */
+    if (!read) { /* integers may be written with a decimal point */
         at = t->at;
         read = koksma__text_float(&at, end, &value) && at == end;
         *out = (double)value;
@@ -114,7 +114,7 @@ koksma_status koksma__pbrt_numbers(koksma__pbrt_source *s, size_t n, double *out
                : KOKSMA_OK;
 }
 
-/* "type name" */
+/* Reads the text "type name" of a parameter. */
 static koksma_status take_name(koksma__pbrt_source *s, koksma__pbrt_parameter *p)
 {
     char both[64], *name;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What pbrt-v4's parameters mean here. Spectra become red, green and blue: rgb as it stands, black bodies by their
- * chromaticity, a metal's name by a table, sampled spectra by the means of their thirds (400, 500, 600, 700 nm). A texture
- * is a colour, an image or a checker; what combines them takes their means.
+ * Converts pbrt-v4's parameters. Spectra become red, green and blue: rgb values are used as they are, black
+ * bodies by their chromaticity, metals by a table of names, and sampled spectra by their means in three bands
+ * (400 to 500, 500 to 600 and 600 to 700 nm). A texture becomes a colour, an image or a checkerboard; textures
+ * that combine others become the mean colour.
  */
 #include "scene/pbrt_values.h"
 
@@ -53,10 +54,10 @@ static koksma_status bands(koksma__pbrt_scene *scene, koksma__text_place place, 
     for (int k = 0; k < 3; k++) {
         rgb[k] = count[k] ? sum[k] / (double)count[k] : n > 1 ? all / (double)(n / 2) : 0;
     }
-    return koksma__import_unknown(scene->im, place, "a sampled spectrum: the means of its thirds");
+    return koksma__import_unknown(scene->im, place, "a sampled spectrum is replaced by the means of its thirds");
 }
 
-/* "metal-Au-eta" and the like have the reflectance of the metal; other names are white. */
+/* Reads a named spectrum: "metal-Au-eta" and similar names give the metal's reflectance, others white. */
 static koksma_status named_spectrum(koksma__pbrt_scene *scene, koksma__text_place place, const char *name,
                                     double rgb[3])
 {
@@ -70,7 +71,7 @@ static koksma_status named_spectrum(koksma__pbrt_scene *scene, koksma__text_plac
     }
     return !strncmp(name, "stdillum-", 9)
                ? KOKSMA_OK
-               : koksma__import_unknown(scene->im, place, "spectrum '%s': white here", name);
+               : koksma__import_unknown(scene->im, place, "spectrum '%s' is replaced by white", name);
 }
 
 static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place place, const koksma__pbrt_parameter *p,
@@ -106,7 +107,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
     return KOKSMA_OK;
 }
 
-/* The colour of a name, or grey of another value. */
+/* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
 static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                  double otherwise, koksma__import_colour *out)
 {
@@ -127,8 +128,7 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
     }
     for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
         if (koksma__pbrt_find(p, unknown[i]) && koksma__pbrt_flag(p, unknown[i], true)) {
-            KOKSMA__TRY(
-                koksma__import_unknown(scene->im, p->place, "a light's '%s': it changes nothing", unknown[i]));
+            KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "a light's '%s' is ignored", unknown[i]));
         }
     }
     return KOKSMA_OK;
@@ -150,7 +150,7 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
     koksma__import_colour first, second;
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     snprintf(to->name, sizeof to->name, "%s", name);
-    scene->n_textures--; /* not yet for its own parameters to find */
+    scene->n_textures--; /* a texture's own parameters must not find it yet */
     koksma__import_colour *c = &to->colour;
     koksma_status status = KOKSMA_OK;
     c->period = 1;
@@ -159,7 +159,7 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
         status = koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image);
         if (!status && (koksma__pbrt_number(p, "uscale", 1) != 1 || koksma__pbrt_number(p, "vscale", 1) != 1 ||
                         koksma__pbrt_number(p, "scale", 1) != 1)) {
-            status = koksma__import_unknown(scene->im, p->place, "an image's scale: it is 1");
+            status = koksma__import_unknown(scene->im, p->place, "an image's scale is ignored");
         }
     } else if (!strcmp(kind, "constant")) {
         status = find_colour(scene, p, "value", 1, c);
@@ -171,7 +171,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
             c->second[k] *= second.rgb[k];
         }
         if (!status && (*c->image || *second.image)) {
-            status = koksma__import_unknown(scene->im, p->place, "an image times a colour: the image alone");
+            status =
+                koksma__import_unknown(scene->im, p->place, "an image times a colour is replaced by the image alone");
         }
     } else if (!strcmp(kind, "checkerboard") && koksma__pbrt_number(p, "dimension", 2) == 2) {
         status = find_colour(scene, p, "tex1", 1, c);
@@ -182,14 +183,14 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
         const double u = koksma__pbrt_number(p, "uscale", 1), v = koksma__pbrt_number(p, "vscale", 1);
         c->period = u > 1e-6 ? 1 / u : 1;
         if (!status && u != v) {
-            status = koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale: it is uscale");
+            status = koksma__import_unknown(scene->im, p->place, "a checkerboard's vscale is replaced by uscale");
         }
     } else {
         status = find_colour(scene, p, "tex1", 0.5, &first);
         status = status ? status : find_colour(scene, p, "tex2", 0.5, &second);
         if (!status) {
             mean_of(&first, &second, c->rgb);
-            status = koksma__import_unknown(scene->im, p->place, "texture '%s': one colour here", kind);
+            status = koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
         }
     }
     scene->n_textures += !status;
@@ -198,7 +199,7 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
 
 /* ---- Materials ------------------------------------------------------------------------------------------------ */
 
-/* The reflectance along the normal, from refractive indices. */
+/* The reflectance along the normal from the refractive index eta and the absorption k. */
 static void fresnel(const double eta[3], const double k[3], double rgb[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -231,7 +232,7 @@ static koksma_status metal(koksma__pbrt_scene *scene, const koksma__pbrt_paramet
     return KOKSMA_OK;
 }
 
-/* GGX's alpha: the square root of the roughness, unless remaproughness is false. */
+/* Sets GGX's alpha: the square root of the roughness, or the roughness itself if remaproughness is false. */
 static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *prefix,
                                koksma__import_material *m)
 {
@@ -242,18 +243,18 @@ static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_par
     const double both = koksma__pbrt_number(p, name, 0);
     const double u = koksma__pbrt_number(p, u_name, both), v = koksma__pbrt_number(p, v_name, both);
     m->alpha = koksma__pbrt_flag(p, "remaproughness", true) ? sqrt(fmax(u * v, 0)) : fmax(u * v, 0);
-    m->alpha = sqrt(m->alpha); /* the geometric mean of two */
-    return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness: the mean of both")
+    m->alpha = sqrt(m->alpha); /* the geometric mean for u and v */
+    return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness is replaced by its mean")
                   : KOKSMA_OK;
 }
 
-/* The kinds of pbrt-v4 and what they are here; those that are no more than likened say so. */
+/* pbrt-v4's kinds of materials and the materials that replace them; those that are only similar give a warning. */
 typedef struct material_kind {
     const char *name;
-    int kind;            /* -1: light passes through */
-    const char *colour;  /* the parameter of its diffuse part */
-    const char *prefix;  /* of the parameters of a metal and its roughness */
-    const char *instead; /* NULL, or what it is here */
+    int kind;            /* kind of the replacement; -1: light passes through */
+    const char *colour;  /* name of the parameter with its diffuse albedo */
+    const char *prefix;  /* prefix of the names of a metal's parameters and roughness */
+    const char *instead; /* NULL, or the replacement's name in a warning */
 } material_kind;
 
 static const material_kind kinds[] = {
@@ -278,7 +279,7 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
     const material_kind *found = &other;
     koksma__import_material m = {.ior = 1.5};
     if (!strcmp(type, "mix")) {
-        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material 'mix': its first one"));
+        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material 'mix' is replaced by its first material"));
         return koksma__pbrt_find_material(scene, p->place, koksma__pbrt_word(p, "materials", ""), out);
     }
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -288,8 +289,7 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
         KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material '%s': %s here", type, found->instead));
     }
     if (koksma__pbrt_find(p, "displacement") || koksma__pbrt_find(p, "normalmap")) {
-        KOKSMA__TRY(
-            koksma__import_unknown(scene->im, p->place, "displacement or a map of normals: surfaces are smooth"));
+        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "displacement and normal maps are ignored"));
     }
     *out = -1;
     if (found->kind < 0) {
@@ -300,7 +300,8 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
                                         : find_colour(scene, p, found->colour ? found->colour : "", 0.5, &m.colour));
     m.ior = koksma__pbrt_number(p, "eta", 1.5);
     if (*koksma__pbrt_word(p, "eta", "") && m.kind == KOKSMA__GLASS) {
-        KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "the spectrum of a glass: its index is 1.5"));
+        KOKSMA__TRY(
+            koksma__import_unknown(scene->im, p->place, "the spectrum of a glass is replaced by the index 1.5"));
     }
     KOKSMA__TRY(set_alpha(scene, p, found->prefix, &m));
     return koksma__import_add_material(scene->im, p->place, &m, out);
@@ -332,7 +333,7 @@ koksma_status koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text
 
 /* ---- Shapes ---------------------------------------------------------------------------------------------------- */
 
-/* Floats of a parameter that has `each` for every vertex; NULL: it isn't there. */
+/* Copies the numbers of a parameter, which must exist and have `each` numbers for every vertex. */
 static koksma_status take_floats(const koksma__pbrt_parameters *p, const char *name, size_t each, size_t n, float *to)
 {
     const koksma__pbrt_parameter *from = koksma__pbrt_find(p, name);
@@ -345,7 +346,8 @@ static koksma_status take_floats(const koksma__pbrt_parameters *p, const char *n
     return KOKSMA_OK;
 }
 
-/* The vertices of triangle t's corner c, from `indices`; of quadrilaterals of four two triangles. */
+/* Reads the triangles of a mesh from its vertex indices; a quadrilateral has four indices and becomes two
+   triangles. */
 static koksma_status take_indices(const koksma__pbrt_parameters *p, const koksma__pbrt_parameter *indices, bool quads,
                                   koksma__mesh *mesh)
 {
@@ -391,7 +393,8 @@ static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_par
     return koksma__import_mesh(scene->im, p->place, &mesh, out);
 }
 
-/* A unit form's matrix: scaled about the z axis, and moved along it. */
+/* Sets the matrix that scales a basic shape by the radius in x and y and by the height in z, and moves it along
+   z. */
 static void shape_form(double radius, double height, double z, double m[12])
 {
     m[0] = m[5] = radius;
@@ -406,7 +409,7 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
     koksma__import *im = scene->im;
     koksma_status status = KOKSMA_OK;
     if (koksma__pbrt_find(p, "alpha")) {
-        KOKSMA__TRY(koksma__import_unknown(im, p->place, "a shape's 'alpha': it is opaque"));
+        KOKSMA__TRY(koksma__import_unknown(im, p->place, "a shape's 'alpha' is ignored"));
     }
     item->mesh = -1;
     if (!strcmp(type, "sphere") || !strcmp(type, "disk") || !strcmp(type, "cylinder")) {
@@ -423,7 +426,7 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
                    matrix);
         if (koksma__pbrt_number(p, "phimax", 360) < 360 || koksma__pbrt_number(p, "innerradius", 0) > 0 ||
             (!cylinder && !disk && (koksma__pbrt_find(p, "zmin") || koksma__pbrt_find(p, "zmax")))) {
-            status = koksma__import_unknown(im, p->place, "a part of a %s: it is whole", type);
+            status = koksma__import_unknown(im, p->place, "a part of a %s is replaced by the whole", type);
         }
         return status;
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Colours, textures, materials and shapes of pbrt-v4's parameters. */
+/* Converts parameters of pbrt-v4 to colours, textures, materials and shapes. */
 #ifndef KOKSMA_SCENE_PBRT_VALUES_H
 #define KOKSMA_SCENE_PBRT_VALUES_H
 
@@ -10,20 +10,20 @@ typedef struct koksma__pbrt_scene {
     koksma__import *im;
     struct koksma__pbrt_named *materials;
     struct koksma__pbrt_texture *textures;
-    char **texts; /* names of files */
+    char **texts; /* names of the files that were read */
     size_t n_materials, n_textures, n_texts;
 } koksma__pbrt_scene;
 
 void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene);
 
-/* Radiance or intensity: the colour `name` (white where it isn't there) times "scale". */
+/* Radiance or intensity: the colour `name`, or white if there is none, times the parameter "scale". */
 koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                     double rgb[3]);
 
 koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *kind,
                                    const koksma__pbrt_parameters *p);
 
-/* The number of a material; -1: light passes through. */
+/* Makes a material; *out is its index, or -1 if light passes through. */
 koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
                                     int *out);
 koksma_status koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *name,
@@ -31,7 +31,8 @@ koksma_status koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *
 koksma_status koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text_place place, const char *name,
                                          int *out);
 
-/* Sets the item's form or mesh, and the matrix that shapes the form; is_there: false where the shape is left out. */
+/* Sets the item's basic shape or mesh, and the matrix that gives a basic shape its size; *is_there is false if
+   the shape is left out. */
 koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
                                  koksma__import_item *item, double matrix[12], bool *is_there);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Scenes as users open them: by the name of one that ships, from a JSON file, or from a mesh file; and their end. The
- * scenes that ship are embedded in the library as texts.
+ * Opens and closes scenes. A scene is opened by the name of one that ships with the library, where it is embedded
+ * as a text, from a JSON file, from another renderer's file, or from a mesh file.
  */
 #include "scene/scene.h"
 
@@ -30,7 +30,7 @@ static const char *shipped_name(const void *table, size_t i)
     return koksma_scene_name_at(i);
 }
 
-/* An empty scene, with what goes with one that can be rendered. */
+/* Allocates an empty scene and the cache that rendering needs. */
 static koksma_status new_scene(koksma_scene **out)
 {
     koksma_scene *scene = *out = calloc(1, sizeof *scene);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Where the parts of a scene are: boxes around shapes and placed meshes, and the part of the picture that a box covers,
- * from the projection of its corners. A box that reaches behind the camera, or has no end, may cover all of it.
+ * Finds where the parts of a scene are: the bounding boxes of shapes and placed meshes, and the part of the image
+ * that a box covers, from the projection of its corners. A box that reaches behind the camera, or is infinite,
+ * may cover the whole image.
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +17,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Along axis k; an infinite side that is square to the axis adds nothing. */
+/* The extent of a shape from its centre along axis k; an infinite side perpendicular to the axis adds nothing. */
 static double reach(const koksma__shape *shape, int k)
 {
     if (!shape->type->is_flat) {
@@ -27,7 +28,7 @@ static double reach(const koksma__shape *shape, int k)
     return (u > 0 ? u * shape->half[0] : 0) + (v > 0 ? v * second : 0);
 }
 
-/* Sets frame and in_frame from the box. */
+/* Sets frame and in_frame of a part from its box. */
 static void look(const koksma_scene *scene, koksma_scene_part *part)
 {
     const koksma__camera *camera = &scene->camera;

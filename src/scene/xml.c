@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * XML by expat. Elements become nodes in the order of the text. <default name value> gives $name a value where none was
- * given before; <include filename> stands for the children of that file's root. Nothing else is fetched or expanded: a
- * document type ends the reading, before any entity of it is declared.
+ * Parses XML with expat. Elements become nodes in the order of the text. <default name value> sets $name unless
+ * it was set before; <include filename> is replaced by the children of that file's root. Nothing else is loaded
+ * or expanded: a document type declaration stops the parser before any entity is declared.
  */
 #include "scene/xml.h"
 
@@ -65,14 +65,15 @@ bool koksma__xml_alike(const char *a, const char *b)
 
 enum { MOST_DEPTH = 64, MOST_INCLUDED = 16, MOST_NODES = 1 << 20, MOST_VALUE = 1 << 16 };
 
-/* The state of one file's reading. */
+/* The state while one file is parsed. */
 typedef struct reading {
     koksma__import *im;
     koksma__xml *xml;
     XML_Parser parser;
     const char *file;
     koksma_status status;
-    int open[MOST_DEPTH + 1]; /* nodes; -1: a root whose children belong to the node before */
+    /* the node to which children at each depth belong; -1: none, at the root of the scene's own file */
+    int open[MOST_DEPTH + 1];
     int depth, included;
 } reading;
 
@@ -92,7 +93,8 @@ static void stop(reading *r, koksma_status status)
     }
 }
 
-/* The value with $names replaced; the caller frees it. NULL: memory, or (with r->status) no such name. */
+/* Replaces $names in a value; the caller frees the result. NULL: out of memory or, with r->status set, an unknown
+   name. */
 static char *replaced(reading *r, const char *value)
 {
     char *out = malloc(MOST_VALUE + 1);
@@ -178,7 +180,7 @@ static void include(reading *r, const koksma__xml_node *node, int parent)
     stop(r, status);
 }
 
-/* A node for the element, among the children of its parent. */
+/* Adds a node for an element to the children of its parent. */
 static int add_node(reading *r, const char *tag, const char **attributes, int parent)
 {
     size_t n = 0;
@@ -224,7 +226,8 @@ static void start_element(void *data, const char *tag, const char **attributes)
         return;
     }
     const int parent = r->open[r->depth];
-    if (r->depth == 0 && r->included) { /* its children are those of the includer's */
+    /* the root of an included file: its children go to the including element's parent */
+    if (r->depth == 0 && r->included) {
         r->open[++r->depth] = parent;
         return;
     }
@@ -233,7 +236,7 @@ static void start_element(void *data, const char *tag, const char **attributes)
     if (!r->status && !strcmp(tag, "default")) {
         add_default(r, &r->xml->nodes[node]);
     } else if (!r->status && !strcmp(tag, "include")) {
-        const koksma__xml_node copy = r->xml->nodes[node]; /* the array may move */
+        const koksma__xml_node copy = r->xml->nodes[node]; /* including a file may move the array */
         include(r, &copy, parent);
     }
 }
@@ -249,7 +252,7 @@ static void refuse_doctype(void *data, const char *name, const char *system, con
 {
     reading *r = data;
     (void)name, (void)system, (void)public, (void)internal;
-    stop(r, koksma__import_fail(here(r), "a document type: scenes have none, and its entities are not read"));
+    stop(r, koksma__import_fail(here(r), "a document type declaration is not allowed in a scene"));
 }
 
 static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char *file, const char *text, size_t size,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An XML text as a tree of elements, for Mitsuba's scenes: with its includes in their places and $names replaced. */
+/* An XML text as a tree of elements, for Mitsuba's scenes, with included files inserted and $names replaced. */
 #ifndef KOKSMA_SCENE_XML_H
 #define KOKSMA_SCENE_XML_H
 
@@ -7,27 +7,28 @@
 
 typedef struct koksma__xml_node {
     char *tag;
-    char **attributes; /* name, value, name, value, NULL */
+    char **attributes; /* names and values in turn, ended by NULL */
     koksma__text_place place;
-    int first, last, next; /* children; the next one of the same parent; -1: none */
+    int first, last, next; /* first and last child; next child of the same parent; -1: none */
 } koksma__xml_node;
 
 typedef struct koksma__xml {
-    koksma__xml_node *nodes; /* the first one is the root */
-    char **files;            /* names of includes */
+    koksma__xml_node *nodes; /* the first node is the root */
+    char **files;            /* names of included files, to which positions refer */
     struct koksma__xml_default *defaults;
     size_t n, n_files, n_defaults;
 } koksma__xml;
 
-/* Errors: MALFORMED (no well-formed XML; a document type, whose entities could grow without end; too deep; too many),
-   UNSUPPORTED (this build lacks expat), MEMORY. fini whatever comes of it. */
+/* Parses an XML text. Errors: MALFORMED (not well-formed; a document type declaration, whose entities could grow
+   without limit; nested too deep; too many elements), UNSUPPORTED (this build lacks expat), MEMORY. Call
+   koksma__xml_fini even after an error. */
 koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out);
 void koksma__xml_fini(koksma__xml *xml);
 
-/* The value of an attribute; NULL: it isn't there. */
+/* The value of an attribute; NULL if the node does not have it. */
 const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name);
 
-/* Whether two names are one: case and '_' don't count (toWorld, to_world). */
+/* Whether two names are equal, ignoring case and '_' (toWorld, to_world). */
 bool koksma__xml_alike(const char *a, const char *b);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Percentile bootstrap intervals (Efron 1979). A resample draws n of the n pairs with replacement and redraws their
-   means with their standard errors; the interval is from the 2.5 % to the 97.5 % quantile of the statistic over the
-   resamples. Random numbers are hashes of (seed, resample, index), so that statistics of the same pairs share their
-   resamples and their difference has an interval, too. */
+/* Percentile bootstrap intervals (Efron 1979). A resample draws n of the n pairs with replacement and replaces
+   each mean by a normal random number with the mean's standard error. The interval lies between the 2.5 % and
+   97.5 % quantiles of the statistic over all resamples. Random numbers are hashes of (seed, resample, index), so
+   that different statistics of the same pairs use the same resamples, and their difference has an interval, too. */
 #include "stats/bootstrap.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The q-th quantile of sorted values, linear between them. */
+/* The q-th quantile of sorted values, by linear interpolation. */
 static double quantile(const double *sorted, size_t n, double q)
 {
     const double at = q * (double)(n - 1);
@@ -26,7 +26,7 @@ static double quantile(const double *sorted, size_t n, double q)
     return i + 1 < n ? sorted[i] + (at - (double)i) * (sorted[i + 1] - sorted[i]) : sorted[n - 1];
 }
 
-/* Values without the NaN, which go last; sorted. How many there are. */
+/* Sorts the values that are not NaN to the front and returns their number. */
 static size_t sort(double *values, size_t n)
 {
     size_t kept = 0;
@@ -39,7 +39,7 @@ static size_t sort(double *values, size_t n)
     return kept;
 }
 
-/* Of the values that are numbers, if any; sorts them. */
+/* Sets the interval from the quantiles of the values that are not NaN, if there are any; reorders the values. */
 static void set_interval(double *values, size_t n, koksma__estimate *out)
 {
     const size_t kept = sort(values, n);
@@ -49,13 +49,13 @@ static void set_interval(double *values, size_t n, koksma__estimate *out)
     }
 }
 
-/* Index i of resample s. */
+/* The index of the pair that resample s draws as its i-th. */
 static size_t drawn(uint64_t seed, size_t s, size_t i, size_t n)
 {
     return koksma__below(koksma__random(seed, KOKSMA__PURPOSE_SEARCH, s, (uint32_t)i).w[0], (uint32_t)n);
 }
 
-/* The mean i of resample s: normal about the measured one (Box and Muller 1958). */
+/* The i-th mean in resample s, drawn from the normal distribution about the measured mean (Box and Muller 1958). */
 static double redrawn(const koksma__means *m, size_t s, size_t i)
 {
     double u[2];
@@ -66,7 +66,7 @@ static double redrawn(const koksma__means *m, size_t s, size_t i)
     return m->mean[i] + m->error[i] * sqrt(-2 * log1p(-u[0])) * cos(2 * M_PI * u[1]);
 }
 
-/* Writes resample s to a and b. A pattern that is drawn twice has equal means both times: such a tie counts as no
+/* Writes resample s to a and b. A pattern that is drawn twice has equal means both times; such a tie counts as no
    ordered pair. */
 static void resample(const koksma__means *x, const koksma__means *y, size_t n, uint64_t seed, size_t s, double *a,
                      double *b)

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rank correlation: Spearman's rho and Kendall's tau-b, by their definitions in O(n^2), since n is a number of
-   patterns. Values that koksma__compare calls equal are ties, so that rounding makes no order. */
+/* Rank correlation: Spearman's rho and Kendall's tau-b, by their definitions in O(n^2), which is fast because n
+   is a number of patterns. Values that koksma__compare finds equal are ties, so that rounding does not decide an
+   order. */
 #include "stats/correlation.h"
 
 #include <math.h>
 
 #include "stats/statistics.h"
 
-/* Mean ranks: (number below) + (number equal + 1) / 2. Here less the middle rank (n + 1) / 2, and rho is Pearson's
-   correlation of them (Spearman 1904). n is a number of patterns: n^2 is small. */
+/* Mean rank of value i, (number below) + (number equal + 1) / 2, minus the middle rank (n + 1) / 2. Spearman's
+   rho is Pearson's correlation of these (Spearman 1904). */
 static double centred_rank(const double *values, size_t n, size_t i)
 {
     double rank = -0.5 * (double)n;

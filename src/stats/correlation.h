@@ -5,13 +5,13 @@
 
 #include <stddef.h>
 
-/* Spearman's rho: Pearson's correlation of the mean ranks. Kendall's tau-b. Values that compare equal are
-   ties. NaN when one side is constant. */
+/* Spearman's rho, which is Pearson's correlation of the mean ranks, and Kendall's tau-b. Values that
+   koksma__compare finds equal are ties. Both are NaN when x or y is constant. */
 double koksma__spearman(const double *x, const double *y, size_t n);
 double koksma__kendall(const double *x, const double *y, size_t n);
 
-/* out: the centred mean ranks of n values over the root of their sum of squares, so that the sum of the products of
-   two such lists is Spearman's rho; zeros where all values compare equal. */
+/* Writes to `out` the centred mean ranks of n values, divided by the root of their sum of squares, so that the
+   dot product of two such lists is Spearman's rho; zeros where all values are equal. */
 void koksma__unit_ranks(const double *values, size_t n, double *out);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Least-squares slopes of means against n on logarithmic axes. The standard error of several trials comes from how
- * the values of a trial vary together (the delta method on their covariance), that of one trial from the residuals.
+ * Least-squares slopes of means against n on logarithmic axes. With several trials the standard error of a slope
+ * comes from the covariance of a trial's values at different n (delta method), with one trial from the residuals.
  */
 #include <math.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/status.h"
 
-/* Welford 1962, for products too. */
+/* Updates means and sums of products of deviations (Welford 1962). */
 void koksma_joint_add(koksma_joint *joint, size_t n, const double *values)
 {
     double off[KOKSMA_MAX_SIZES];
@@ -31,13 +31,13 @@ void koksma_joint_add(koksma_joint *joint, size_t n, const double *values)
 }
 
 /*
- * Prefixes of one set are nested, so that the means at several sizes vary together, and residuals, small as they are,
- * say little of how far the line would move with other sets. The slope is sum_i w_i log m_i with
+ * Prefixes of one set are nested, so that the means at several sizes are correlated, and their residuals are too small
+ * to show how far the line would move with other sets. The slope is sum_i w_i log m_i with
  * w_i = (x_i - x)/sum (x_i - x)^2, so that to first order its variance over trials is
  *
  *     sum_ik w_i w_k S_ik/(m_i m_k) / (T (T - 1)),
  *
- * S being the sums of products of deviations: the infinitesimal jackknife (Efron 1982, chapter 6).
+ * where S are the sums of products of deviations: the infinitesimal jackknife (Efron 1982, chapter 6).
  */
 static double error_of_trials(size_t n, const double *sizes, const double *means, const koksma_joint *joint)
 {
@@ -46,7 +46,7 @@ static double error_of_trials(size_t n, const double *sizes, const double *means
         for (size_t i = 0; i < n; i++) {
             weights[i] = 0;
             if (!(means[i] > 0 && isfinite(means[i]))) {
-                continue; /* the line leaves it out */
+                continue; /* the fit of the line skips this mean, too */
             }
             if (pass == 0) {
                 middle += (log(sizes[i]) - middle) / ++count;

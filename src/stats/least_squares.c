@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Least squares of a line in two passes: means by updates (Welford 1962), then sums of squares and products about
-   them, which lose no digits to large means as sums of raw squares do. The pairs stay with the caller, who leaves out
-   those that are no numbers. */
+/* Fits a line by least squares in two passes: first the means by updates (Welford 1962), then sums of squares and
+   products about the means, which do not lose digits if the means are large, as sums of raw squares would. The
+   caller keeps the pairs and omits those with NaN. */
 #include "stats/least_squares.h"
 
 void koksma__fit_mean(koksma__fit *fit, double x, double y, double weight)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lgamma leaves the sign in a variable of the whole program, which threads would write at once. */
-#define _DEFAULT_SOURCE /* lgamma_r */
+/* The logarithm of the gamma function by lgamma_r. lgamma stores the sign in a global variable, which several
+   threads would write at the same time. */
+#define _DEFAULT_SOURCE /* for lgamma_r */
 #include "stats/log_gamma.h"
 
 #include <math.h>

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The logarithm of the gamma function, for several threads. */
+/* The logarithm of the gamma function, safe for several threads. */
 #ifndef KOKSMA_STATS_LOG_GAMMA_H
 #define KOKSMA_STATS_LOG_GAMMA_H
 
 #include "core/visibility.h"
 
-/* log gamma(x), x > 0; by several threads at once, as lgamma is not to be called. */
+/* log gamma(x), x > 0. Unlike lgamma, several threads may call it at the same time. */
 KOKSMA__LAB double koksma__log_gamma(double x);
 
 #endif

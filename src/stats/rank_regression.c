@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Rank regression with cross-validation over scenes (Hastie, Tibshirani and Friedman, The Elements of Statistical
- * Learning, 2009: ridge regression 3.4.1, cross-validation 7.10, of which 7.10.2: whatever is chosen, is chosen
- * without the scene that is predicted). Inside a case ranks have the mean 0 and the length 1, so that a scene says
- * all by two sums over its cases: G = Z'Z / cases, the correlations of the k measures with each other, and c = Z'y /
- * cases, those with the error. Sums over scenes are those of the fit; a fit on the others is the sum without one.
+ * Learning, 2009: ridge regression 3.4.1, cross-validation 7.10; as 7.10.2 requires, every choice is made without the
+ * scene that is predicted). Within a case, ranks are scaled to mean 0 and length 1, so that two matrices summarise a
+ * scene: G = Z'Z / cases, the correlations of the k measures with each other, and c = Z'y / cases, their correlations
+ * with the error. A fit to several scenes uses the sums of their G and c; leaving a scene out subtracts its G and c.
  * With weights b the squared error per case is 1 - 2 b'c + b'G b.
  *
- *   single   the measure of the least squared error, c_j^2 / G_jj the largest; only its sign is fitted
- *   pair     the same over all k (k - 1) / 2 pairs: c' G^-1 c of the pair the largest
- *   all      ridge: (G + penalty I) b = c; the penalty of least error in a cross-validation among the other scenes
+ *   single   the measure with the least squared error, that is, the largest c_j^2 / G_jj; only its sign is fitted
+ *   pair     the pair of measures with the largest c' G^-1 c, among all k (k - 1) / 2 pairs
+ *   all      ridge: (G + penalty I) b = c, with the penalty of least error in a cross-validation among the other scenes
  */
 #include "stats/rank_regression.h"
 
@@ -23,12 +23,13 @@ enum { PENALTIES = 9 };
 
 static const double penalties[PENALTIES] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10};
 
-/* G (k x k), then c (k), of each scene; and numbers to work with. */
+/* The matrices G (k x k) and c (k) of each scene and of sums over scenes, with memory for the computations. */
 typedef struct sums {
-    size_t k, n_scenes, size;               /* size: of one scene's numbers */
-    double *of;                             /* n_scenes of them */
-    size_t *cases;                          /* by scene */
-    double *all, *train, *factor, *weights; /* the sum over all; over some; a Cholesky factor; k numbers */
+    size_t k, n_scenes, size; /* size: how many numbers G and c of a scene have, k (k + 1) */
+    double *of;               /* G and c of each scene, `size` numbers for each */
+    size_t *cases;            /* number of cases in each scene */
+    /* sum over all scenes; sum over the training scenes; a Cholesky factor; k weights */
+    double *all, *train, *factor, *weights;
 } sums;
 
 static void sums_fini(sums *s)
@@ -85,7 +86,7 @@ static void add_cases(sums *s, const koksma__rank_case *cases, size_t n_cases)
     }
 }
 
-/* Sets s->train to the sum over all scenes but two (the same twice: one). */
+/* Sets s->train to the sum over all scenes but two, or but one if `scene` equals `other`. */
 static void leave_out(sums *s, size_t scene, size_t other)
 {
     for (size_t i = 0; i < s->size; i++) {
@@ -93,7 +94,8 @@ static void leave_out(sums *s, size_t scene, size_t other)
     }
 }
 
-/* Solves (train's G + penalty count I) b = c by Cholesky's factors: positive definite, as the penalty is above 0. */
+/* Solves (G + penalty count I) b = c for s->train by Cholesky factorisation; the matrix is positive definite
+   because the penalty is positive. */
 static void fit_ridge(sums *s, double penalty, size_t count)
 {
     const size_t k = s->k;
@@ -114,7 +116,7 @@ static void fit_ridge(sums *s, double penalty, size_t count)
     }
 }
 
-/* The squared error of the weights in a scene, less the 1 that no weights change. */
+/* The squared error of the weights per case of a scene, minus the constant 1. */
 static double error_in(const sums *s, size_t scene)
 {
     const size_t k = s->k;
@@ -126,7 +128,8 @@ static double error_in(const sums *s, size_t scene)
     return error;
 }
 
-/* The penalty that predicts best among the scenes without `scene`; of equal ones the larger. */
+/* Chooses the penalty with the least error in a cross-validation among all scenes but `scene`; of equal ones the
+   larger. */
 static double choose_penalty(sums *s, size_t scene, size_t n_used)
 {
     double best = penalties[PENALTIES - 1], least = INFINITY;
@@ -147,7 +150,8 @@ static double choose_penalty(sums *s, size_t scene, size_t n_used)
     return best;
 }
 
-/* What a pair explains of s->train, and its weights; a singular one nothing. */
+/* The part of the squared error that a pair of measures explains in s->train, and the pair's weights; -1 if the
+   pair is nearly collinear. */
 static double explained(const sums *s, size_t a, size_t b, double weights[2])
 {
     const size_t k = s->k;
@@ -192,8 +196,8 @@ static void choose_pair(const sums *s, koksma__held_out *out, double weights[2])
     }
 }
 
-/* Spearman's correlation of the sum of weighted ranks with the error's ranks; where all sums are equal they order
-   nothing: 0. */
+/* Spearman's correlation of the weighted sum of ranks with the error's ranks; 0 if all sums are equal and so
+   define no order. */
 static double predict(const koksma__rank_case *at, size_t k, const size_t *which, const double *weights, size_t n,
                       double *scores)
 {
@@ -256,7 +260,8 @@ koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_c
     if (!scores) {
         status = koksma__fail_memory((most + 1) * sizeof *scores);
     } else if (n_used < 3) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "rank regression: %zu scenes have cases; 3 would do", n_used);
+        status =
+            koksma__fail(KOKSMA_ARGUMENT, "rank regression: %zu scenes have cases; at least 3 are needed", n_used);
     }
     for (size_t scene = 0; !status && scene < n_scenes; scene++) {
         out[scene] = (koksma__held_out){0};

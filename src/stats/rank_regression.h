@@ -1,31 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which combination of measures predicts the error in a scene that it has not seen: regression of the ranks of
-   patterns' errors on the ranks of their measures, cross-validated over scenes. */
+/* Finds which combination of measures predicts the error in an unseen scene: regression of the ranks of patterns'
+   errors on the ranks of their measures, cross-validated over scenes. */
 #ifndef KOKSMA_STATS_RANK_REGRESSION_H
 #define KOKSMA_STATS_RANK_REGRESSION_H
 
 #include <koksma/koksma.h>
 
-/* A case: n patterns with k measures each. */
+/* A case: n patterns, each with k measures and an error. */
 typedef struct koksma__rank_case {
     size_t scene, n;
-    double *ranks; /* k lists of n unit ranks (koksma__unit_ranks), a measure's after another's; then the error's */
+    /* k + 1 lists of n unit ranks (koksma__unit_ranks): one list for each measure, then one for the error */
+    double *ranks;
 } koksma__rank_case;
 
-/* Prediction of one scene's errors by models that were fitted to all other scenes: the models, and the mean Spearman
-   correlation of each one's predicted order with the order of the errors. */
+/* Prediction of one scene's errors by models fitted to all other scenes: the models, and the mean Spearman
+   correlation between the order that each predicts and the order of the errors. */
 typedef struct koksma__held_out {
-    size_t cases;               /* 0: nothing else of this is set */
-    size_t single;              /* the measure chosen in the other scenes */
-    size_t pair[2];             /* the pair; without one (k = 1) twice the single */
-    _Alignas(8) double penalty; /* of the ridge regression on all measures; aligned also where a double needs less, so
-                                   that statistics can step over results by doubles */
-    size_t hindsight; /* the single measure that is best in this very scene, and its correlation: no prediction */
+    size_t cases;   /* number of the scene's cases; 0: the other members are not set */
+    size_t single;  /* the measure that the other scenes select */
+    size_t pair[2]; /* the pair that the other scenes select; with k = 1, both are `single` */
+    /* Penalty of the ridge regression on all measures; aligned to 8 also where a double needs less, so that the
+       struct is an array of doubles. */
+    _Alignas(8) double penalty;
+    /* the single measure that is best in the scene itself, which is no prediction; rho_hindsight is its
+       correlation */
+    size_t hindsight;
     double rho_single, rho_pair, rho_all, rho_hindsight;
 } koksma__held_out;
 
-/* Predicts each of n_scenes scenes, 3 or more with cases, from the others, which all count alike. out: a result a
-   scene. Errors: ARGUMENT for fewer scenes, MEMORY. */
+/* Predicts each of n_scenes scenes, at least 3 of them with cases, from all others, which have equal weight.
+   `out` receives one result for each scene. Errors: ARGUMENT for fewer scenes, MEMORY. */
 koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_cases, size_t k, size_t n_scenes,
                                       koksma__held_out *out);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The statistics of koksma/series.h: values that come one at a time (Welford 1962: the mean and the sum of squared
-   deviations are updated, so that no values are kept and no digits are lost), and the line through points on
+/* The statistics of koksma/series.h. Running means and sums of squared deviations are updated one value at a time
+   (Welford 1962), so that values need not be stored and no digits are lost; a line is fitted through points on
    logarithmic axes. */
 #include <math.h>
 

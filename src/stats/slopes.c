@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How errors fall with n. A slope is that of the line of least squares through (log n, log mean). Its interval comes
-   from the standard errors of the means, to first order in the logs, or from the residuals where these are unknown;
-   a weighted line and its lack of fit say whether the means lie on a line at all. The number of samples that reaches
-   a given error is interpolated between the two nearest sizes, where the error is taken to follow c n^slope. */
+/* How errors fall with n. A slope is that of the least-squares line through (log n, log mean). Its interval comes
+   from the standard errors of the means, to first order in the logarithms, or from the residuals where the errors
+   are unknown; the lack of fit of a weighted line shows whether the means lie on a line at all. The number of
+   samples that reaches a given error is interpolated between the two nearest sizes, as if the error followed c
+   n^slope between them. */
 #include "stats/slopes.h"
 
 #include <math.h>
@@ -12,15 +13,16 @@
 #include "stats/least_squares.h"
 #include "stats/quantiles.h"
 
-#define NORMAL_99 2.3263478740408408 /* what a normal number exceeds in 1 % of cases */
+#define NORMAL_99 2.3263478740408408 /* the 99 % quantile of the normal distribution */
 
-/* Standard error of the log of a mean, to first order; NaN: one trial of what varies, 0: what doesn't. */
+/* Standard error of the log of a mean, to first order; NaN for one trial of a random value, 0 for a deterministic
+   value. */
 static double log_error(const koksma__summary *s)
 {
     return s->sd / sqrt((double)s->n) / s->mean;
 }
 
-/* Whether every log_error is known, one is above 0, and every one is. */
+/* Whether all of the log_error are known, whether some are above 0, and whether all are. */
 typedef struct errors {
     bool known, some, all;
 } errors;
@@ -37,7 +39,7 @@ static errors errors_of(const koksma__summary *y, size_t count)
     return e;
 }
 
-/* 1 / sigma^2, or 1. */
+/* The weight 1 / sigma^2 of a mean, or 1 without weights. */
 static double weight(const koksma__summary *y, bool weighted)
 {
     return weighted ? 1 / (log_error(y) * log_error(y)) : 1;
@@ -65,8 +67,9 @@ static double squared_residuals(const koksma__fit *f, const double *n, const kok
     return sum;
 }
 
-/* Half the interval of sum c_i y_i, c_i = (x_i - x') / sxx: its variance is V = sum c_i^2 sigma_i^2, of
-   V^2 / sum (c_i^2 sigma_i^2)^2 / (trials_i - 1) degrees of freedom (Satterthwaite 1946; Welch 1947). */
+/* Half the width of the interval of the slope sum c_i y_i with c_i = (x_i - x') / sxx. The variance is V = sum
+   c_i^2 sigma_i^2, with V^2 / sum (c_i^2 sigma_i^2)^2 / (trials_i - 1) degrees of freedom (Satterthwaite 1946;
+   Welch 1947). */
 static double half_of_trials(const koksma__fit *f, const double *n, const koksma__summary *y, size_t count)
 {
     double variance = 0, fourth = 0;
@@ -81,7 +84,7 @@ static double half_of_trials(const koksma__fit *f, const double *n, const koksma
     return fourth > 0 ? koksma__student_quantile(0.975, variance * variance / fourth) * sqrt(variance) : 0;
 }
 
-/* Half the interval where the residuals' scatter is all that is known. */
+/* Half the width of the interval of the slope, from the residuals alone. */
 static double half_of_residuals(const koksma__fit *f, const double *n, const koksma__summary *y, size_t count)
 {
     if (count < 3) {
@@ -91,10 +94,10 @@ static double half_of_residuals(const koksma__fit *f, const double *n, const kok
     return koksma_student_975(count - 2) * sqrt(scatter / f->xx);
 }
 
-/* Lack of fit of the weighted line, Q = sum w_i r_i^2 with w_i = 1 / sigma_i^2, whose sigmas are estimates: with
-   p = count - 2, the leverages h_i and A = sum (1 - h_i)^2 / (trials_i - 1), Q / (p + 2 A - 6 A / (p + 2)) is about F
-   of p and p (p + 2) / (3 A) degrees of freedom (Johansen 1980; of means, Welch 1951). F's tail by the cube root
-   (Paulson 1942). */
+/* Tests the lack of fit of the weighted line at 1 %: Q = sum w_i r_i^2 with w_i = 1 / sigma_i^2, where the sigmas
+   are estimates. With p = count - 2, the leverages h_i and A = sum (1 - h_i)^2 / (trials_i - 1), Q / (p + 2 A - 6
+   A / (p + 2)) approximately follows F with p and p (p + 2) / (3 A) degrees of freedom (Johansen 1980; for means,
+   Welch 1951). The tail of F is computed by the cube root approximation (Paulson 1942). */
 static bool lies_off_line(const double *n, const koksma__summary *y, size_t count)
 {
     const koksma__fit f = fit_of(n, y, count, true);
@@ -124,8 +127,8 @@ koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, siz
     return trend;
 }
 
-/* Between two measured sizes the error is interpolated as c n^slope. The interval comes from the standard errors of
-   the three means by first-order propagation in the logs. */
+/* Between two measured sizes the error is interpolated as c n^slope. The interval comes from the standard errors
+   of the three means by first-order propagation in the logarithms. */
 koksma__estimate koksma__samples_for(const koksma__convergence *p, double target, double target_error, bool *outside)
 {
     koksma__estimate none = {NAN, NAN, NAN};

@@ -1,32 +1,32 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How errors fall with n: slopes in log-log, and how many samples reach an error. */
+/* How errors fall with n: slopes on logarithmic axes, and the number of samples that reaches an error. */
 #ifndef KOKSMA_STATS_SLOPES_H
 #define KOKSMA_STATS_SLOPES_H
 
 #include "stats/statistics.h"
 
-/* How means fall with n. */
+/* The slope of means over n, and whether they follow a power law. */
 typedef struct koksma__trend {
     koksma__estimate slope;
-    bool off_line; /* the means lie off every line by more than their trials explain, surely (at 1 %) */
+    bool off_line; /* a test at 1 % rejects that the means lie on a line */
 } koksma__trend;
 
-/* The average slope in log-log of means above 0 at rising n[i]: that of the line of least squares, all sizes counting
-   alike, which is a statement about a curve, too. Its interval is of the means' own errors, by Student's t with
-   Welch's and Satterthwaite's degrees of freedom, whether the means lie on a line or not. Where no mean varies, or
-   one is of one trial, how they scatter about the line is all that is known: then it is of that, with count - 2
-   degrees of freedom, NaN for two sizes. Fewer sizes than two have no slope: NaN. */
+/* The average slope of positive means at ascending n[i] on logarithmic axes: that of the least-squares line with
+   equal weights, which also describes a curve. Its interval comes from the standard errors of the means, by
+   Student's t with Welch's and Satterthwaite's degrees of freedom, whether or not the means lie on a line. If no
+   mean varies, or one has only one trial, the interval comes from the residuals, with count - 2 degrees of
+   freedom, and is NaN for two sizes. With fewer than two sizes the slope is NaN. */
 koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, size_t count);
 
-/* Mean errors of a pattern at rising sample counts, with standard errors. */
+/* A pattern's mean errors at ascending numbers of samples, with standard errors. */
 typedef struct koksma__convergence {
     const double *n, *mean, *error;
     size_t count;
 } koksma__convergence;
 
-/* How many samples of the pattern reach the error `target` (with standard error target_error), by interpolation in
-   log n and log error between the two neighbouring sizes, or extrapolation from the last two by their slope: *outside
-   says so. NaN when the errors don't fall there. */
+/* How many samples of the pattern reach the error `target` (with standard error target_error), by interpolation
+   in log n and log error between the two nearest sizes, or by extrapolation from the first or last two, in which
+   case *outside is true. NaN if the error does not fall between these sizes. */
 koksma__estimate koksma__samples_for(const koksma__convergence *pattern, double target, double target_error,
                                      bool *outside);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Means, standard deviations and intervals of values that are all there: sums are compensated (core/sum.h) and go in
-   index order, so that equal values give equal bits. Pairs are compared by their differences. Where exact arithmetic
-   gives 0, rounding leaves about 1e-16 of the values; differences up to 1e-12 of them count as 0, or an interval
-   without width would call noise a difference. */
+/* Means, standard deviations and intervals of values, and comparisons of pairs by their differences. Sums are
+   compensated (core/sum.h) and in the order of the index, so that equal values give equal bits. Where exact
+   arithmetic gives 0, rounding leaves about 1e-16 of the values; differences up to 1e-12 of the values therefore
+   count as 0, because an interval of no width would otherwise make rounding noise significant. */
 #include "stats/statistics.h"
 
 #include <math.h>
@@ -11,7 +11,8 @@
 
 #include "core/sum.h"
 
-/* Values that are equal in exact arithmetic differ by less, in measures that are good to their last digits. */
+/* Values that are equal in exact arithmetic differ by less than this, relative to their size, if they are
+   accurate to their last digits. */
 #define ROUNDING 1e-12
 
 int koksma__compare(double a, double b)
@@ -19,7 +20,7 @@ int koksma__compare(double a, double b)
     return fabs(a - b) <= ROUNDING * fmax(fabs(a), fabs(b)) ? 0 : (a > b) - (a < b);
 }
 
-/* a[i] - b[i], or a[i] without b. */
+/* a[i] - b[i], or 0 if they compare equal; a[i] if b is NULL. */
 static double item(const double *a, const double *b, size_t i)
 {
     return !b ? a[i] : koksma__compare(a[i], b[i]) || isnan(a[i] - b[i]) ? a[i] - b[i] : 0;
@@ -58,8 +59,8 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
     return s;
 }
 
-/* The quotient q of the means errs by about the mean of a - q base over the mean of base (Cochran 1977, section 6.3):
-   that base varies, too, is in it. */
+/* The standard error of the quotient q of the means is about that of the mean of a - q base, divided by the mean
+   of base (Cochran 1977, section 6.3); it includes the variation of base. */
 koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n)
 {
     const double mean_a = koksma__summarize(a, n, 1).mean, mean = koksma__summarize(base, n, 1).mean;

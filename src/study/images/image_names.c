@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The names of pictures that another renderer made: a path is matched with a template in which {spp}, {trial} and
-   other names in braces stand for digits or texts; spp and trial are numbers, all others name the group of a picture.
- */
+/* Reads the file names of images that another renderer made. A path is matched with a template whose names in
+   braces, such as {spp} and {trial}, stand for digits or text. {spp} and {trial} are numbers; all other names
+   together identify the image's group. The matching backtracks, and remembers failures so that its time is
+   bounded. */
 #include "study/images/image_names.h"
 
 #include <stdio.h>
@@ -30,16 +31,17 @@ static void keep(koksma__image_name *p, const char *place, const char *text, siz
     }
 }
 
-/* What is tried, and what need not be tried again: places x bytes of the path, so that time is bounded by them. */
+/* The state of a match. `failed` marks pairs of a place and a position in the path that do not fit, so that each
+   pair is tried only once. */
 typedef struct trial_fit {
     const char *path;
     size_t length;
-    unsigned char *failed;      /* (MAX_PLACES + 1) x (length + 1) */
-    size_t lengths[MAX_PLACES]; /* of the texts at the places */
+    unsigned char *failed;      /* (MAX_PLACES + 1) x (length + 1) flags */
+    size_t lengths[MAX_PLACES]; /* length of the text at each place */
 } trial_fit;
 
-/* Whether the rest of the path, from `at` on, fits the rest of the template; longest texts for the first place are tried
-   first. The depth of recursion is the number of places. */
+/* Whether the path from `at` on fits the rest of the template. Longer texts are tried first for each place. The
+   depth of recursion is the number of places. */
 static bool fit_from(trial_fit *t, const char *places, int place, size_t at)
 {
     while (*places && *places != '{') {
@@ -91,7 +93,7 @@ koksma_status koksma__image_name_read(const char *places, const char *path, koks
     return KOKSMA_OK;
 }
 
-/* The places as stars, all else as itself. */
+/* Replaces each place by a star and escapes all other characters. */
 koksma_status koksma__image_names_pattern(const char *places, char *pattern, size_t size)
 {
     size_t used = 0;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The tables of a study for images that another renderer made, known by their file names. All images are compared
- * with the reference at once; the coherence of the errors, which takes 16 bytes a pixel, is found row by row.
- * images_report.c writes the page.
+ * Makes the tables of a study for images that another renderer made, identified by their file names. All images
+ * are compared with the reference in parallel; the coherence of the errors, which takes 16 bytes per pixel, is
+ * computed for one row of the table at a time. images_report.c writes the page.
  */
 #include <glob.h>
 #include <math.h>
@@ -22,11 +22,12 @@
 #include "study/images/images_report.h"
 #include "study/run/study.h"
 
-/* One file. */
+/* One image file. */
 typedef struct picture {
     const char *path;
     koksma__image_name name;
-    _Alignas(8) koksma_image_error error; /* also where a double needs less, so that a picture is a row of doubles */
+    /* aligned to 8 also where a double needs less, so that the struct is an array of doubles */
+    _Alignas(8) koksma_image_error error;
     double robust, top_share;
 } picture;
 _Static_assert(sizeof(picture) % sizeof(double) == 0, "the statistics step over pictures by doubles");
@@ -35,7 +36,7 @@ typedef struct pictures {
     size_t n;
     picture *at;
     koksma_image reference;
-    const koksma_metric_spec *metric; /* NULL: mae */
+    const koksma_metric_spec *metric; /* metric of the errors; NULL: the mean absolute error */
 } pictures;
 
 static int compare_pictures(const void *a, const void *b)
@@ -77,7 +78,7 @@ static koksma_status collect(const char *places, const char *pattern, const glob
 
 /* ---- Errors -------------------------------------------------------------------------------------------- */
 
-/* The error by the metric takes the place of the mean absolute one. */
+/* Replaces the mean absolute error by the error in the metric. */
 static koksma_status apply_metric(const pictures *all, const koksma_image *image, picture *p)
 {
     koksma_metric_spec mae = {.metric = NULL};
@@ -97,7 +98,7 @@ static koksma_status compare_one(void *context, size_t i)
     koksma_status status = koksma__image_read(all->at[i].path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &image);
     if (!status) {
         status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
-        /* One pixel that is no number would make a whole group's error none. */
+        /* A single pixel with NaN would make the mean of a whole group NaN. */
         status =
             status ? koksma__fail_in(status, all->at[i].path) : koksma_image_check_finite(&image, all->at[i].path);
         status = status ? status : apply_metric(all, &image, &all->at[i]);
@@ -106,7 +107,7 @@ static koksma_status compare_one(void *context, size_t i)
     return status;
 }
 
-/* Gives the rows of one group their slope. */
+/* Fits the slope of a group and stores it in all its rows. */
 static koksma_status add_slope(koksma_images_row *rows, size_t n)
 {
     koksma__summary *means = calloc(n, sizeof *means);
@@ -171,7 +172,8 @@ static koksma_status make_rows(const pictures *all, koksma_images_row **rows, si
     return status;
 }
 
-/* How far a row's images are behind those of the first of its spp: paired where both have the same trials. */
+/* Computes the interval of the relative difference between a row's error and that of the best row of equal spp;
+   pairs images by trial, and leaves the interval unknown unless both rows have the same trials. */
 static koksma_status add_behind(const picture *first, size_t n_first, const picture *images, koksma_images_row *row)
 {
     bool paired = n_first == row->trials;
@@ -193,7 +195,8 @@ static koksma_status add_behind(const picture *first, size_t n_first, const pict
     return KOKSMA_OK;
 }
 
-/* Positions among the rows of equal spp; the images of the rows follow each other in `all`. */
+/* Computes positions and distances to the best among rows of equal spp. The images in `all` are in the order of
+   the rows. */
 static koksma_status add_positions(const pictures *all, koksma_images_row *rows, size_t n)
 {
     koksma_status status = KOKSMA_OK;
@@ -216,7 +219,7 @@ static koksma_status add_positions(const pictures *all, koksma_images_row *rows,
     return status;
 }
 
-/* The coherence of each row, whose images follow each other in `all`. */
+/* Computes the coherence of each row. The images in `all` are in the order of the rows. */
 static koksma_status add_coherence(const pictures *all, const koksma_run *run, koksma_images_row *rows, size_t n)
 {
     koksma_status status = KOKSMA_OK;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The report of koksma study images, in the format and on the page of a study's (docs/report-format.md): which group has the
- * least error at each number of samples and how sure that is, how errors fall with the samples, the first image of
- * each group beside the reference, and the command.
+ * The report of koksma study images, in the format and on the page of a study's report (docs/report-format.md):
+ * which group has the least error at each number of samples and how certain that is, how errors fall with the
+ * number of samples, the first image of each group beside the reference, and the command.
  */
 #include "study/images/images_report.h"
 
@@ -16,10 +16,11 @@
 #include "study/report/document.h"
 #include "study/report/page.h"
 
-/* What the floats of a page may take before their base64, and how many images are shown. */
+/* The most bytes of floats on a page, before base64 encoding, and the most images shown. */
 enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
 
-/* A group without its names, "sobol ball" for "sampler=sobol scene=ball": a pattern then has its colour in charts. */
+/* Writes a group's texts without their names, "sobol ball" for "sampler=sobol scene=ball", so that a pattern's
+   name selects its colour in charts. */
 static const char *label_of(const koksma_images_row *row, char label[KOKSMA_IMAGES_GROUP])
 {
     char *to = label;
@@ -41,7 +42,7 @@ static bool same_group(const koksma_images_row *a, const koksma_images_row *b)
     return !strcmp(a->group, b->group);
 }
 
-/* Whether row i is the first of its number of samples. */
+/* Whether row i is the first with its number of samples. */
 static bool begins_spp(const koksma__images *all, size_t i)
 {
     size_t k = 0;
@@ -60,7 +61,8 @@ static void say_spp(koksma__document *d, long long spp)
     }
 }
 
-/* The first of a number of samples, and which others have more error with 95 % confidence. */
+/* Writes which group has the least error at this number of samples, and how many others are worse with 95 %
+   confidence. */
 static void put_answer(koksma__document *d, const koksma__images *all, long long spp)
 {
     const koksma_images_row *first = NULL;
@@ -135,7 +137,7 @@ static void put_table(koksma__document *d, const koksma__images *all, long long 
     koksma__doc_table_end(d);
 }
 
-/* The metric in words. */
+/* Writes the name of the metric in words. */
 static void metric_of(const koksma__images *all, char text[KOKSMA_MAX_SPEC])
 {
     snprintf(text, KOKSMA_MAX_SPEC, "the mean absolute difference of luminance");
@@ -227,7 +229,7 @@ static koksma_status put_picture(koksma__document *d, const char *path, const ch
     return KOKSMA_OK;
 }
 
-/* The first image of each group at the largest number of samples, beside the reference. */
+/* Shows the first image of each group at the largest number of samples, beside the reference. */
 static koksma_status put_pictures(koksma__document *d, const koksma__images *all)
 {
     const koksma_image *r = all->reference;
@@ -241,11 +243,11 @@ static koksma_status put_pictures(koksma__document *d, const koksma__images *all
     }
     koksma__doc_section(d, "pictures", "Pictures");
     size_t shown = MOST_BYTES / (bytes + 1);
-    shown = shown > MAX_SHOWN ? MAX_SHOWN : shown ? shown - 1 : 0; /* beside the reference */
+    shown = shown > MAX_SHOWN ? MAX_SHOWN : shown ? shown - 1 : 0; /* one of the shown images is the reference */
     koksma_status status = KOKSMA_OK;
     if (shown < n) {
-        koksma__doc_paragraph(d, "%zu of %zu groups are shown, as images of %d x %d pixels make a large page.", shown,
-                              n, r->width, r->height);
+        koksma__doc_paragraph(d, "%zu of %zu groups are shown, because images of %d x %d pixels make a large page.",
+                              shown, n, r->width, r->height);
     }
     if (shown) {
         koksma__doc_pictures_begin(d, all->reference_path, r->width, r->height);

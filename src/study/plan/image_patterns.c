@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The patterns of a block of images. A text names the pattern of every use, or "use=pattern" pairs, by the rules of
-   the command line; uses that it leaves out have n-rooks. Plans keep the text in its normal form, which is a key in
-   the store. */
+/* The sampling patterns of a block of images in a plan. One text either names a single pattern for all sample
+   dimensions or lists "use=pattern" pairs, as on the command line; uses that the text leaves out have n-rooks.
+   Plans keep the text in its canonical form, which is part of a row's key in the store. */
 #include "study/plan/image_patterns.h"
 
 #include <string.h>

@@ -1,21 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The pattern of a rendered image as plans and rankings name it: what koksma_render_patterns takes, one text for all
-   uses; in its canonical form it is a key of rows. */
+/* The sampling patterns of a rendered image as plans and rankings write them: one text for all uses, as
+   koksma_render_patterns takes it. The text's canonical form is part of a row's key in the store. */
 #ifndef KOKSMA_STUDY_PLAN_IMAGE_PATTERNS_H
 #define KOKSMA_STUDY_PLAN_IMAGE_PATTERNS_H
 
 #include <koksma/render.h>
 
-/* Sets the patterns of options; n-rooks serves the uses that no part of the text names. */
+/* Sets the patterns of options from text; a use that the text does not name has n-rooks. */
 koksma_status koksma__image_pattern_set(const char *text, koksma_render_options *options);
 
-/* The canonical text. Errors: those of koksma_render_patterns, ARGUMENT (it is longer than a key may be). */
+/* Writes the canonical form of text. Errors: those of koksma_render_patterns; ARGUMENT: the result has
+   KOKSMA_MAX_SPEC characters or more. */
 koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
-/* Whether all uses have the same pattern, as native pairing and methods with strata of their own take it. */
+/* Whether all uses have the same pattern, which native pairing and adaptive methods with their own strata
+   require. */
 bool koksma__image_pattern_is_one(const char *text);
 
-/* Whether each of its patterns can make n points. Errors: theirs. */
+/* Whether each pattern of the text can make n points. Errors: those of the patterns. */
 koksma_status koksma__image_pattern_try(const char *text, size_t n, const koksma_run *run);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Writes down the revisions of what makes a row: "random 0" for points, "renderer 0, n-rooks 0, sobol 0" for an image
-   with two patterns. Every generator of a row is in its text, once; a change of one of them changes the text, and with
-   it the key of the row. Options of the renderer (filters, integrators) go by the renderer's revision. */
+/* Lists the revisions of the code that makes a row: "random 0" for points, "renderer 0, n-rooks 0, sobol 0" for
+   an image with two patterns. Each generator of a row is listed once. When the revision of one of them changes,
+   so does the text, and with it the key of the row. Filters and integrators have no revisions: the renderer's
+   covers them. */
 #include "study/plan/made_by.h"
 
 #include <stdio.h>
@@ -15,7 +16,8 @@
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan.h"
 
-/* Appends "name revision", unless it is there. The text holds all uses of an image (KOKSMA_MAX_PATTERNS_TEXT). */
+/* Appends "name revision" unless the text has it. The text has room for all uses of an image
+   (KOKSMA_MAX_PATTERNS_TEXT). */
 static void add(char text[KOKSMA__MADE_BY], const char *name, int revision)
 {
     char word[KOKSMA_MAX_SPEC + 16];
@@ -107,7 +109,7 @@ koksma_status koksma__reference_parse(const char *text, char name[KOKSMA_MAX_SPE
     const bool fits = colon && at && at > colon && colon - text < KOKSMA_MAX_SPEC && at - colon - 1 < KOKSMA_MAX_SPEC;
     KOKSMA__FAIL_IF(!fits || sscanf(at, "@%18lldx%18lld%n", spp, replicates, &end) != 2 || at[end] || *spp < 1 ||
                         *replicates < 1,
-                    KOKSMA_MALFORMED, "'%.100s' names no reference", text);
+                    KOKSMA_MALFORMED, "'%.100s' is not the text of a reference", text);
     snprintf(name, KOKSMA_MAX_SPEC, "%.*s", (int)(colon - text), text);
     snprintf(pattern, KOKSMA_MAX_SPEC, "%.*s", (int)(at - colon - 1), colon + 1);
     return KOKSMA_OK;

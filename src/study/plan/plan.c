@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Plans are JSON (studies/README.md has the fields). Everything in a plan is checked here, before any work. */
+/* Reads a study's plan from JSON (studies/README.md lists the fields) and checks everything in it before any work
+   starts. */
 #include "study/plan/plan.h"
 
 #include <stdlib.h>
@@ -36,9 +37,10 @@ const char *koksma__plan_shipped(const char *name, size_t *size)
     return NULL;
 }
 
-/* ---- The parts that discrepancies and images share ------------------------------------------------------- */
+/* ---- Fields that discrepancy blocks and image blocks share ----------------------------------------------- */
 
-/* How often a block is done: by the run, by its `quick` in a quick run, by its `trials`. */
+/* Sets *out to a block's number of trials: the run's number if it gives one, else the block's `quick` in a quick
+   run, else the block's `trials`. */
 static koksma_status parse_trials(const koksma__json_node *node, const koksma__plan_trials *given, long long *out)
 {
     long long quick = 0;
@@ -49,7 +51,7 @@ static koksma_status parse_trials(const koksma__json_node *node, const koksma__p
     return status;
 }
 
-/* A warp must know every measure: that is tried on one point. */
+/* Checks that every warp exists and supports every measure, by evaluating each pair on one point. */
 static koksma_status check_warps(const koksma__json_node *node, const koksma__discrepancy_block *b)
 {
     double xs[] = {0.5, 0.5};
@@ -68,10 +70,10 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
             }
         }
     }
-    return b->warps.n && b->dim != 2 ? koksma__json_fail(node, "warps take dim 2") : KOKSMA_OK;
+    return b->warps.n && b->dim != 2 ? koksma__json_fail(node, "warps need dim 2") : KOKSMA_OK;
 }
 
-/* "measures", "integrands", or both. */
+/* Reads the members "measures" and "integrands", of which a block has one or both. */
 static koksma_status parse_measures(const koksma__json_node *node, koksma__discrepancy_block *b)
 {
     koksma__texts errors = {0};
@@ -121,14 +123,15 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
     status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
     status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
-    KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "its name has more than %d letters", MAX_NAME);
-    if (!status && strchr(r->name, ':')) { /* which ends it in the key of rows: made_by.h */
-        return koksma__json_fail(node, "its name has a ':'");
+    KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "the name has more than %d characters",
+                         MAX_NAME);
+    if (!status && strchr(r->name, ':')) { /* a ':' ends the name in the key of rows (made_by.h) */
+        return koksma__json_fail(node, "the name contains ':'");
     }
     return status ? status : koksma__plan_check_reference(node, r);
 }
 
-/* A scene that opens; its own errors are handed on with the plan's line. */
+/* Checks that a scene opens; an error of the scene is reported with the plan's line. */
 static koksma_status check_scene(const koksma__json_node *node, const char *name)
 {
     koksma_scene *scene;
@@ -173,7 +176,7 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
                                       (void **)&b->references, &b->n_references);
 }
 
-/* ---- The whole ------------------------------------------------------------------------------------------- */
+/* ---- The whole plan -------------------------------------------------------------------------------------- */
 
 static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A study's plan: what to measure and render, and what published numbers and figures to show beside it. */
+/* A study's plan: what to measure and render, and which published numbers and figures to show beside the results. */
 #ifndef KOKSMA_STUDY_PLAN_PLAN_H
 #define KOKSMA_STUDY_PLAN_PLAN_H
 
@@ -17,48 +17,50 @@ typedef struct koksma__wholes {
     long long *at;
 } koksma__wholes;
 
-/* What a block with `skip` leaves out: numbers of points that a pattern does not have. */
+/* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make. */
 typedef struct koksma__left_out {
-    bool *is;            /* of each pattern and each of its sizes; NULL: nothing */
-    koksma__texts lines; /* for the reader: a pattern, its sizes and the reason */
+    bool *is;            /* a flag for each pattern and size, true if left out; NULL: no size is left out */
+    koksma__texts lines; /* messages, each with a pattern, its sizes and the reason */
 } koksma__left_out;
 
-/* patterns x n x warps x measures x trials */
+/* A block of discrepancies: every combination of patterns, n, warps, measures and trials. */
 typedef struct koksma__discrepancy_block {
-    char *id;               /* what questions call it; may be NULL */
-    koksma__texts patterns; /* canonical specs */
-    koksma__texts measures; /* likewise; behind them integrands, as koksma__integrand_of() knows them */
-    koksma__texts warps;    /* names of maps of the square onto a domain; none: the square itself */
+    char *id;               /* the name by which questions refer to the block; may be NULL */
+    koksma__texts patterns; /* canonical specs of patterns */
+    /* canonical specs of measures, then integrands as "error of SPEC" (koksma__integrand_of) */
+    koksma__texts measures;
+    koksma__texts warps; /* names of maps from the square onto a domain; if empty, the square itself */
     koksma__wholes n;
     koksma__left_out left_out;
     int dim;
     long long trials;
 } koksma__discrepancy_block;
 
-/* How a reference image is made: the mean of `replicates` renders. Its own error is estimated from their spread, so
-   that is known with 2 or more. */
+/* How a reference image is made: the mean of `replicates` renders. With 2 or more, the spread of the renders
+   gives an estimate of the reference's own error. */
 typedef struct koksma__reference {
     char *name, *pattern;
     long long spp, replicates;
 } koksma__reference;
 
-/* scenes x patterns x spp x variants x trials, each compared with every reference */
+/* A block of images: every combination of scenes, patterns, spp, variants and trials; each image is compared with
+   every reference. */
 typedef struct koksma__image_block {
     char *id;
     koksma__texts scenes, patterns;
     koksma__texts variants; /* canonical texts of the options; at least one, "" when the plan names none */
     koksma__wholes spp;
     koksma__left_out left_out;
-    int width, height; /* 0: the scene's own */
+    int width, height; /* size of the images; 0: the scene's own */
     long long trials;
     size_t n_references;
     koksma__reference *references;
 } koksma__image_block;
 
-/* A number of a paper: NaN and "" where it prints none. */
+/* A number printed in a paper; NaN and "" where the paper prints none. */
 typedef struct koksma__printed {
-    double value, half_digit; /* half a unit of the last printed digit */
-    char text[16];            /* as printed */
+    double value, half_digit; /* half_digit: half a unit of the last printed digit */
+    char text[16];            /* the number as printed */
 } koksma__printed;
 
 enum { KOKSMA__TABLE_PRINTED = 8 };
@@ -67,28 +69,31 @@ enum { KOKSMA__TABLE_PRINTED = 8 };
 typedef struct koksma__table_row {
     char *pattern, *label;
     size_t n_published;
-    koksma__printed published[KOKSMA__TABLE_PRINTED]; /* mean, SD, max; of a table over several n: the means */
-    double rate;                                      /* exponent of n that theory gives; NaN: none is known */
+    /* printed mean, SD and maximum; in a table over several n, the means */
+    koksma__printed published[KOKSMA__TABLE_PRINTED];
+    /* exponent of n that theory predicts for the row's pattern; NaN: unknown */
+    double rate;
 } koksma__table_row;
 
-/* Why a published cell differs from ours. */
+/* A note on why a published cell differs from the computed one. */
 typedef struct koksma__note {
-    char *pattern; /* NULL: the whole column */
-    long long n;   /* of a table over several n: the column; 0: all */
-    int statistic; /* 0 mean, 1 SD, 2 max */
+    char *pattern; /* pattern of the cell that differs; NULL: all rows of the column */
+    long long n;   /* n of the cell's column, in a table over several n; 0: all columns */
+    int statistic; /* which statistic: 0 mean, 1 SD, 2 max */
     char *reason;
-    bool explained; /* the reason is known; else it says what was tried */
+    bool explained; /* true: `reason` explains the difference; false: it lists what was tried */
 } koksma__note;
 
 typedef struct koksma__table {
     char *id, *title;
-    size_t part;          /* whose table it is */
-    char *scene;          /* an image table */
-    char *measure, *also; /* a discrepancy table; `also`: shown beside it, NULL: none */
-    koksma__wholes n;     /* numbers of points; several: n are the columns (discrepancy tables only) */
-    long long dim;        /* of a discrepancy table */
-    bool fitted;          /* the scene was fitted to the printed numbers: agreement with them confirms nothing */
-    size_t images;        /* of an image table: the image block that makes all its rows */
+    size_t part;          /* index of the plan part that has this table */
+    char *scene;          /* scene of an image table; NULL: a discrepancy table */
+    char *measure, *also; /* measures of a discrepancy table; `also` is shown beside the first, NULL: none */
+    koksma__wholes n;     /* numbers of points; with several, each is a column (discrepancy tables only) */
+    long long dim;        /* dimension, in a discrepancy table */
+    /* the scene was fitted to the printed numbers, so that agreement with them confirms nothing */
+    bool fitted;
+    size_t images; /* in an image table: index of the image block that makes all its rows */
     size_t n_rows, n_notes;
     koksma__table_row *rows;
     koksma__note *notes;
@@ -97,39 +102,40 @@ typedef struct koksma__table {
 /* A figure: the points of a pattern, a rendered scene, or random lines. */
 typedef struct koksma__figure {
     char *id, *title, *pattern, *scene;
-    char *variant;        /* of a scene: variants.h */
-    char *adaptive;       /* a method of adaptive sampling, or NULL */
-    char *warp;           /* of points: the map that they are shown through, or NULL */
-    char *printed;        /* what the paper's text says of it, shown beside ours; or NULL */
-    long long n;          /* points, or samples per pixel */
-    long long detail[4];  /* x, y, width and height of what is shown; width 0: all */
+    char *variant;        /* options of a scene's render (variants.h) */
+    char *adaptive;       /* adaptive sampling method, or NULL */
+    char *warp;           /* map applied to points before they are drawn, or NULL */
+    char *printed;        /* what the paper's text says about the figure, shown beside it; or NULL */
+    long long n;          /* number of points, or samples per pixel */
+    long long detail[4];  /* x, y, width and height of the part of the image that is shown; width 0: all of it */
     long long strata[2];  /* the pixel whose strata are shown; -1: none */
-    koksma__texts spaces; /* of strata: names of those that are shown; none: all */
-    double exposure;      /* of a scene: the shown values are this times the image's */
-    bool cells;           /* draw the cells or rows and columns in */
-    bool lines, dual;     /* random lines; as points (slope, intercept) */
+    koksma__texts spaces; /* names of the sample spaces whose strata are shown; if empty, all of them */
+    double exposure;      /* in a figure of a scene: factor on the image's values */
+    bool cells;           /* draw the grid cells, or rows and columns, of the pattern */
+    bool lines, dual;     /* lines: show random lines; dual: show each as its point (slope, intercept) */
 } koksma__figure;
 
-/* Members of a question that its kind needs or takes; and whether it is asked by its name alone, not of a plan that
-   asks nothing. A kind with none of the first two needs one of `discrepancies` and `images`. */
+/* Flags of a kind of question: which members it needs or takes. A kind with neither NEEDS_POINTS nor NEEDS_IMAGES
+   needs one of `discrepancies` and `images`. A plan without questions is answered by all kinds but those with
+   ASKED_BY_NAME. */
 enum {
-    KOKSMA__NEEDS_POINTS = 1, /* discrepancies */
-    KOKSMA__NEEDS_IMAGES = 2, /* images */
-    KOKSMA__TAKES_GROUPS = 4, /* groups */
+    KOKSMA__NEEDS_POINTS = 1, /* the question needs `discrepancies` */
+    KOKSMA__NEEDS_IMAGES = 2, /* the question needs `images` */
+    KOKSMA__TAKES_GROUPS = 4, /* the question takes `groups` */
     KOKSMA__ASKED_BY_NAME = 8
 };
 
-/* A kind of question that the report answers from blocks of the plan: a line of questions.def. */
+/* A kind of question that the report answers from blocks of the plan; each is a line of questions.def. */
 typedef struct koksma__question_kind {
     const char *name;
     unsigned fields;
     const char *heading, *rows;
 } koksma__question_kind;
 
-/* All kinds; the name of the last is NULL (plan_questions.c). */
+/* All kinds of questions, ended by an entry whose name is NULL (plan_questions.c). */
 extern const koksma__question_kind koksma__question_kinds[];
 
-/* Scenes of a question that share what dominates their error. */
+/* Scenes of a question that have the same main source of error. */
 typedef struct koksma__scene_group {
     char *title;
     koksma__texts scenes;
@@ -137,26 +143,26 @@ typedef struct koksma__scene_group {
 
 typedef struct koksma__question {
     char *id, *title;
-    size_t part; /* whose question it is */
+    size_t part; /* index of the plan part that has this question */
     const koksma__question_kind *kind;
-    char *discrepancies, *images; /* ids of blocks; NULL: none */
+    char *discrepancies, *images; /* ids of the question's blocks; NULL: none */
     size_t n_groups;
     koksma__scene_group *groups;
 } koksma__question;
 
-/* One of the plans that became one: its tables and questions speak of its own blocks, whatever others have. */
+/* One of the plans that were joined into one. Its tables and questions refer only to its own blocks. */
 typedef struct koksma__plan_part {
     char *title;
     char *about, *order;     /* order: the overall order of the patterns, as printed; both may be NULL */
-    bool asks;               /* it has tables or questions */
-    size_t discrepancies[2]; /* indices of its blocks: the first, and one past the last */
+    bool asks;               /* whether the part has tables or questions */
+    size_t discrepancies[2]; /* indices of the part's blocks: the first, and one past the last */
     size_t images[2];
     size_t figures[2];
 } koksma__plan_part;
 
 typedef struct koksma__plan {
     char *name, *title, *about;
-    char *order; /* of a plan just parsed; then its part's */
+    char *order; /* order of the patterns: set while the plan is parsed, then moved to its part */
     size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions;
     koksma__plan_part *parts;
     koksma__question *questions;
@@ -166,29 +172,29 @@ typedef struct koksma__plan {
     koksma__figure *figures;
 } koksma__plan;
 
-/* What a run may say about a plan's numbers of trials. */
+/* Options of a run that change a plan's numbers of trials. */
 typedef struct koksma__plan_trials {
-    long long trials; /* > 0: instead of the plan's */
-    bool quick;       /* each block's `quick`, where it has one */
+    long long trials; /* if > 0, replaces the plan's numbers of trials */
+    bool quick;       /* use each block's `quick`, where it has one */
 } koksma__plan_trials;
 
-/* Parses a plan; name is what errors call it ("plan 'my.json': line 3: …"). Checks every spec, so that a study does
-   not fail in the middle. trials NULL: as the plan says. */
+/* Parses a plan; name is what errors call it ("plan 'my.json': line 3: …"). Checks every spec, so that a study
+   does not fail halfway. With trials NULL the plan's numbers of trials hold. */
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan);
 
-/* The text of a plan that ships, or NULL. */
+/* Returns the text of a plan that is built into the library, or NULL. */
 const char *koksma__plan_shipped(const char *name, size_t *size);
 
-/* An integrand stands among the measures of a block, and in results, as "error of SPEC": its value is the absolute error
-   of the mean over the points. Returns SPEC; NULL: the text is that of a measure. */
+/* The measures of a block, and results, contain integrands as "error of SPEC": the value is the absolute error of
+   the mean over the points. Returns SPEC, or NULL if the text is that of a measure. */
 static inline const char *koksma__integrand_of(const char *measure)
 {
     static const char head[] = "error of ";
     return strncmp(measure, head, sizeof head - 1) ? NULL : measure + sizeof head - 1;
 }
 
-/* Whether size k of `sizes` of pattern p is left out. */
+/* Whether size number k, of `sizes`, is left out for pattern number p. */
 static inline bool koksma__is_left_out(const koksma__left_out *of, size_t p, size_t sizes, size_t k)
 {
     return of->is && of->is[p * sizes + k];

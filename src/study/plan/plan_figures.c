@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The figures of a plan: points, or a scene, or how a pixel of it was subdivided. */
+/* Reads and checks the figures of a plan. A figure shows points, random lines, a rendered scene, or the strata
+   into which an adaptive method subdivided a pixel. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +63,7 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     return KOKSMA_OK;
 }
 
-/* "lines": random lines in the square, or their duals. */
+/* Reads the member "lines": random lines in the square ("primal") or their dual points ("dual"). */
 static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
 {
     char *word = NULL;

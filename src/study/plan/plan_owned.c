@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a plan owns: every list in it, with its texts, and what these hold. Two plans are put together by moving the
-   lists of one behind those of the other, so that nothing is copied and nothing is freed twice. */
+/* Joins and frees plans. A plan owns all its lists, texts and nested lists. Two plans are joined by moving the
+   items of one plan's lists to the end of the other's, so that no text is copied or freed twice. */
 #include "study/plan/plan_owned.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "core/capacity.h"
 #include "core/status.h"
 
-/* Moves the n_from items of *from behind the n of *to. */
+/* Moves the n_from items of *from to the end of the n items of *to. */
 static koksma_status join(void **to, size_t *n, void **from, size_t *n_from, size_t item_size)
 {
     if (*n_from == 0) {
@@ -27,7 +27,7 @@ static koksma_status join(void **to, size_t *n, void **from, size_t *n_from, siz
     return KOKSMA_OK;
 }
 
-/* *to may be NULL: then it becomes a copy. */
+/* Appends `between` and `from` to *to; if *to is NULL, it becomes a copy of `from`. */
 static koksma_status join_text(char **to, const char *between, const char *from)
 {
     if (!*to) {
@@ -66,7 +66,7 @@ koksma_status koksma__plan_own(koksma__plan *p)
     return KOKSMA_OK;
 }
 
-/* The numbers of q's blocks and parts, once they stand behind p's. */
+/* Shifts the indices of blocks and parts in q to their values once q's lists follow p's. */
 static void shift(const koksma__plan *p, koksma__plan *q)
 {
     for (size_t i = 0; i < q->n_parts; i++) {

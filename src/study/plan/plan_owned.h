@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a plan owns: putting two together, freeing, and looking something up. */
+/* Joining and freeing plans, and searching their lists. */
 #ifndef KOKSMA_STUDY_PLAN_PLAN_OWNED_H
 #define KOKSMA_STUDY_PLAN_PLAN_OWNED_H
 
 #include "study/plan/plan.h"
 
-/* Makes a plan that was read one part of its own. Errors: MEMORY. */
+/* Makes a newly read plan consist of one part, which has its title, text and all its blocks. Errors: MEMORY. */
 koksma_status koksma__plan_own(koksma__plan *plan);
 
-/* Appends what `from` has to `plan`, whose name becomes "a+b"; `from` is empty afterwards. */
+/* Moves all that `from` has to the end of `plan`, whose name becomes "a+b"; `from` is empty afterwards. */
 koksma_status koksma__plan_append(koksma__plan *plan, koksma__plan *from);
 
-/* Frees all that a plan owns. */
+/* Frees everything that a plan owns. */
 void koksma__plan_fini(koksma__plan *plan);
 
 /* Frees a list of texts. */
 void koksma__texts_fini(koksma__texts *texts);
 
-/* Whether a list has a text or a number. */
+/* Whether a list contains a text, or a number. */
 bool koksma__texts_have(const koksma__texts *texts, const char *text);
 
 bool koksma__wholes_have(const koksma__wholes *wholes, long long value);
 
-/* Whether the block has these points and this measure. */
+/* Whether the block evaluates this measure on n points of this pattern in dim dimensions, without a warp. */
 bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
                               long long n, long long dim);
 

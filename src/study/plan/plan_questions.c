@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The questions of a plan: an id, a title, a kind (questions.def), the ids of the blocks that it is about, and, of
- * some kinds, groups of scenes. Which members a kind needs or takes, and the list of kinds in messages, come from the
- * table. What questions name is checked when the whole plan is read, because blocks may follow them.
+ * Reads and checks the questions of a plan. A question has an id, a title, a kind, the ids of the blocks that it
+ * is about and, for some kinds, groups of scenes. The table of kinds, questions.def, defines which members a kind
+ * needs or takes. The blocks and scenes that a question names are checked after the whole plan has been read,
+ * because a plan may list blocks after questions.
  */
 #include <stdio.h>
 #include <string.h>
@@ -29,7 +30,7 @@ static koksma_status parse_group(const koksma__json_node *node, const koksma__pl
     return status ? status : koksma__plan_texts(node, "scenes", &g->scenes);
 }
 
-/* "table, correlation, ... or inequality" */
+/* Writes the names of all kinds as "table, correlation, ... or inequality". */
 static void list_kinds(char *text, size_t size)
 {
     size_t used = 0;
@@ -87,7 +88,7 @@ koksma_status koksma__plan_question(const koksma__json_node *node, const koksma_
                                       (void **)&q->groups, &q->n_groups);
 }
 
-/* Whether a block of images that the question names has the scene. */
+/* Whether an image block that the question names has the scene. */
 static bool has_scene(const koksma__plan *p, const koksma__question *q, const char *scene)
 {
     for (size_t b = 0; b < p->n_images; b++) {
@@ -99,7 +100,7 @@ static bool has_scene(const koksma__plan *p, const koksma__question *q, const ch
     return false;
 }
 
-/* Every group has a title of its own and scenes of the question's blocks. */
+/* Checks that no two groups have the same title and that all their scenes are in the question's blocks. */
 static koksma_status check_groups(const koksma__json_node *question, const koksma__plan *p, const koksma__question *q)
 {
     koksma__json_node list, scenes;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What all sections of a plan share: an array of objects becomes an array of structs, item by item, each by the parse
-   function of its section; texts, numbers of trials and lists of patterns are read and checked here. */
+/* Functions that read all sections of a plan. An array of JSON objects becomes an array of structs, one item at a
+   time, through the parse function of its section; texts, numbers and lists of specs are read and checked here. */
 #include "study/plan/plan_section.h"
 
 #include <stdio.h>
@@ -39,7 +39,8 @@ koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return status;
 }
 
-/* The canonical text does not depend on the dimension: the first that it has. */
+/* An integrand's canonical text does not depend on the dimension, so that the first dimension that it supports is
+   used. */
 koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
 {
     koksma_integral *integral;
@@ -57,8 +58,8 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return length < KOKSMA_MAX_SPEC ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "%.64s...: too long", text);
 }
 
-/* Whether a path may begin at `at`: after a word such as "file:" that begins the text, or a single use's or group's
-   (";lens=file:"). */
+/* Whether a path begins at `at`: directly after a word such as "file:" that begins the text or follows "=" or
+   ";", as in ";lens=file:". */
 static bool begins_path(const char *text, const char *at)
 {
     static const char *const words[] = {"file:", "exec:", "plugin:"};
@@ -71,12 +72,13 @@ static bool begins_path(const char *text, const char *at)
     return found;
 }
 
-/* A relative path of a plan begins in the folder of the plan's file: *text, a scene's name or a pattern, becomes what
-   the current folder leads to. Names of scenes in the library have neither '/' nor '.'. */
+/* Makes a relative path relative to the current folder instead of the plan's: writes the plan's folder before the
+   path in *text, a scene's name or a pattern. Names of scenes in the library have neither '/' nor '.'. */
 static koksma_status from_plan(const koksma__json_node *node, bool is_scene, char **text)
 {
     const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
-    const bool is_here = slash == name + 1 && *name == '.'; /* "./plan.json" */
+    /* the plan's folder is the current one, as in "./plan.json" */
+    const bool is_here = slash == name + 1 && *name == '.';
     const size_t folder = slash && !is_here ? (size_t)(slash + 1 - name) : 0;
     const bool is_path = is_scene ? strpbrk(*text, "/.") != NULL : strchr(*text, ':') != NULL;
     if (!folder || !is_path) {
@@ -95,7 +97,7 @@ static koksma_status from_plan(const koksma__json_node *node, bool is_scene, cha
     }
     const bool fits = (size_t)(to - joined) < KOKSMA_MAX_SPEC;
     const koksma_status status =
-        fits ? KOKSMA_OK : koksma__json_fail(node, "'%.60s...': the path is too long behind the plan's", *text);
+        fits ? KOKSMA_OK : koksma__json_fail(node, "'%.60s...': the path is too long after the plan's folder", *text);
     free(fits ? *text : joined);
     *text = fits ? joined : *text;
     return status;
@@ -139,7 +141,7 @@ koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, 
     return status ? status : canonical(&member, parser, out);
 }
 
-/* The list, its length, at least 1, and room for as many items (to be freed with the plan). */
+/* Opens the list `key`, fails if it is empty, and allocates an array for its items, which is freed with the plan. */
 static koksma_status open_list(const koksma__json_node *node, const char *key, size_t item_size,
                                koksma__json_node *list, size_t *length, void **items)
 {

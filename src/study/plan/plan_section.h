@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The pieces that plans are read with: copies of texts, specs in their canonical form, lists. */
+/* Functions that read parts of a plan: texts, specs in canonical form, and lists. */
 #ifndef KOKSMA_STUDY_PLAN_PLAN_SECTION_H
 #define KOKSMA_STUDY_PLAN_PLAN_SECTION_H
 
@@ -11,55 +11,56 @@ typedef koksma_status (*koksma__spec_parser)(const char *text, char out[KOKSMA_M
 typedef koksma_status (*koksma__item_parser)(const koksma__json_node *node, const koksma__plan_trials *trials,
                                              void *item);
 
-/* A copy of the member's text; *out stays NULL when it is not there and not needed. */
+/* Copies the text of the member `key`; *out stays NULL when the member is absent and not needed. */
 koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out);
 
-/* Its "id": letters, digits, '.', '-' and '_', as reports have it in links. */
+/* Copies the member "id": letters, digits, '.', '-' and '_', because reports use it in links. */
 koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out);
 
-/* Parsers: of a pattern of points, of a measure; of an image's patterns see image_patterns.h. */
+/* Parsers of a pattern of points and of a measure. koksma__image_pattern_text parses the patterns of an image. */
 koksma_status koksma__pattern_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
-/* "error of SPEC" of an integrand. */
+/* Parses an integrand; the canonical text is "error of SPEC". */
 koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
-/* The member `key` as a spec that `parser` checks; *out is its canonical form, which the caller frees. */
+/* Reads the member `key` as a spec that `parser` checks; *out is its canonical form, which the caller frees. */
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                 bool needed, char **out);
 
-/* Lists of at least one; these are needed. */
+/* Read the member `key`, which must be there, as a list of at least one item. */
 koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__texts *out);
 koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                  koksma__texts *out);
-/* Moves the texts of `more` behind those of `to`. */
+/* Moves the texts of `more` to the end of `to`. */
 koksma_status koksma__plan_join(koksma__texts *to, koksma__texts *more);
 koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,
                                   koksma__wholes *out);
 
-/* By size: what is said of the larger sizes, or between neighbours, doesn't depend on how a plan lists them. Places
-   in the plan are lost: errors that name them come before. */
+/* Sorts the numbers in ascending order, so that results do not depend on the order in a plan. Positions in the
+   plan are lost, so that checks whose errors name a position come first. */
 void koksma__plan_sort(koksma__wholes *wholes);
 
-/* A list of objects into an array of zeroed items of item_size bytes; *n counts the items that must be freed, also on
-   failure. */
+/* Reads a list of objects into an array of zeroed items of item_size bytes; *n is the number of items to free,
+   also on failure. */
 koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
                                 koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
                                 size_t *n);
 
-/* An item of `questions`; and whether the blocks that questions name are there. */
+/* Reads an item of "questions"; checks that the blocks and scenes that questions name exist (plan_questions.c). */
 koksma_status koksma__plan_question(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan *plan);
 
-/* An item of "tables", and whether blocks of the plan make every row (plan_tables.c). */
+/* Reads an item of "tables"; checks that blocks of the plan make every row (plan_tables.c). */
 koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan *plan);
 
-/* An item of "figures" (plan_figures.c). */
+/* Reads an item of "figures" (plan_figures.c). */
 koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 
-/* Whether every pattern can make each number of points, and an image block's samples, and a reference's; of a block
-   with `skip` those that can't are left out. Sorts the numbers (plan_sets.c). */
+/* Check that every pattern can make each number of points, of samples of an image block, or of samples of a
+   reference. In a block with `skip` the sizes that a pattern cannot make are left out. Sort the numbers
+   (plan_sets.c). */
 koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__discrepancy_block *block);
 koksma_status koksma__plan_check_measures(const koksma__json_node *node, const koksma__discrepancy_block *block);
 koksma_status koksma__plan_check_spp(const koksma__json_node *node, koksma__image_block *block);

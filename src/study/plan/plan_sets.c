@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Whether patterns can make the numbers of points that a plan asks of them, and measures take their dimensions: a
-   study must not fail in its middle. */
+/* Checks before a study runs that every pattern can make the numbers of points that the plan gives, and that
+   every measure supports their dimension, so that the study does not fail halfway. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,10 +12,11 @@
 #include "study/plan/plan_section.h"
 #include "study/plan/variants.h"
 
-/* Larger sets are not tried: they would take time, and the rules for n show at small ones. */
+/* Larger sets are not tried: that takes time, and a pattern's restrictions on n show at smaller n. */
 enum { MOST_TRIED = 1 << 16 };
 
-/* Patterns look at their arguments before they begin; who asks whether to go on has begun. */
+/* Interrupts a pattern at its first progress call. By then it has checked its arguments, which is all that is
+   needed. */
 static bool stop_at_once(void *context, double fraction)
 {
     (void)context;
@@ -44,7 +45,7 @@ static koksma_status try_image_set(const char *pattern, long long n)
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
-/* Whether a pattern has a number of points in a block. */
+/* Tries whether a pattern can make n points in a block. */
 typedef koksma_status (*set_trial)(const void *block, const char *pattern, long long n);
 
 static koksma_status try_points(const void *block, const char *pattern, long long n)
@@ -58,7 +59,7 @@ static koksma_status try_image(const void *block, const char *pattern, long long
     return try_image_set(pattern, n);
 }
 
-/* What is tried: the numbers `n`, the list `key` of node. */
+/* What to try: all patterns with all numbers `n`, which are the list `key` of the JSON object `node`. */
 typedef struct tried {
     const koksma__json_node *node;
     const char *key;
@@ -84,14 +85,16 @@ static koksma_status refuse_first(const tried *t)
     return status;
 }
 
-/* Appends "PATTERN, N = 8, 32: reason" where a pattern lacks some of the sizes. */
+/* Tries pattern p with all sizes and marks those that it cannot make. If there are any, appends the line
+   "PATTERN, N = 8, 32: reason". */
 static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *out)
 {
     char line[1024], reason[512] = "";
     int length = snprintf(line, sizeof line, "%s, N = ", t->patterns->at[p]);
     for (size_t k = 0; k < t->n->n && t->n->at[k] <= MOST_TRIED; k++) {
         const koksma_status status = t->trial(t->block, t->patterns->at[p], t->n->at[k]);
-        if (koksma_status_exit_code(status) > 2) { /* of a file or the system, not of this number of points */
+        /* an error of a file or the system, not of this number of points */
+        if (koksma_status_exit_code(status) > 2) {
             return koksma__json_fail_in(t->node, status);
         }
         if (status && length < (int)sizeof line) {
@@ -111,14 +114,14 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     if (!text) {
         return koksma__fail_memory(size);
     }
-    const size_t name = strcspn(t->patterns->at[p], ":"); /* which begins the reason, too */
+    const size_t name = strcspn(t->patterns->at[p], ":"); /* the reason, too, may begin with the pattern's name */
     const bool twice = !strncmp(reason, line, name) && !strncmp(reason + name, ": ", 2);
     snprintf(text, size, "%s: %s", line, reason + (twice ? name + 2 : 0));
     out->lines.at[out->lines.n++] = text;
     return KOKSMA_OK;
 }
 
-/* Without `skip` a pattern that lacks a number is an error, with it that number is left out. */
+/* Reports the first size that a pattern cannot make as an error; with `skip`, leaves such sizes out instead. */
 static koksma_status check(const tried *t, koksma__left_out *out)
 {
     bool skip = false, any = false;
@@ -149,7 +152,7 @@ koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__dis
     return check(&t, &block->left_out);
 }
 
-/* Whether a measure or integrand serves a point of so many dimensions. */
+/* Whether a measure or integrand supports the dimension of the point. */
 static koksma_status serves(const char *measure, const koksma_points *point)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
@@ -165,7 +168,7 @@ static koksma_status serves(const char *measure, const koksma_points *point)
     return koksma_evaluate(&spec, point, &briefly, &value) == KOKSMA_DIM ? KOKSMA_DIM : KOKSMA_OK;
 }
 
-/* Whether each measure serves the block's dim: that shows at one point. */
+/* Checks on one point that each measure of the block supports the block's dimension. */
 koksma_status koksma__plan_check_measures(const koksma__json_node *node, const koksma__discrepancy_block *block)
 {
     koksma_points point;
@@ -175,7 +178,7 @@ koksma_status koksma__plan_check_measures(const koksma__json_node *node, const k
     }
     for (size_t m = 0, first = 0; !status && m < block->measures.n; m++) {
         const bool error = koksma__integrand_of(block->measures.at[m]);
-        first = error ? first : m + 1; /* of the integrands */
+        first = error ? first : m + 1; /* position of the first integrand */
         status = serves(block->measures.at[m], &point);
         if (status) {
             koksma__json_node list;
@@ -188,7 +191,8 @@ koksma_status koksma__plan_check_measures(const koksma__json_node *node, const k
     return status;
 }
 
-/* With other options the pattern has other numbers of points, or of dimensions. */
+/* Whether patterns make sets of spp points. Other scopes than the pixel and adaptive methods need sets of other
+   sizes; native pairing needs sets of another dimension. */
 static bool takes_spp_points(const char *variant)
 {
     koksma__variant v = {0};
@@ -196,7 +200,8 @@ static bool takes_spp_points(const char *variant)
            v.render.pairing != KOKSMA_PAIRING_NATIVE && !v.adaptive.method;
 }
 
-/* Native pairing, and methods that draw strata of their own, have no place for patterns of single uses and groups. */
+/* Rejects separate patterns for single uses or groups together with native pairing or an adaptive method that
+   draws its own strata: both need one pattern for all uses. */
 static koksma_status check_variant(const char *variant, const koksma__texts *patterns)
 {
     koksma__variant v = {0};

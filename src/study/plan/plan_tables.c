@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The published tables of a plan. A table has one number of points, and its rows a printed mean, SD and maximum; or
- * it is over several numbers of points, and its rows have a printed mean for each. Printed numbers may be JSON
- * strings, which keep a trailing 0: half of the last printed digit is what rounding may have done to them.
+ * Reads and checks the published tables of a plan. A table has one number of points, and each row a printed mean,
+ * SD and maximum; or it has several numbers of points, and each row a printed mean for each. Printed numbers may
+ * be JSON strings, because these keep trailing zeros: rounding may have changed a number by half a unit of its
+ * last digit.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -43,8 +44,8 @@ static koksma_status parse_printed(const koksma__json_node *node, koksma__printe
     return KOKSMA_OK;
 }
 
-/* Mean, SD and maximum, or the means of a table over several n; what a paper does not print is left out at the end.
- */
+/* Reads the printed numbers of a row: mean, SD and maximum, or the means of a table over several n. Numbers at
+   the end may be missing. */
 static koksma_status parse_published(const koksma__json_node *node, koksma__table_row *row)
 {
     koksma__json_node list;
@@ -95,7 +96,7 @@ static koksma_status parse_note(const koksma__json_node *node, const koksma__pla
     return status;
 }
 
-/* One number, or a list of several. */
+/* Reads "n": one number, or a list of several. */
 static koksma_status parse_sizes(const koksma__json_node *node, koksma__table *t)
 {
     koksma__json_node n;
@@ -118,7 +119,7 @@ static koksma_status check_shape(const koksma__json_node *node, const koksma__ta
     const bool over_n = koksma__table_is_over_n(t);
     KOKSMA__JSON_FAIL_IF(!t->scene == !t->measure, node, "a table has either a scene or a measure");
     KOKSMA__JSON_FAIL_IF(t->scene && over_n, node, "a table of a scene has one number of samples");
-    KOKSMA__JSON_FAIL_IF(t->measure && t->fitted, node, "'fitted' goes with a scene: a measure has nothing to fit");
+    KOKSMA__JSON_FAIL_IF(t->measure && t->fitted, node, "'fitted' needs a scene: a measure has nothing to fit");
     for (size_t i = 0; i + 1 < t->n.n; i++) {
         KOKSMA__JSON_FAIL_IF(t->n.at[i] >= t->n.at[i + 1], node,
                              "a table's numbers of points rise: %lld comes before %lld", t->n.at[i], t->n.at[i + 1]);
@@ -162,8 +163,8 @@ static bool makes_image(const koksma__image_block *i, const koksma__table *t, co
            koksma__texts_have(&i->patterns, pattern) && koksma__wholes_have(&i->spp, t->n.at[0]);
 }
 
-/* The first image block that makes all rows of a table: they are compared with the same references, at one size. With
-   none the plan has no such block for *row. */
+/* Finds the first image block that makes all rows of a table, so that all are compared with the same references
+   at one size. If there is none, *row is the first row that the best block lacks. */
 static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
 {
     *row = 0;
@@ -181,7 +182,7 @@ static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
     return false;
 }
 
-/* Whether discrepancy blocks make the measure of a row for every n of the table. */
+/* Whether discrepancy blocks evaluate the measure for a row's pattern at every n of the table. */
 static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
 {
     size_t made = 0;

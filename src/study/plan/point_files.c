@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The files of points and parameters that a plan's patterns name (file:PATH, net-file:PATH). A result depends on what is
-   in them, so that their hash is part of its key: a file that is changed gives new rows and leaves the old ones alone. */
+/* Hashes the files of points and parameters that a plan's patterns name (file:PATH, net-file:PATH). A result
+   depends on the contents of such a file, so that their hash is part of the result's key: after a change of the
+   file, new rows are made and the old ones stay. */
 #include "study/plan/point_files.h"
 
 #include <stdio.h>
@@ -12,7 +13,8 @@
 #include "core/read_file.h"
 #include "patterns/shared/file_names.h"
 
-/* Where the path begins in a pattern or a reference's name, and how long it is without modifiers; NULL: in none. */
+/* Finds the path in a pattern or in the name of a reference; *length is its length without modifiers. NULL: no
+   path. */
 static const char *path_in(const char *spec, size_t *length)
 {
     const koksma_pattern *p;
@@ -30,7 +32,7 @@ static const char *path_in(const char *spec, size_t *length)
     return NULL;
 }
 
-/* Of a family of files (file_names.h) that of all of them. */
+/* Hash of a file; for a family of files (file_names.h), the combined hash of all of them. 0: it can't be read. */
 static uint64_t hash_of_file(const char *path)
 {
     uint64_t hash = 0, all = 0;
@@ -51,7 +53,8 @@ static uint64_t hash_of_file(const char *path)
     return all;
 }
 
-/* Without memory for the list the file is read again the next time. */
+/* Returns the hash of a file, from the list if it is there. If the list cannot grow, the file is hashed again
+   next time. */
 static uint64_t look_up(koksma__point_files *known, const char *path)
 {
     for (size_t i = 0; known && i < known->n; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The files of points that a study's patterns and references name. Its rows go by what is in them, as they go by the
-   hash of a scene: another file behind the same name makes other rows. */
+/* Hashes of the files of points that a study's patterns and references name. They are part of the keys of rows,
+   as the hashes of scenes are: when a file's contents change, its results become other rows. */
 #ifndef KOKSMA_STUDY_PLAN_POINT_FILES_H
 #define KOKSMA_STUDY_PLAN_POINT_FILES_H
 
@@ -12,7 +12,7 @@ typedef struct koksma__point_file {
     uint64_t hash;
 } koksma__point_file;
 
-/* Those that were looked at; a file is read once. {0}: none yet. */
+/* The files that were hashed, so that each is read once. {0}: none yet. */
 typedef struct koksma__point_files {
     size_t n;
     koksma__point_file *at;
@@ -20,8 +20,9 @@ typedef struct koksma__point_files {
 
 enum { KOKSMA__HASH_TEXT = 40 };
 
-/* `hash`, and behind it that of the file where `spec` is "file:PATH", or ends in ":file:PATH@…" as a reference's name
-   does. A file that can't be read counts as an empty one: who generates its points says why. known may be NULL. */
+/* Writes `hash` to out, followed by the hash of the file if `spec` is "file:PATH" or ends in ":file:PATH@…" as
+   the name of a reference does. A file that can't be read has the hash 0; generating its points later reports
+   why. known may be NULL. */
 void koksma__hash_with_points(koksma__point_files *known, const char *hash, const char *spec,
                               char out[KOKSMA__HASH_TEXT]);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Variants: the options of a block of images, all combinations of them. A table has the options with their words; a
-   variant is a text "name=word,..." in the table's order, without defaults, which is the key in the store. Options
-   that change the exact image count for references, too; the others do not. */
+/* Variants: all combinations of the options that a block of images lists. The table `known` has the options with
+   their defaults. The canonical text of a variant, "name=word;...", lists the options that are not at their
+   defaults, in the order of the table; it is part of the key in the store. Only options that change the exact
+   image apply to references. */
 #include "study/plan/variants.h"
 
 #include <math.h>
@@ -15,14 +16,16 @@
 
 enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };
 
-/* Something that a variant sets; set checks a word. */
+/* An option of a variant; set() checks a word and stores its value. */
 typedef struct option {
     const char *name, *fallback;
-    enum { NEVER, ALWAYS, UNLESS_BOX } changes_image; /* the exact one: then it has references of its own */
+    /* when the option changes the exact image, so that it needs its own references */
+    enum { NEVER, ALWAYS, UNLESS_BOX } changes_image;
     koksma_status (*set)(koksma__variant *variant, const char *word);
 } option;
 
-/* The index of a word among names, which end at NULL. */
+/* Finds a word among the names of name_at(), which returns NULL after the last; `what` names the option in the
+   error. */
 static koksma_status find(const char *what, const char *(*name_at)(int i), const char *word, int *index)
 {
     char list[MAX_WORD] = "";
@@ -74,8 +77,9 @@ static koksma_status set_adaptive(koksma__variant *variant, const char *word)
     return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
 }
 
-/* One line for each option that studies may vary. Splatting comes before the filter. Older versions wrote it after the
-   filter and compared such rows with references that were not splatted; with this order the old rows are not found. */
+/* The options that studies may vary, one a line. Splatting comes before the filter, so that rows of older
+   versions, which wrote "filter=...;splat=yes" and compared such images with references that were not splatted,
+   are not found. */
 static const option known[] = {
     {"pairing", "shuffled", NEVER, set_pairing}, {"scope", "pixel", NEVER, set_scope},
     {"lights", "all", NEVER, set_lights},        {"splat", "no", UNLESS_BOX, set_splat},
@@ -87,7 +91,7 @@ enum { N_KNOWN = sizeof known / sizeof *known };
 
 /* ---- Canonical texts ----------------------------------------------------------------------------------- */
 
-/* Appends "name=word" unless the word is the default. */
+/* Appends "name=word" unless the word is the option's default. */
 static void append(char *text, const option *o, const char *word)
 {
     const size_t used = strlen(text);
@@ -96,7 +100,7 @@ static void append(char *text, const option *o, const char *word)
     }
 }
 
-/* The word of an option in a canonical text, or its default. */
+/* Copies the word of an option from a canonical text, or its default if the text does not have it. */
 static void word_of(const char *text, const option *o, char word[MAX_WORD])
 {
     const size_t length = strlen(o->name);
@@ -108,7 +112,8 @@ static void word_of(const char *text, const option *o, char word[MAX_WORD])
     }
 }
 
-/* Splatted pixels at the frame's edge have no samples from beyond it, where a filter wider than a pixel reaches. */
+/* Whether an option of the text changes the exact image. Splatting does so with a filter wider than a pixel:
+   pixels at the frame's edge then lack samples from beyond it. */
 static bool changes_image(const char *text, const option *o)
 {
     char filter[MAX_WORD] = "box";
@@ -161,7 +166,8 @@ void koksma__variant_text(const koksma_integrator *integrator, const koksma_filt
 
 /* ---- Rendering ----------------------------------------------------------------------------------------- */
 
-/* Samples of the first round: a method that begins with several sets takes a set for each. */
+/* Samples per pixel of the first round: a quarter of the budget, divided by the number of sets with which the
+   method begins. */
 static int first_spp(const koksma_adaptive_options *adaptive, int budget)
 {
     const koksma_param *params = adaptive->method->params;
@@ -194,7 +200,7 @@ koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__va
 
 /* ---- Parsing ------------------------------------------------------------------------------------------- */
 
-/* The words of one option; none when the plan doesn't name it. */
+/* Reads the words of one option; words stays empty if the plan does not name it. */
 static koksma_status parse_words(const koksma__json_node *node, const option *o, koksma__texts *words)
 {
     if (!koksma__json_has(node, o->name)) {
@@ -211,7 +217,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
         if (status) {
             return koksma__json_fail_in(&item, status);
         }
-        if (scratch.adaptive.method) { /* two texts of one method are one variant */
+        if (scratch.adaptive.method) { /* two texts of equal parameters are one variant */
             char text[KOKSMA_MAX_SPEC];
             koksma_adaptive_text(&scratch.adaptive, text);
             free(words->at[i]);
@@ -225,7 +231,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
     return status;
 }
 
-/* Adaptive sampling has neither splatting nor patterns over the whole image. */
+/* Rejects adaptive sampling with splatting or with patterns over the whole image. */
 static koksma_status check_together(const char *text)
 {
     koksma__variant v;
@@ -260,7 +266,7 @@ static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *
         KOKSMA__REQUIRE_MEMORY(out->at[out->n], strlen(text));
         const koksma_status status = check_together(text);
         if (status) {
-            out->n++; /* the text that was made must be freed */
+            out->n++; /* count the new text, so that it is freed, too */
             return status;
         }
     }

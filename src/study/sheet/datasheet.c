@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Datasheets: the order of work and of the text. What is computed comes first, because the verdict, which is the first
- * section, rests on all of it. The format is that of a report (docs/report-format.md) with other members before the
- * content, and the page that shows reports shows it. Nothing depends on the clock but the member "seconds".
+ * Writes datasheets: runs all parts in order and puts the sections together. Everything is computed before any
+ * section is written, because the verdict, the first section, depends on all results. The format is that of a
+ * report (docs/report-format.md) with other members before the content, and the page that shows reports also
+ * shows datasheets. Only the member "seconds" depends on the clock.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,7 +39,7 @@ static void put_head(const koksma__sheet *sheet, koksma__document *d)
     koksma__json_begin_array(&d->json, "content");
 }
 
-/* What was left out and why, and what made the numbers. */
+/* Writes the last section: what was left out and why, and the version and seeds behind the numbers. */
 static void put_origin(koksma__sheet *sheet, koksma__document *d)
 {
     koksma__document notes = sheet->notes;
@@ -92,7 +93,6 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
     return status;
 }
 
-/* A part that was interrupted says so, whatever it returns. */
 static koksma_status check_options(const koksma_datasheet_options *o)
 {
     if (!o->sampler || !*o->sampler) {
@@ -100,7 +100,7 @@ static koksma_status check_options(const koksma_datasheet_options *o)
                             "sampler: it takes a pattern's spec, a file of points or my_{n}_{seed}.npy");
     }
     if (o->beside && o->n_beside > KOKSMA_MAX_BESIDE) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n_beside: %zu samplers beside; at most %d", o->n_beside,
+        return koksma__fail(KOKSMA_ARGUMENT, "n_beside: %zu samplers to compare with; at most %d", o->n_beside,
                             KOKSMA_MAX_BESIDE);
     }
     if (o->scenes && o->n_scenes > KOKSMA_MAX_SHEET_SCENES) {

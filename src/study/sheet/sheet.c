@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the parts of a datasheet share: progress over all parts, notes on what is left out, and lists of commands. */
+/* Functions that all parts of a datasheet share: progress over all parts, notes on what is left out, and the
+   commands that reproduce the numbers. */
 #include "study/sheet/sheet.h"
 
 #include <stdarg.h>
@@ -13,7 +14,8 @@
 
 /* ---- Progress ---------------------------------------------------------------------------------------------- */
 
-/* A part may take several passes, each with a fraction of its own: a pass takes pass_share of what is left. */
+/* Reports progress. A part may take several passes, each of which reports fractions from 0 to 1; a pass counts as
+   pass_share of what was left of the part. */
 static bool keep_going(void *context, double fraction)
 {
     koksma__sheet *sheet = context;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A datasheet while it is made: the samplers, what is measured, what came out, progress, notes and commands.
- * datasheet.c has the order of work, sheet_samplers.c the sizes and seeds, the other files a part of the sheet each.
+ * The state of a datasheet while it is made: samplers, measures, results, progress, notes and commands.
+ * datasheet.c has the order of work, sheet_samplers.c chooses samplers, sizes and seeds; the other files make one
+ * part of the sheet each.
  */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_H
 #define KOKSMA_STUDY_SHEET_SHEET_H
@@ -21,24 +22,26 @@ enum {
     KOKSMA__SHEET_COMMANDS = 64
 };
 
-/* A sampler: samplers[0] is what the sheet is about. */
+/* A sampler on the sheet; samplers[0] is the sampler that the sheet describes. */
 typedef struct koksma__sheet_sampler {
-    char text[KOKSMA_MAX_SPEC]; /* of its spec */
+    char text[KOKSMA_MAX_SPEC]; /* canonical text of the spec */
     koksma_spec spec;
-    uint64_t seed; /* of its first set */
-    size_t sets;   /* that it has from this seed on; SIZE_MAX: as many as one likes */
-    bool same;     /* for every seed */
+    uint64_t seed; /* seed of the sampler's first set */
+    size_t sets;   /* number of the sampler's sets with consecutive seeds; SIZE_MAX: no limit */
+    bool same;     /* whether the set is the same for every seed */
 } koksma__sheet_sampler;
 
-/* A measure of the plane, or of more dimensions. left_out: a sampler has no value at a size, or it is no exact one. */
+/* A measure in two or more dimensions. left_out: a sampler has no value at some size, so that the sheet omits the
+   measure. */
 typedef struct koksma__sheet_measure {
     koksma_spec spec;
     char name[KOKSMA_MAX_SPEC];
     bool left_out;
-    size_t n_bounds; /* values that are bounds, as a search was cut short */
+    size_t n_bounds; /* number of values that are only bounds, because a search was cut short */
 } koksma__sheet_measure;
 
-/* Values of measures at sizes: of sampler s, measure m and size i in tallies[(s * n_measures + m) * n_sizes + i]. */
+/* Values of measures at several sizes; tallies[(s * n_measures + m) * n_sizes + i] is of sampler s, measure m and
+   size i. */
 typedef struct koksma__sheet_values {
     int dim;
     size_t n_samplers, n_measures, n_sizes;
@@ -47,10 +50,10 @@ typedef struct koksma__sheet_values {
     const size_t *sizes;
     koksma__sheet_measure measures[KOKSMA__SHEET_MEASURES];
     koksma_tally *tallies;
-    koksma_joint *joints; /* [s * n_measures + m] */
+    koksma_joint *joints; /* a joint's index is s * n_measures + m */
 } koksma__sheet_values;
 
-/* The ranking of one scene at one number of samples a pixel. */
+/* The ranking of the samplers in one scene at one number of samples per pixel. */
 typedef struct koksma__sheet_ranking {
     const char *scene;
     int spp;
@@ -61,43 +64,44 @@ typedef struct koksma__sheet_ranking {
 typedef struct koksma__sheet {
     const koksma_datasheet_options *options;
     const koksma_run *run;
-    double done, share;                  /* of the whole: before the part that runs, and of it */
-    double passed, pass_share, fraction; /* of that part (koksma__sheet_part) */
+    double done, share;                  /* fractions of the whole work: before the current part, and of this part */
+    double passed, pass_share, fraction; /* fractions of the current part (koksma__sheet_part) */
     koksma__sheet_sampler all[KOKSMA__SHEET_SAMPLERS];
     koksma__sheet_sampler *samplers[KOKSMA__SHEET_SAMPLERS];
     size_t n_samplers;
     size_t sizes[KOKSMA__SHEET_SIZES], n_sizes;
     int spp[KOKSMA__SHEET_SPP];
     size_t n_spp;
-    int max_dim;               /* of samplers[0] */
-    size_t trials;             /* sets of each size */
-    size_t max_trials;         /* images of each sampler in a scene */
-    koksma_metric_spec metric; /* of their errors */
+    int max_dim;               /* highest dimension that samplers[0] supports */
+    size_t trials;             /* number of sets of each size */
+    size_t max_trials;         /* largest number of images of each sampler in a scene */
+    koksma_metric_spec metric; /* metric of the images' errors */
     char metric_text[KOKSMA_MAX_SPEC];
     const char *const *scenes;
     size_t n_scenes;
     char *commands[KOKSMA__SHEET_COMMANDS];
     size_t n_commands;
-    koksma__document notes; /* items of a list: what is left out, and why */
+    koksma__document notes; /* list items: what is left out, and why */
     size_t n_notes;
     koksma__sheet_values plane;
-    koksma__sheet_ranking *rankings; /* [scene * n_spp + spp] */
+    koksma__sheet_ranking *rankings; /* a ranking's index is scene * n_spp + spp */
     size_t n_rankings;
 } koksma__sheet;
 
-/* A run for the next part of the work, which is this share of the whole. Whenever the fraction that is done begins
-   again, the pass before counts for pass_share of what was left of the part: 1 for a part of one pass. The inner
-   run's context is the sheet. */
+/* Returns the run for the next part, whose work is `share` of the whole. A part may consist of several passes,
+   each of which begins when the reported fraction falls; the pass before counts as pass_share of what was left of
+   the part (1 for a part of one pass). The returned run's context is the sheet. */
 koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_share);
 
-/* An item of the list of notes: words, and then the text of this thread's last error. */
+/* Appends a note: `what`, then the text of this thread's last error. */
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what);
 
-/* The operand of commands for sets of a sampler, quoted for a shell where it has to be: pattern:SPEC@n, and @dim where
-   that is not 2. */
+/* Writes the operand that names sets of a sampler in a command, quoted for a shell if necessary: pattern:SPEC@n,
+   followed by @dim unless dim is 2. */
 void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim, char *out, size_t size);
 
-/* Command lines for a section, "koksma " before each; koksma__sheet_put_commands writes and empties the list. */
+/* Collect command lines for a section, without the word "koksma"; koksma__sheet_put_commands writes and empties
+   the list. */
 void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...) KOKSMA_PRINTF(2, 3);
 void koksma__sheet_put_commands(koksma__sheet *sheet, koksma__document *d);
 void koksma__sheet_drop_commands(koksma__sheet *sheet);

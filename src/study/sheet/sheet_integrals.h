@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Errors of integration: a section. */
+/* The section of a datasheet on errors of integration. */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_INTEGRALS_H
 #define KOKSMA_STUDY_SHEET_SHEET_INTEGRALS_H
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Measures of samplers over sizes and trials. A job is one trial of one sampler at one size, on one thread; its values
- * go to a place of their own and are added up in the order of trials afterwards, as `koksma measure --sizes --trials`
- * adds them, so that the numbers are those of that command to the last bit. A set that is the same for every seed is
- * measured once and counted for every trial.
+ * Measures the samplers at several sizes over several trials. A job is one trial of one sampler at one size, on
+ * one thread. Each job stores its values in its own array elements; they are added up afterwards in the order of
+ * trials, as in `koksma measure --sizes --trials`, so that the numbers equal those of that command to the last
+ * bit. A set that is the same for every seed is measured once and counted for every trial.
  *
- * Comparisons are Welch's (1947) on means over trials, each at 5 % over the number of tests (Bonferroni), so that all
- * that a sheet decides holds together with 95 %. Means of sets that never vary compare exactly.
+ * Samplers are compared by Welch's test (1947) on means over trials, each at a level of 5 % divided by the number
+ * of tests (Bonferroni), so that all decisions of a sheet hold together with 95 %. Means of sets that never vary
+ * are compared exactly.
  */
 #include "study/sheet/sheet_measures.h"
 
@@ -24,9 +25,9 @@
 
 typedef struct evaluation {
     koksma__sheet_values *values;
-    size_t trials;         /* the most of a sampler */
-    double *found;         /* [((sampler * sizes + size) * trials + trial) * measures + measure] */
-    unsigned char *status; /* likewise: 0 a value, 1 a bound, 2 none */
+    size_t trials;         /* the largest number of trials of any sampler */
+    double *found;         /* a value's index is ((sampler * sizes + size) * trials + trial) * measures + measure */
+    unsigned char *status; /* indexed as `found`; 0: a value, 1: a bound, 2: no value */
 } evaluation;
 
 static koksma_status evaluate_set(void *context, size_t job)
@@ -51,7 +52,7 @@ static koksma_status evaluate_set(void *context, size_t job)
     return status;
 }
 
-/* Says why a measure is left out: the error of the first set that has no value. */
+/* Adds a note why a measure is left out: the error of the first set for which it has no value. */
 static void note_missing(koksma__sheet *sheet, const evaluation *e, size_t m)
 {
     koksma__sheet_values *v = e->values;
@@ -70,7 +71,7 @@ static void note_missing(koksma__sheet *sheet, const evaluation *e, size_t m)
     }
 }
 
-/* Adds up the values of one sampler and measure, trial by trial. */
+/* Adds up the values of one sampler and one measure, trial by trial. */
 static void add_up(const evaluation *e, size_t s, size_t m)
 {
     koksma__sheet_values *v = e->values;
@@ -135,7 +136,7 @@ int koksma__sheet_compare(const koksma__sheet_values *v, size_t a, size_t b, siz
     const double ex = v->samplers[a]->same ? 0 : koksma_tally_error(x),
                  ey = v->samplers[b]->same ? 0 : koksma_tally_error(y);
     const double variance = ex * ex + ey * ey;
-    if (!(variance > 0)) { /* one set of what varies has no error (NaN): not decided */
+    if (!(variance > 0)) { /* a single set of a random sampler gives no error (NaN): not decided */
         return variance == 0 ? sign : 0;
     }
     const double fourth =
@@ -191,7 +192,7 @@ static koksma__estimate slope_of(const koksma__sheet_values *v, size_t s, size_t
     return (koksma__estimate){line.slope, line.slope - half, line.slope + half};
 }
 
-/* The best of the others by measure m at the last size. */
+/* Finds the best of the other samplers by measure m at the largest size. */
 static size_t best_beside(const koksma__sheet_values *v, size_t m)
 {
     const double sign = v->measures[m].spec.measure->larger_is_better ? -1 : 1;
@@ -239,7 +240,7 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
     char title[256];
     snprintf(title, sizeof title, "%s%s", v->measures[m].name,
              measure->larger_is_better ? " (larger is better)" : "");
-    bool positive = true; /* a logarithmic axis has no 0, which the t-values of nets are */
+    bool positive = true; /* a logarithmic axis cannot show 0, which the t-values of nets may be */
     for (size_t k = 0; k < v->n_samplers * v->n_sizes; k++) {
         positive &= koksma__sheet_tally(v, k / v->n_sizes, m, k % v->n_sizes)->mean > 0;
     }
@@ -255,7 +256,7 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
     koksma__doc_end(d);
 }
 
-/* Every number, one a row. */
+/* Writes a table with every number in its own row. */
 static void put_values(const koksma__sheet_values *v, const char *name, koksma__document *d)
 {
     koksma__doc_table_begin(d, name);
@@ -282,7 +283,7 @@ static void put_values(const koksma__sheet_values *v, const char *name, koksma__
     koksma__doc_table_end(d);
 }
 
-/* Slopes of all samplers, as `koksma measure --sizes` fits them. */
+/* Writes a table of all samplers' slopes, fitted as `koksma measure --sizes` does. */
 static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
 {
     koksma__doc_table_begin(d, "slopes");

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Measures of samplers over sizes and trials. */
+/* Measures of samplers at several sizes over several trials. */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_MEASURES_H
 #define KOKSMA_STUDY_SHEET_SHEET_MEASURES_H
 
 #include "study/sheet/sheet.h"
 
-/* Evaluates values->measures on all sizes and trials; leaves out what has no value, with a note. */
+/* Evaluates values->measures at all sizes and trials; leaves out measures without a value, with a note. */
 koksma_status koksma__sheet_evaluate(koksma__sheet *sheet, koksma__sheet_values *values, const koksma_run *run);
 void koksma__sheet_values_fini(koksma__sheet_values *values);
 const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *values, size_t s, size_t m, size_t i);
 
-/* A table of all values, and the commands that give them. */
+/* Writes a table of all values and the commands that compute them. */
 void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *values, const char *name,
                               koksma__document *d);
 
-/* Whether sampler a is better than b by measure m at size i, in a test at the level 5 % / tests: 1, -1, or 0: not
-   decided. */
+/* Whether sampler a is better than b by measure m at size i, in a test at the level 5 % / tests: 1: a is better,
+   -1: b is, 0: not decided. */
 int koksma__sheet_compare(const koksma__sheet_values *values, size_t a, size_t b, size_t m, size_t i, size_t tests);
 
-/* What is measured in the plane, and the section. */
+/* Evaluate the measures in the plane; write their section. */
 koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet);
 void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d);
 

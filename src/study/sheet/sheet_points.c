@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the points are: drawings of the first set of a few sizes, the properties that `koksma verify` finds in it, and
- * in more dimensions the projections on pairs of coordinates with the discrepancies there.
+ * Sections that show the points: drawings of the first set of a few sizes, the properties that `koksma verify`
+ * finds in it and, in more dimensions, projections on pairs of coordinates with the discrepancies in all
+ * dimensions.
  */
 #include "study/sheet/sheet_points.h"
 
@@ -16,7 +17,7 @@
 
 enum { DRAWN = 1024, WIDTH = 168, PROJECTION_WIDTH = 140, VERIFIED = 1024, MOST_DIM = 8, DEEP_POINTS = 1024 };
 
-/* The points of coordinates a and b as a figure. */
+/* Draws coordinates a and b of the points as a figure. */
 static void draw(koksma__document *d, const koksma_points *points, int a, int b, int width, const char *what,
                  const char *caption)
 {
@@ -37,7 +38,7 @@ static void draw(koksma__document *d, const koksma_points *points, int a, int b,
     koksma__doc_figure_end(d);
 }
 
-/* first: it is the sampler of the sheet, whose name need not stand below each set. */
+/* Draws a set; with `first`, for the sheet's own sampler, the caption does not repeat the sampler's name. */
 static koksma_status draw_set(const koksma__sheet_sampler *sampler, size_t n, bool first, koksma__document *d)
 {
     char what[KOKSMA_MAX_SPEC + 64];
@@ -85,7 +86,7 @@ koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *
 
 /* ---- Properties -------------------------------------------------------------------------------------------- */
 
-/* How many findings of a property hold, as "yes", "no" or "2 of 3"; "–" without any. */
+/* Writes how many findings of a property hold: "yes", "no" or "2 of 3"; "–" if there are none. */
 static void count_findings(const koksma_findings *findings, const char *property, char *out, size_t size)
 {
     size_t n = 0, held = 0;
@@ -183,7 +184,7 @@ koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
 
 /* ---- More dimensions --------------------------------------------------------------------------------------- */
 
-/* Pairs of neighbouring coordinates, and the first with the last. */
+/* Draws projections on pairs of adjacent coordinates, and on the first and the last. */
 static koksma_status draw_pairs(const koksma__sheet_sampler *sampler, size_t n, int dim, koksma__document *d)
 {
     koksma_points points = {0};
@@ -198,7 +199,7 @@ static koksma_status draw_pairs(const koksma__sheet_sampler *sampler, size_t n, 
     return status;
 }
 
-/* The samplers that have sets of n points in so many dimensions; false: the first has none. */
+/* Finds the samplers that have sets of n points in `dim` dimensions; false if samplers[0] has none. */
 static bool choose_deep(koksma__sheet *sheet, size_t n, int dim, bool note, koksma__sheet_sampler **samplers,
                         size_t *count)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Drawings, verified properties and projections of the points: a section each. */
+/* The sections of a datasheet with drawings, verified properties and projections of the points. */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_POINTS_H
 #define KOKSMA_STUDY_SHEET_SHEET_POINTS_H
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which samplers a sheet compares, and at which sizes. A text that names a file, or has {n} or {seed} in it, is one of
- * points; anything else is the spec of a pattern. Files decide: a family of files is measured at the sizes and with
- * the seeds that it has, a single file at its own size, everything beside it at the same sizes.
+ * Chooses which samplers a sheet compares, and at which sizes. A text that names a file or contains {n} or {seed}
+ * stands for files of points; any other text is the spec of a pattern. If the sheet's sampler is given by files,
+ * they decide the sizes: a family of files is measured at its own sizes and seeds, a single file at its own size,
+ * and all other samplers at the same sizes.
  */
 #include "study/sheet/sheet_samplers.h"
 
@@ -62,7 +63,7 @@ static koksma_status parse(const char *text, koksma__sheet_sampler *out)
 
 /* ---- Files ------------------------------------------------------------------------------------------------- */
 
-/* How many sets of n points a family has one after the other from a seed on. */
+/* Counts the sets of n points with consecutive seeds from `seed` on. */
 static size_t count_from(const koksma__file_set *sets, size_t count, size_t n, uint64_t seed)
 {
     size_t found = 0;
@@ -72,7 +73,7 @@ static size_t count_from(const koksma__file_set *sets, size_t count, size_t n, u
     return found;
 }
 
-/* Keeps at most KOKSMA__SHEET_SIZES, spread evenly on a logarithmic axis, with the first and the last. */
+/* Keeps at most KOKSMA__SHEET_SIZES sizes, evenly spread on a logarithmic axis, including the first and the last. */
 static size_t thin(size_t *sizes, size_t n)
 {
     size_t kept = 0;
@@ -91,8 +92,8 @@ static size_t thin(size_t *sizes, size_t n)
     return kept;
 }
 
-/* A size is measured if it has at least half as many sets as the one with the most, and no more points than is
-   quick to measure, unless all have. */
+/* Chooses sizes of a family of files: those with at least half as many sets as the size with the most, and no
+   more points than can be measured quickly, unless all sizes have more. */
 static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_sampler *sampler,
                                             const koksma__file_set *sets, size_t count)
 {
@@ -125,7 +126,8 @@ static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_
     return KOKSMA_OK;
 }
 
-/* Numbers of sets in a row for one that is beside: of the sizes of the sheet. */
+/* Sets the seed and the number of consecutive sets of a sampler that the sheet's sampler is compared with, at the
+   sheet's sizes. */
 static void count_sets(const koksma__sheet *sheet, koksma__sheet_sampler *sampler, const koksma__file_set *sets,
                        size_t count)
 {
@@ -148,7 +150,7 @@ static koksma_status fail_none(const char *path)
                                  koksma__file_has(path, "{seed}") ? " for seed 0" : "");
 }
 
-/* The size of a file that says none in its name. */
+/* Reads a file whose name does not contain the size, and makes its size the only one of the sheet. */
 static koksma_status size_of_file(koksma__sheet *sheet, koksma__sheet_sampler *sampler)
 {
     koksma_points points = {0};
@@ -159,7 +161,8 @@ static koksma_status size_of_file(koksma__sheet *sheet, koksma__sheet_sampler *s
     return status;
 }
 
-/* Sizes and seeds of a sampler whose points are in files; of samplers[0] those of the sheet. */
+/* Finds seeds and numbers of sets of a sampler whose points are in files; for samplers[0], also the sheet's
+   sizes. */
 static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *sampler)
 {
     koksma__file_set *sets = NULL;
@@ -181,7 +184,7 @@ static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *
     } else if (!status && first) {
         status = size_of_file(sheet, sampler);
     }
-    if (!koksma__file_has(path, "{seed}")) { /* one set of each size: the same for every seed */
+    if (!koksma__file_has(path, "{seed}")) { /* the family has one set of each size, the same for every seed */
         sampler->seed = 0;
         sampler->sets = SIZE_MAX;
     }
@@ -189,7 +192,7 @@ static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *
     return status;
 }
 
-/* The dimensions that samplers[0] has. */
+/* Finds the highest dimension that samplers[0] supports. */
 static koksma_status find_dimensions(koksma__sheet *sheet)
 {
     const koksma__sheet_sampler *sampler = &sheet->all[0];
@@ -206,7 +209,7 @@ static koksma_status find_dimensions(koksma__sheet *sheet)
     return status;
 }
 
-/* ---- The choice -------------------------------------------------------------------------------------------- */
+/* ---- Choosing samplers and sizes ----------------------------------------------------------------------- */
 
 koksma_status koksma__sheet_points(const koksma__sheet_sampler *sampler, size_t n, int dim, size_t trial,
                                    koksma_points *out)
@@ -236,7 +239,7 @@ size_t koksma__sheet_size(const koksma__sheet *sheet, size_t most)
     return found;
 }
 
-/* Whether a sampler has a first set of every size. */
+/* Checks that a sampler has a first set of every size. */
 static koksma_status try_sizes(const koksma__sheet *sheet, const koksma__sheet_sampler *sampler)
 {
     koksma_status status = KOKSMA_OK;
@@ -248,7 +251,7 @@ static koksma_status try_sizes(const koksma__sheet *sheet, const koksma__sheet_s
     return status;
 }
 
-/* Adds a sampler; one of those beside that cannot serve a size is left out. */
+/* Adds a sampler. One that samplers[0] is compared with is left out, with a note, if it lacks a size. */
 static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by_default)
 {
     koksma__sheet_sampler *sampler = &sheet->all[sheet->n_samplers];
@@ -274,7 +277,8 @@ static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by
     return status;
 }
 
-/* Samples a pixel: those of 4, 16 and 64 that the sizes have, else up to three sizes of few points. */
+/* Chooses numbers of samples per pixel: those of 4, 16 and 64 that the sampler has; if none, up to three of the
+   sizes, the smallest first. */
 static void choose_spp(koksma__sheet *sheet)
 {
     static const int usual[] = {4, 16, 64};
@@ -288,7 +292,7 @@ static void choose_spp(koksma__sheet *sheet)
             sheet->spp[sheet->n_spp++] = usual[k];
         }
     }
-    const bool none = sheet->n_spp == 0; /* of the usual numbers: what else there is, the fewest first */
+    const bool none = sheet->n_spp == 0; /* the sampler has none of the usual numbers */
     for (size_t i = 0; i < sheet->n_sizes && none && sheet->n_spp < (sheet->options->quick ? 1 : KOKSMA__SHEET_SPP);
          i++) {
         if (sheet->sizes[i] <= MOST_SPP) {
@@ -316,7 +320,8 @@ koksma_status koksma__sheet_choose(koksma__sheet *sheet)
     for (size_t i = 0; !status && i < n; i++) {
         status = add_sampler(sheet, o->beside ? o->beside[i] : beside_by_default[i], !o->beside);
     }
-    for (size_t i = 0; !status && i < sheet->n_scenes; i++) { /* now, and not after minutes */
+    /* check scenes before the measures, which take minutes */
+    for (size_t i = 0; !status && i < sheet->n_scenes; i++) {
         koksma_scene *scene = NULL;
         status = koksma_scene_open(sheet->scenes[i], &scene);
         koksma_scene_close(scene);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Errors of the samplers in scenes: koksma_rank_patterns at one size without a time limit, so that the numbers depend
- * on nothing but the scene and the samplers.
+ * Errors of the samplers in scenes, from koksma_rank_patterns at one size without a time limit, so that the
+ * numbers depend on nothing but the scene and the samplers.
  */
 #include "study/sheet/sheet_scenes.h"
 
@@ -12,10 +12,12 @@
 
 #include "core/status.h"
 
-/* Work that a pixel's samples and the pixels of an image may make together: 64 samples in 160 x 120 pixels. */
+/* The most samples of an image, over all pixels: 64 samples in each of 160 x 120 pixels. */
 enum { MOST_SAMPLES = 64 * 160 * 120 };
 
-/* The size of the images of a scene, one for all numbers of samples: 0 x 0, what koksma rank takes, or halved further. */
+/* Chooses the size of a scene's images, the same for all numbers of samples per pixel: 0 x 0, which means the
+   size that koksma rank uses, or, above 64 samples per pixel, the scene's size halved until an image has at most
+   MOST_SAMPLES. */
 static koksma_status choose_size(const koksma__sheet *sheet, const char *name, int *width, int *height)
 {
     koksma_scene *scene;
@@ -69,7 +71,7 @@ koksma_status koksma__sheet_rank(koksma__sheet *sheet)
     return status;
 }
 
-/* Words of a decision beside the first row. */
+/* The decision of the ranking about a row, in words. */
 static const char *decision_of(const koksma_rank_row *row)
 {
     static const char *const words[] = {"undecided", "best", "equal to the first", "worse than the first"};
@@ -120,7 +122,7 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
     koksma__doc_table_end(d);
 }
 
-/* Errors over samples a pixel, where there are several. */
+/* Draws errors against samples per pixel, if there are several numbers of samples. */
 static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
     char title[128];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Errors in scenes: the rankings, and their section. */
+/* The rankings of samplers in scenes, and the section of a datasheet with them. */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_SCENES_H
 #define KOKSMA_STUDY_SHEET_SHEET_SCENES_H
 

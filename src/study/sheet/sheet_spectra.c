@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Spectra of samplers: pictures of the power at every frequency, its radial mean, two numbers of blue noise, and the
- * pair correlation, over sets with as many frequencies and rings as `koksma curve` takes by itself, so that the
- * numbers are that command's.
+ * Spectra of samplers: pictures of the power at every frequency, its radial mean, two numbers that measure blue
+ * noise, and the pair correlation. `koksma curve` with its default numbers of frequencies and rings prints the
+ * same numbers.
  */
 #include "study/sheet/sheet_spectra.h"
 
@@ -19,11 +19,12 @@
 
 enum { POINTS = 1024, QUALITY_PER_ROOT = 7, RADIAL_PER_ROOT = 2, BINS = 100, WHITE = 2, SIDE = 200 };
 
-/* Of one sampler. */
+/* The spectra of one sampler. */
 typedef struct spectra {
     const koksma__sheet_sampler *sampler;
     size_t n, trials;
-    koksma_spectrum radial, wide; /* up to 2 sqrt(n), and up to 7 sqrt(n) for the quality */
+    /* radial: frequencies up to 2 sqrt(n); wide: up to 7 sqrt(n), for the blue noise numbers */
+    koksma_spectrum radial, wide;
     koksma_tally pairs[BINS];
     double r_max;
 } spectra;
@@ -57,7 +58,8 @@ static koksma_status compute(void *context, size_t i)
     return status;
 }
 
-/* The power on a grid, ky = half on top, the frequency 0 left out; SIDE pixels at least. */
+/* Draws the power on a grid of frequencies with ky = half at the top, enlarged to at least SIDE pixels. The
+   frequency 0 has the power 0. */
 static koksma_status put_picture(const spectra *s, koksma__document *d)
 {
     const int half = s->radial.half, side = 2 * half + 1, scale = side >= SIDE ? 1 : (SIDE + side - 1) / side;
@@ -181,7 +183,7 @@ static koksma_status put_section(koksma__sheet *sheet, const spectra *all, koksm
             koksma__doc_append(d, &picture);
         }
     }
-    if (status == KOKSMA_UNSUPPORTED) { /* a build without PNG */
+    if (status == KOKSMA_UNSUPPORTED) { /* this build has no PNG */
         koksma__sheet_note_error(sheet, "pictures of spectra");
         status = KOKSMA_OK;
     }

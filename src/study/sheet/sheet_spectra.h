@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Spectra and pair correlations: a section. */
+/* The section of a datasheet with spectra and pair correlations. */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_SPECTRA_H
 #define KOKSMA_STUDY_SHEET_SHEET_SPECTRA_H
 

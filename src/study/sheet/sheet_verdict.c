@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The verdict of a sheet: at what the sampler is best, where it is beaten, and how sure that is. A measure counts as
- * won when the sampler is better than every other one at the largest n, as lost when one is better than it, and is not
- * decided otherwise; a scene likewise by the decisions of its ranking at the most samples.
+ * The verdict of a datasheet: where the sampler is best, where it is beaten, and how certain that is. A measure
+ * is won if the sampler is better than every other one at the largest n, lost if another one is better, equal if
+ * it is better than or equal to every other one, and otherwise undecided. Scenes are won or lost by the decisions
+ * of their ranking at the most samples per pixel.
  */
 #include "study/sheet/sheet_verdict.h"
 
@@ -12,13 +13,13 @@
 
 #include "study/sheet/sheet_measures.h"
 
-/* What came of the comparisons of one measure or scene. */
+/* The outcome of comparing the sampler with all others by one measure or in one scene. */
 typedef enum outcome { OPEN, WON, LOST, EQUAL } outcome;
 
 typedef struct score {
     size_t n[4], tests;
     outcome of[KOKSMA__SHEET_MEASURES];
-    size_t winner[KOKSMA__SHEET_MEASURES]; /* where LOST: who is the best of those that are better */
+    size_t winner[KOKSMA__SHEET_MEASURES]; /* where result is LOST: the best of the samplers that are better */
 } score;
 
 static outcome judge_measure(const koksma__sheet_values *v, size_t m, size_t tests, size_t *winner)
@@ -58,7 +59,7 @@ static score score_measures(const koksma__sheet_values *v)
     return result;
 }
 
-/* The row of the sampler, and what the ranking decides about it. */
+/* Finds the sampler's row in a ranking and what the ranking decides about it. */
 static outcome judge_scene(const koksma__sheet_ranking *r, const koksma_rank_row **row)
 {
     *row = NULL;
@@ -82,7 +83,8 @@ static void say_count(koksma__document *d, size_t measures, size_t of_measures, 
     }
 }
 
-/* The measures with this outcome, as an item; of lost ones those that `winner` has won. Nothing where there are none. */
+/* Writes a list item with the measures that have this outcome, for lost ones only those won by `winner`; writes
+   nothing if there are none. */
 static void put_measures(const koksma__sheet_values *v, const score *result, outcome which, size_t winner,
                          const char *head, koksma__document *d)
 {
@@ -106,7 +108,7 @@ static void put_measures(const koksma__sheet_values *v, const score *result, out
     }
 }
 
-/* One item for each scene, at the most samples a pixel. */
+/* Writes one list item for each scene, at the most samples per pixel. */
 static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
 {
     for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {
@@ -130,7 +132,7 @@ static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
         } else if (o == EQUAL) {
             koksma__doc_say(d, "equal within 2 %% to %s", sheet->samplers[r->rows[0].pattern]->text);
         } else {
-            koksma__doc_say(d, "not decided by %lld images of each", r->ranking.trials);
+            koksma__doc_say(d, "undecided after %lld images of each sampler", r->ranking.trials);
         }
         if (row && row->coherence.coherent) {
             koksma__doc_say(d, "; its error has a pattern, not noise alone");
@@ -153,8 +155,7 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     koksma__doc_section(d, "verdict", "Verdict");
     koksma__doc_paragraph_begin(d);
     if (sheet->n_samplers == 1) {
-        koksma__doc_say(d, "Nothing is beside %s on this sheet: it has numbers and no comparison.",
-                        sheet->samplers[0]->text);
+        koksma__doc_say(d, "This sheet compares %s with no other sampler.", sheet->samplers[0]->text);
         koksma__doc_paragraph_end(d);
         koksma__doc_end(d);
         return;

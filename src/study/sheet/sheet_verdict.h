@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The verdict: a section. */
+/* The section of a datasheet with the verdict. */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_VERDICT_H
 #define KOKSMA_STUDY_SHEET_SHEET_VERDICT_H
 

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * SQLite behind a narrow interface: opens a file, runs statements, binds values, steps through rows, and turns error
- * codes into a status and a text. No other file includes sqlite3.h.
+ * SQLite behind a narrow interface: opens a file, runs statements, binds values, steps through rows, and turns
+ * error codes into a status and a text. No other file includes sqlite3.h.
  *
- * A file may come from a stranger. Its header is read before SQLite sees it; every connection is "defensive", trusts
- * nothing in the schema, and has triggers and views switched off (https://sqlite.org/security.html).
+ * A database may come from an untrusted source. Its header is checked before SQLite opens it; every connection is
+ * "defensive", does not trust the schema, and has triggers and views switched off
+ * (https://sqlite.org/security.html).
  *
- * To read, the file is locked as SQLite's readers do, by a handle that only locks. Then it can't change, and is opened
- * as an immutable file: without locks, without a log of its own, from a folder that can't be written. Where a killed
- * run has left a write-ahead log, SQLite needs an index of it, and keeps that in memory in exclusive mode. It would
- * then lock the file for writing; the VFS "unix-none", which has no locks, prevents that, and our own lock holds.
+ * To read, a second handle that only locks takes the shared lock that SQLite's readers take. The file then can't
+ * change and is opened as immutable: without further locks or a new write-ahead log, also in a folder that can't
+ * be written. If a killed run has left a write-ahead log, SQLite needs an index of the log, and keeps the index
+ * in memory only in exclusive mode, in which it would lock the file for writing. The VFS "unix-none", which has
+ * no locks, prevents that write lock; the second handle's shared lock still protects the file.
  */
 #include "study/store/database.h"
 
@@ -26,21 +28,22 @@
 
 enum { MAX_PATH = 4096, HEADER = 100 };
 
-/* The system layer refers to the name until the file is closed. */
+/* A file opened through SQLite's VFS, which refers to the name until the file is closed. */
 typedef struct held_file {
     char *name;
-    sqlite3_file file; /* and behind it what the system layer has of it */
+    sqlite3_file file; /* its VFS allocates further bytes after this member */
 } held_file;
 
 struct koksma__database {
     sqlite3 *file;
-    held_file *lock;             /* to read: holds SQLite's shared lock */
-    char *path;                  /* for errors */
-    char real[MAX_PATH];         /* absolute: no name begins as a URI does */
-    char uri[3 * MAX_PATH + 64]; /* by which it is read */
+    held_file *lock;             /* when reading: holds SQLite's shared lock */
+    char *path;                  /* the path for error messages */
+    char real[MAX_PATH];         /* the absolute path, which SQLite cannot take for a URI */
+    char uri[3 * MAX_PATH + 64]; /* the URI that opens the file for reading */
 };
 
-/* A lock dies with its process, but a process that was killed holds it until the system has found time to end it. */
+/* How long to wait for a lock, and how often to try. A lock ends with its process, but a killed process holds it
+   until the system has ended the process. */
 enum { LAST_BREATH_MS = 1500, LOOK_AGAIN_MS = 10 };
 
 static koksma_status fail_busy(const char *path)
@@ -77,7 +80,7 @@ static koksma_status fail(koksma__database *database)
     return koksma__fail(KOKSMA_IO, "%s: %s", path, of_system ? strerror(system) : reason);
 }
 
-/* ---- The file before SQLite ---------------------------------------------------------------------------- */
+/* ---- Looking at a file before SQLite opens it ----------------------------------------------------------- */
 
 static void close_file(held_file *held)
 {
@@ -90,8 +93,8 @@ static void close_file(held_file *held)
     }
 }
 
-/* A file by SQLite's own system layer, which knows what else this process has open: closing a second descriptor of a
-   file would end its locks (POSIX). */
+/* Opens a file through SQLite's own VFS, which knows the other descriptors of this process: under POSIX, closing
+   a second descriptor of a file would release the locks of the first. */
 static koksma_status open_file(const char *path, held_file **out)
 {
     sqlite3_vfs *vfs = sqlite3_vfs_find(NULL);
@@ -119,7 +122,8 @@ static koksma_status open_file(const char *path, held_file **out)
     return KOKSMA_OK;
 }
 
-/* Whether there is such a file, and how large it is; what is no plain file is refused, as a pipe would never end. */
+/* Finds whether a file exists and its size. Fails if it is not a regular file, because reading a pipe might not
+   end. */
 static koksma_status look_at(const char *path, bool *exists, long long *size)
 {
     struct stat info;
@@ -127,11 +131,11 @@ static koksma_status look_at(const char *path, bool *exists, long long *size)
     *size = *exists ? (long long)info.st_size : 0;
     KOKSMA__FAIL_IF(!*exists && errno != ENOENT, errno == ENOTDIR ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path,
                     strerror(errno));
-    return *exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: it is no plain file", path)
+    return *exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: not a regular file", path)
                                              : KOKSMA_OK;
 }
 
-/* The file that SQLite has beside another: "-wal", "-journal". */
+/* Finds the size of a file that SQLite writes beside the database, with the ending "-wal" or "-journal". */
 static koksma_status look_beside(const char *path, const char *ending, long long *size)
 {
     char beside[MAX_PATH + 16];
@@ -157,7 +161,7 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
     if (status || !size) {
         return status;
     }
-    char *real = realpath(path, NULL); /* SQLite's layer opens no links */
+    char *real = realpath(path, NULL); /* SQLite's VFS does not follow symbolic links here */
     if (real && strlen(real) < MAX_PATH) {
         status = look_beside(real, "-journal", &journal);
         header->has_journal = journal > 0;
@@ -199,7 +203,7 @@ static koksma_status lock_to_read(koksma__database *database)
     return status;
 }
 
-/* "file:/a%3fb?…": the absolute path, as SQLite's URIs want it. */
+/* Writes the URI "file:/a%3fb?…" of the absolute path, escaped as SQLite requires. */
 static void write_uri(koksma__database *database, const char *query)
 {
     char *to = stpcpy(database->uri, "file:");
@@ -225,7 +229,7 @@ static koksma_status prepare_to_read(koksma__database *database)
     status = status ? status : look_beside(database->real, "-wal", &log);
     if (!status && journal) {
         status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s-journal: another program was at work on the database, and has to "
+                              "%s-journal: another program left a journal of the database, and has to "
                               "end it first",
                               database->path);
     }
@@ -285,7 +289,7 @@ koksma_status koksma__database_open(const char *path, koksma__database_mode mode
     } else if (!(whole = *path ? realpath(path, NULL) : strdup(""))) {
         status = koksma__fail(errno == ENOENT ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path, strerror(errno));
     } else if (strlen(whole) >= MAX_PATH) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "%s: its path is too long", path);
+        status = koksma__fail(KOKSMA_ARGUMENT, "%s: the path is too long", path);
     }
     if (!status) {
         strcpy(database->real, whole);

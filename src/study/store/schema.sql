@@ -1,44 +1,44 @@
--- The results of studies, schema 6 (user_version; application_id 1263236977, "Kksm" in the header of the file). Text
--- names never change meaning. Numbers are the doubles that were computed, bit for bit. `SELECT * FROM rows` shows
--- everything with its key. Koksma opens a file that has exactly these tables and nothing else.
+-- The results of studies, schema 6 (user_version; application_id 1263236977, "Kksm" in the header of the file). A name
+-- in a text never changes its meaning. Numbers are the computed doubles, bit for bit. `SELECT * FROM rows` shows all
+-- results with their keys. Koksma opens a file only if it has exactly these tables and nothing else.
 
-CREATE TABLE meta (          -- what made this file: 'plan', 'plan-texts', 'plan-text-0' and 'plan-name-0' and on; its 'seal'
-  key TEXT PRIMARY KEY,                    -- seal: "N SUM", how many rows meta (all but this), series, result and
-  value TEXT NOT NULL                      -- reference have, and the sum of their checksums (seal.c)
+CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 'plan-name-0', ..., and 'seal'
+  key TEXT PRIMARY KEY,                    -- of seal "N SUM": how many rows meta (but seal), series,
+  value TEXT NOT NULL                      -- result and reference have, and the sum of their checksums (seal.c)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE series (        -- what is measured, all but the trial: one row a mean in a table
-  id INTEGER PRIMARY KEY CHECK (id BETWEEN 1 AND 67108864), -- of an image a multiple of 4; measures of the same point
-                                           -- sets follow it
-  kind TEXT NOT NULL CHECK (kind IN ('discrepancy', 'image', 'coherence')), -- coherence: of an image's error
-  scene TEXT NOT NULL,                     -- '' for discrepancies, as the next
-  scene_hash TEXT NOT NULL,                -- of the scene's text, and of the points of a file: pattern, hexadecimal
-  options TEXT NOT NULL,                   -- what differs from the defaults: pairing=aligned, warp=polar-disk
+CREATE TABLE series (        -- the key of results without the trial; each series is one mean in a table
+  id INTEGER PRIMARY KEY CHECK (id BETWEEN 1 AND 67108864), -- a multiple of 4 for images; measures of the same
+                                           -- point sets have consecutive ids
+  kind TEXT NOT NULL CHECK (kind IN ('discrepancy', 'image', 'coherence')), -- coherence of an image's error
+  scene TEXT NOT NULL,                     -- '' for discrepancies, as is scene_hash
+  scene_hash TEXT NOT NULL,                -- hexadecimal hash of the scene's text, and of a file: pattern's points
+  options TEXT NOT NULL,                   -- options that differ from the defaults: pairing=aligned, warp=polar-disk
   pattern TEXT NOT NULL,                   -- canonical spec, e.g. poisson-disk:d=0.2
-  n INTEGER NOT NULL CHECK (n > 0),        -- points, or samples a pixel
+  n INTEGER NOT NULL CHECK (n > 0),        -- points, or samples per pixel
   dim INTEGER NOT NULL CHECK (dim >= 0),   -- 0 for images
-  width INTEGER NOT NULL CHECK (width >= 0), -- 0 for discrepancies, as the next
+  width INTEGER NOT NULL CHECK (width >= 0), -- 0 for discrepancies, as is height
   height INTEGER NOT NULL CHECK (height >= 0),
-  what TEXT NOT NULL,                      -- the measure's canonical spec, or the reference: name:pattern@spp x replicates
-  made_by TEXT NOT NULL,                   -- revisions: random 0; renderer 0, n-rooks 0 (src/study/plan/made_by.h)
-  measured_by TEXT NOT NULL,               -- of the measure and warp; of the reference image as made_by
+  what TEXT NOT NULL,                      -- the measure's canonical spec, or name:pattern@spp x replicates
+  made_by TEXT NOT NULL,                   -- revisions: renderer 0, n-rooks 0 (src/study/plan/made_by.h)
+  measured_by TEXT NOT NULL,               -- revisions of the measure and warp, or of the reference's generators
   UNIQUE (kind, scene, scene_hash, options, pattern, n, dim, width, height, what, made_by, measured_by)
 ) STRICT;
 
 CREATE TABLE result (        -- up to four measures of one point set, or one render and one reference
-  id INTEGER PRIMARY KEY CHECK (id >= 0 AND id & 3 = 0), -- 2^32 trial + series, a multiple of 4: rows are appended
-                                           -- as they are made
+  id INTEGER PRIMARY KEY CHECK (id >= 0 AND id & 3 = 0), -- 2^32 trial + series, a multiple of 4, so that new
+                                           -- rows are appended
   seed INTEGER NOT NULL,                   -- of koksma_generate or koksma_render, as a signed 64-bit number
-  v0 REAL CHECK (abs(v0) < 9e999),         -- that series' measure; of an image the mean over the pixels of the absolute
-                                           -- error in luminance; of a coherence the peak of the error's power spectrum
-                                           -- over the mean, 0 without an error
-  v1 REAL CHECK (abs(v1) < 9e999),         -- the measure of series + 1; of an image the SD of the absolute error; of a
-                                           -- coherence p, the probability that white noise has as large a one
-  v2 REAL CHECK (abs(v2) < 9e999),         -- series + 2; the error's maximum; the peak's frequency in x, cycles a pixel
-  v3 REAL CHECK (abs(v3) < 9e999)          -- series + 3; the root of the mean square; the frequency in y
+  v0 REAL CHECK (abs(v0) < 9e999),         -- value of the measure `series`; for an image the mean over the pixels
+                                           -- of the absolute error in luminance; for a coherence the peak of the
+                                           -- error's power spectrum divided by its mean, 0 without an error
+  v1 REAL CHECK (abs(v1) < 9e999),         -- value of series + 1; for an image the SD of the absolute error; for a
+                                           -- coherence p, the probability that white noise has as large a peak
+  v2 REAL CHECK (abs(v2) < 9e999),         -- value of series + 2; the error's maximum; the peak's x frequency (1/pixel)
+  v3 REAL CHECK (abs(v3) < 9e999)          -- value of series + 3; the RMSE; the peak's y frequency
 ) STRICT;
 
-CREATE TABLE reference (     -- how good a reference image is
+CREATE TABLE reference (     -- the errors of reference images
   scene TEXT NOT NULL,
   scene_hash TEXT NOT NULL,
   options TEXT NOT NULL,
@@ -46,22 +46,22 @@ CREATE TABLE reference (     -- how good a reference image is
   height INTEGER NOT NULL CHECK (height > 0),
   reference TEXT NOT NULL,
   made_by TEXT NOT NULL,                   -- revisions, as in table series
-  standard_error REAL,                     -- mean over the pixels of the reference's own expected absolute error
-  pixels TEXT NOT NULL CHECK (length(pixels) IN (0, 64)), -- their SHA-256 (reference_image.h); '': from before schema 6
+  standard_error REAL,                     -- the reference's own expected absolute error, mean over the pixels
+  pixels TEXT NOT NULL CHECK (length(pixels) IN (0, 64)), -- SHA-256 of the pixels; '': from before schema 6
   PRIMARY KEY (scene, scene_hash, options, width, height, reference, made_by)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE run (           -- when, where and how long somebody worked on this file
+CREATE TABLE run (           -- when, where and how long a run wrote this file
   id INTEGER PRIMARY KEY,
   started TEXT NOT NULL,                   -- UTC
   machine TEXT NOT NULL,
   version TEXT NOT NULL,
   workers INTEGER NOT NULL,                -- threads, or MPI ranks
-  jobs INTEGER NOT NULL,                   -- done in this run
+  jobs INTEGER NOT NULL,                   -- jobs completed in this run
   seconds REAL NOT NULL,
-  idle_seconds REAL NOT NULL,              -- of all workers together, without a job in hand
-  processor_seconds REAL NOT NULL,         -- of all threads and ranks
-  store_seconds REAL NOT NULL              -- of processor_seconds, in this database
+  idle_seconds REAL NOT NULL,              -- time without a job, summed over all workers
+  processor_seconds REAL NOT NULL,         -- summed over all threads and ranks
+  store_seconds REAL NOT NULL              -- the part of processor_seconds spent in this database
 ) STRICT;
 
 CREATE VIEW rows AS

@@ -1,5 +1,5 @@
--- The statements of schemas 3, 4 and 5, each once: a store that has no others, and whose meta says which schema it has,
--- is upgraded through a copy (store_upgrade.c).
+-- All statements of schemas 3, 4 and 5, each listed once. A store with no other statements, whose table meta has the
+-- number of its schema, is upgraded in a copy (store_upgrade.c).
 
 CREATE TABLE meta ( key TEXT PRIMARY KEY, value TEXT NOT NULL ) WITHOUT ROWID;
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;

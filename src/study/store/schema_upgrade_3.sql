@@ -1,6 +1,6 @@
--- From schema 3, attached as `old`, which had a row for each series and trial: the same results, four in a row.
+-- Copies the results of schema 3, attached as `old`, which had a row for each series and trial; new rows hold four.
 
-CREATE TEMP TABLE number AS -- the new id of a series: those of the same point sets side by side
+CREATE TEMP TABLE number AS -- new ids of series: measures of the same point sets get consecutive ids
   WITH placed AS (
     SELECT *, kind = 'image' AS image, CASE kind WHEN 'image' THEN what END AS own,
            row_number() OVER (PARTITION BY kind, scene, scene_hash, options, pattern, n, dim, width, height,

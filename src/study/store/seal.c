@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The seal of a store: the number of rows of its tables (but `run`, of which no result depends) and the sum modulo
- * 2^64 of their checksums, in table meta. A row that is written adds its checksum in the same transaction, so that the
- * seal holds after a kill, too; who reads all rows compares. One row that was changed, lost or added by anything but
- * a run is found with certainty, as its checksum is a bijection of each of its words; several are missed once in 2^64.
- * This is against damage and edits by hand. Who means to deceive can write a new seal: `koksma study audit` makes the
- * rows again.
+ * The seal of a store: the number of rows of its tables (except `run`, on which no result depends) and the sum
+ * modulo 2^64 of their checksums, kept in table meta. Writing a row adds its checksum in the same transaction, so
+ * that the seal is right even after a kill; a program that reads all rows compares them with the seal. If
+ * anything but a run has changed, removed or added one row, the seal differs with certainty, because the checksum
+ * is a bijection of each word of the row; changes of several rows are missed with probability 2^-64. The seal
+ * protects against damage and edits by hand, not against forgery, as a forger can write a new seal: `koksma study
+ * audit` recomputes the rows.
  *
- * Checksum of the words x: h = 0, and for each h = (h + x) c mod 2^64, h ^= h >> 32, with c = 0x9e3779b97f4a7c15. The
- * first word is the table's number; a text's is its hash (core/hash.h), a number's are the bits of the double.
+ * Checksum of the words x: h = 0, and for each h = (h + x) c mod 2^64, h ^= h >> 32, with c = 0x9e3779b97f4a7c15.
+ * The first word is the table's number; a text's word is its hash (core/hash.h), a number's are the bits of the
+ * double.
  */
 #include "study/store/seal.h"
 
@@ -27,7 +29,7 @@ static uint64_t fold(uint64_t h, uint64_t x)
 
 static uint64_t fold_number(uint64_t h, double number)
 {
-    uint64_t bits = 0x7ff8000000000000u; /* none */
+    uint64_t bits = 0x7ff8000000000000u; /* the bits that stand for NULL */
     if (!isnan(number)) {
         memcpy(&bits, &number, sizeof bits);
     }

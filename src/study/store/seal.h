@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Checksums of a store's rows, and their sum, by which a store knows that it holds what runs wrote. */
+/* Checksums of a store's rows and their sum, the seal, which shows whether the store holds exactly what runs
+   wrote. */
 #ifndef KOKSMA_STUDY_STORE_SEAL_H
 #define KOKSMA_STUDY_STORE_SEAL_H
 
 #include "study/store/store.h"
 
-/* A row of table result: of one trial, what up to four series have. */
+/* A row of table result: the results of one trial in up to four series. */
 typedef struct koksma__row {
     long long id;
     uint64_t seed;
     double values[KOKSMA__RESULT_VALUES];
 } koksma__row;
 
-/* How many rows the tables have, and the sum of their checksums. */
+/* The number of rows in the tables and the sum of their checksums. */
 typedef struct koksma__seal {
     long long rows;
     uint64_t sum;
@@ -23,7 +24,7 @@ uint64_t koksma__checksum_of_series(const koksma__series *key, long long id);
 uint64_t koksma__checksum_of_reference(const koksma__series *key, double standard_error, const char *pixels);
 uint64_t koksma__checksum_of_text(const char *key, const char *value);
 
-/* Takes a row in, or (-1) out. */
+/* Adds a row to the seal (sign 1) or removes it (sign -1). */
 void koksma__seal_add(koksma__seal *seal, int sign, uint64_t checksum);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The store's lock and transactions; texts, references and runs. */
+/* The lock and transactions of a store, and its tables of texts, references and runs. Statements are gathered in
+   one transaction until KOKSMA__WRITE_AFTER_S seconds have passed; each transaction ends by writing the seal. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -35,7 +36,8 @@ double koksma__store_seconds(koksma__store *store)
 
 koksma_status koksma__store_begin(koksma__store *store)
 {
-    KOKSMA__FAIL_IF(store->failed, KOKSMA_IO, "%s: writing failed before", koksma__database_path(store->database));
+    KOKSMA__FAIL_IF(store->failed, KOKSMA_IO, "%s: an earlier write failed, and nothing more is written",
+                    koksma__database_path(store->database));
     if (store->in_transaction) {
         return KOKSMA_OK;
     }
@@ -45,7 +47,7 @@ koksma_status koksma__store_begin(koksma__store *store)
     return status;
 }
 
-/* Writes the seal to meta, in the transaction that is open. */
+/* Writes the seal to table meta, within the open transaction. */
 static koksma_status write_seal(koksma__store *store)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_TEXT];
@@ -146,7 +148,7 @@ koksma_status koksma__seal_read(koksma__store *store)
     koksma_status status = koksma__store_find_text(store, "seal", &text);
     if (!status &&
         (!text || sscanf(text, "%lld %" SCNu64 "%n", &store->seal.rows, &store->seal.sum, &end) != 2 || text[end])) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: it has no seal; move it away to begin anew",
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: the database has no seal; move it away to begin anew",
                               koksma__database_path(store->database));
     }
     store->sealed = store->seal;
@@ -158,7 +160,8 @@ koksma_status koksma__seal_read(koksma__store *store)
 
 void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key)
 {
-    const char *of = strcmp(series->pattern, "") ? series->pattern : series->what; /* of a reference */
+    /* the row of a reference has no pattern */
+    const char *of = strcmp(series->pattern, "") ? series->pattern : series->what;
     *key = *series;
     koksma__hash_with_points(&store->files, series->scene_hash, of, store->hash);
     koksma__find_made_by(strcmp(series->kind, "discrepancy") != 0, series->pattern, series->options, series->what,
@@ -172,7 +175,8 @@ static void bind_reference(koksma__store *store, koksma__statement *s, int *colu
                            koksma__series *key)
 {
     koksma__store_bind_key(store, series, key);
-    /* A series of image errors names in measured_by what made the reference; here the reference is the image. */
+    /* A series of image errors has in measured_by the revisions that made its reference; this row is of the
+       reference itself. */
     key->made_by = key->measured_by;
     koksma__bind_text(s, column, key->scene);
     koksma__bind_text(s, column, key->scene_hash);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The results of a study in DIR/results.sqlite (schema.sql). Rows survive the death of the program; a row that exists
-   is never written again. All calls may come from several threads. */
+/* The results of a study in DIR/results.sqlite (schema.sql). Committed rows survive a kill of the program;
+   existing values are never overwritten. Several threads may call all functions. */
 #ifndef KOKSMA_STUDY_STORE_STORE_H
 #define KOKSMA_STUDY_STORE_STORE_H
 
@@ -10,17 +10,18 @@
 
 typedef struct koksma__store koksma__store;
 
-/* The key of a row, all but the trial. */
+/* The key of a row, except for the trial. */
 typedef struct koksma__series {
-    const char *kind; /* "discrepancy", "image", "coherence" */
+    const char *kind; /* "discrepancy", "image" or "coherence" */
     const char *scene, *scene_hash, *options, *pattern, *what;
     long long n, dim, width, height;
-    const char *made_by, *measured_by; /* revisions (made_by.h), of a series that was read; to look one up or to add
-                                          it, those of this program go in by themselves */
+    /* revisions (made_by.h) of a series that was read; ignored when a series is looked up or added: this
+       program's are used */
+    const char *made_by, *measured_by;
 } koksma__series;
 
-/* Of a discrepancy only the value; of an image its error's mean, SD, max and RMSE; of a coherence the coherence, its
-   p and the peak's frequency in x and y. NaN is no value. */
+/* The values of a result. A discrepancy has one value; an image the mean, SD, maximum and RMSE of its error; a
+   coherence the coherence, its p and the peak's frequency in x and y. NaN: no value. */
 enum { KOKSMA__RESULT_VALUES = 4 };
 
 typedef struct koksma__result {
@@ -29,7 +30,7 @@ typedef struct koksma__result {
     double values[KOKSMA__RESULT_VALUES];
 } koksma__result;
 
-/* A reference: its standard error, NaN when unknown, and the SHA-256 of its pixels, "" when unknown. */
+/* A reference: its standard error, NaN if unknown, and the SHA-256 of its pixels, "" if unknown. */
 typedef struct koksma__reference_row {
     double standard_error;
     char pixels[KOKSMA__SHA256_TEXT];
@@ -42,49 +43,51 @@ typedef struct koksma__run_record {
 } koksma__run_record;
 
 typedef enum koksma__store_mode {
-    KOKSMA__STORE_WRITE, /* opens or creates */
-    KOKSMA__STORE_READ,  /* opens what is there, and changes no byte of the folder, which need not be writable */
-    KOKSMA__STORE_AUDIT  /* the same, and rows that aren't what runs wrote are no error */
+    KOKSMA__STORE_WRITE, /* opens a store to write, or creates it */
+    KOKSMA__STORE_READ,  /* opens an existing store; changes no byte of the folder, which need not be writable */
+    KOKSMA__STORE_AUDIT  /* as KOKSMA__STORE_READ, but rows that no run wrote are no error */
 } koksma__store_mode;
 
-/* plan_name NULL: whatever plan it is of. A store of an older schema is upgraded: to write through a copy that takes
-   its place when it is whole, to read in memory. Errors: MISSING (to read), IO (can't be written; another run holds
-   it), MALFORMED (not such a database, of a newer schema, or of another plan; it is not changed then). */
+/* Opens a store; with plan_name NULL it may belong to any plan. A store of an older schema is upgraded: to write,
+   in a copy that replaces the file when complete; to read, in memory. Errors: MISSING (to read), IO (can't be
+   written, or another run holds it), MALFORMED (not a store, of a newer schema, or of another plan; the file is
+   not changed). */
 koksma_status koksma__store_open(const char *path, koksma__store_mode mode, const char *plan_name,
                                  koksma__store **store);
 koksma_status koksma__store_close(koksma__store *store);
 
-/* Puts everything so far on disk. */
+/* Commits all results so far to disk. */
 koksma_status koksma__store_commit(koksma__store *store);
 
-/* Processor time spent in calls of this store so far; gathering rows is a copy and not counted. */
+/* Processor time spent so far in calls of this store, in seconds, without the copying of rows into memory. */
 double koksma__store_seconds(koksma__store *store);
 
-/* A text of table meta; set replaces. *value is the caller's, NULL when there is none. */
+/* Writes or replaces a text of table meta; reads one. The caller frees *value, which is NULL if there is no such
+   text. */
 koksma_status koksma__store_set_text(koksma__store *store, const char *key, const char *value);
 koksma_status koksma__store_get_text(koksma__store *store, const char *key, char **value);
 
-/* The id of a series; with `add` it is made when it does not exist, else *id is 0 then. */
+/* Finds the id of a series. If the series does not exist, `add` creates it; otherwise *id is 0. */
 koksma_status koksma__store_series(koksma__store *store, const koksma__series *series, bool add, long long *id);
 
-/* Writes results, each of its series, unless there is one of that trial. They are gathered: a later call may be the
-   one that fails. */
+/* Writes results, each to its series, unless the series has a result of that trial. Results are gathered before
+   they are written, so that an error may be returned by a later call. */
 koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
                                 size_t n);
 
-/* Shows every row that there is. */
+/* Calls `see` for every result in the store. */
 koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
                                  void *context);
 
-/* The values that a trial has in each of the four series from `group` on, a multiple of four; *found: there is such a
-   row. */
+/* Reads the values of a trial in the four series from `group`, a multiple of four; *found: whether there is such
+   a row. */
 koksma_status koksma__store_row(koksma__store *store, long long group, long long trial, uint64_t *seed,
                                 double values[KOKSMA__RESULT_VALUES], bool *found);
 
-/* Whether the rows are, by their seal, those that runs wrote; after a scan. */
+/* Whether the rows match the seal, and so are those that runs wrote; call it after a scan. */
 bool koksma__store_is_sealed(const koksma__store *store);
 
-/* All series; all references, with key.made_by. */
+/* Call `visit` for all series, and for all references, with key.made_by. */
 koksma_status koksma__store_visit_series(koksma__store *store,
                                          koksma_status (*visit)(void *context, const koksma__series *key,
                                                                 long long id),
@@ -94,22 +97,24 @@ koksma_status koksma__store_visit_references(koksma__store *store,
                                                                     const koksma__reference_row *row),
                                              void *context);
 
-/* The results of trials below `trials` in their order; *results is the caller's. series 0 has none. */
+/* Reads the results of a series with trials below `trials`, in order; the caller frees *results. Series 0 has
+   none. */
 koksma_status koksma__store_results(koksma__store *store, long long series, long long trials,
                                     koksma__result **results, size_t *n);
 
-/* All rows in order of their keys; a status that is not OK stops and comes back. */
+/* Calls `visit` for all rows in the order of their keys; stops at the first status that is not OK, and returns
+   it. */
 typedef koksma_status (*koksma__row_visitor)(void *context, const koksma__series *series,
                                              const koksma__result *result);
 koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visit, void *context);
 
-/* series: its scene, hash, options, size, and `what`. */
+/* Write and read a reference. Of `series` they use the scene, its hash, the options, the size, and `what`. */
 koksma_status koksma__store_put_reference(koksma__store *store, const koksma__series *series,
                                           const koksma__reference_row *row);
 koksma_status koksma__store_reference(koksma__store *store, const koksma__series *series, koksma__reference_row *row);
 
 koksma_status koksma__store_put_run(koksma__store *store, const koksma__run_record *record);
-/* Run i in the order in which they ended; *found is false past the end. */
+/* Reads run number i, in the order in which runs ended; *found is false if there are no more. */
 koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_record *record, bool *found);
 
 #endif

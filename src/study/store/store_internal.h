@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The store from inside: store_open.c makes and opens it, store_schema.c knows its tables, store_upgrade.c brings old
-   ones up, store_tables.c reads their rows, store_series.c knows its series, store_rows.c writes their results,
-   store_results.c reads them; store.c has the rest. */
+/* The internal interface of the store. store_open.c creates and opens it, store_schema.c checks its tables,
+   store_upgrade.c upgrades old schemas, store_tables.c reads and checks rows, store_series.c finds ids of series,
+   store_rows.c writes results, store_results.c reads them; store.c has locks, transactions, texts, references and
+   runs. */
 #ifndef KOKSMA_STUDY_STORE_STORE_INTERNAL_H
 #define KOKSMA_STUDY_STORE_STORE_INTERNAL_H
 
@@ -13,7 +14,7 @@
 #include "study/store/seal.h"
 #include "study/store/store.h"
 
-/* The statements of store_open.c. */
+/* The prepared statements, whose SQL is in store_open.c. */
 typedef enum koksma__query {
     KOKSMA__FIND_SERIES,
     KOKSMA__NEXT_SERIES,
@@ -37,17 +38,17 @@ typedef enum koksma__query {
     KOKSMA__N_QUERIES
 } koksma__query;
 
-/* Rows that PUT_ROWS takes; columns of GET_SERIES before the id. */
+/* Number of rows that PUT_ROWS inserts; number of columns before the id in GET_SERIES; version of the schema. */
 enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SERIES_COLUMNS = 12, KOKSMA__SCHEMA = 6 };
 
-/* Rows are gathered in memory and written together: a statement a row would take most of the time of small jobs. A
-   killed run loses what was gathered in this time, or in one job if that takes longer. */
+/* Rows are gathered in memory and written together, because one statement for each row would take most of the
+   time of small jobs. A killed run loses the rows of this many seconds, or of one job if that takes longer. */
 static const double KOKSMA__WRITE_AFTER_S = 0.2;
 
-/* Results lie four in a row. Of an image or a coherence they are one result; of point sets one value each of four
-   measures: the series of one pattern, n, dim and options have ids that follow each other from a multiple of GROUP,
-   as far as they were made one after the other. A row's id is in the order in which a run makes rows, so that they
-   are appended. */
+/* A row of table result has four values. For an image or a coherence these are one result. For point sets they
+   are one value each of up to four measures: series with equal pattern, n, dim and options have consecutive ids
+   from a multiple of GROUP, as far as they were created one after the other. The ids of rows ascend in the order
+   in which a run makes them, so that rows are appended. */
 enum { KOKSMA__GROUP = KOKSMA__RESULT_VALUES };
 
 static inline long long koksma__group_of(long long series)
@@ -61,53 +62,56 @@ typedef struct koksma__rows {
 } koksma__rows;
 
 typedef struct koksma__known_series {
-    bool alone;           /* its four values are one result; else the results of up to four series share a row */
-    long long end, count; /* all its trials are below; how many there are */
+    /* true: the four values of a row are one result; false: a row has one value each of up to four series */
+    bool alone;
+    long long end, count; /* one past the highest trial; the number of trials */
 } koksma__known_series;
 
 struct koksma__store {
     koksma__database *database;
     koksma__statement *queries[KOKSMA__N_QUERIES];
-    pthread_mutex_t lock;        /* guards the database, and what follows */
-    bool in_transaction, failed; /* failed: a write did, and nothing is written any more */
-    koksma__seal seal, sealed;   /* of what was written; as meta has it */
-    koksma__seal found;          /* of what the last scan has read */
-    bool for_audit;              /* where these two differ, it is no error */
+    pthread_mutex_t lock;        /* guards the database and the members below */
+    bool in_transaction, failed; /* failed: a write has failed, and nothing more is written */
+    koksma__seal seal, sealed;   /* seal: of all rows written so far; sealed: the seal in table meta */
+    koksma__seal found;          /* seal of the rows that the last scan read */
+    bool for_audit;              /* no error if `found` differs from `seal` */
     double began_s, entered_s, seconds;
     koksma__rows spare;
-    size_t n_known;              /* of `known`, by the id of a series */
-    koksma__known_series *known; /* read when it is first wanted */
+    size_t n_known;              /* length of `known`, whose index is the id of a series */
+    koksma__known_series *known; /* NULL until it is needed */
     bool knows_ends;
-    pthread_mutex_t gather_lock; /* taken within the other; guards what follows */
+    pthread_mutex_t gather_lock; /* guards the members below; may be taken while `lock` is held */
     koksma__rows gathered;
-    double written_s; /* when something was last written */
+    double written_s; /* when rows were last written, in seconds */
     koksma__point_files files;
-    char hash[KOKSMA__HASH_TEXT]; /* these two are bound */
+    char hash[KOKSMA__HASH_TEXT]; /* the hash is bound to statements, as is made_by */
     koksma__made_by made_by;
 };
 
-/* ---- store.c: all of it but enter with the lock held ----------------------------------------------------------- */
+/* ---- store.c: the lock must be held for all of these but koksma__store_enter
+   ----------------------------------- */
 
-/* Takes the lock and counts the time until it is left; leave hands the status on. */
+/* Enter takes the lock and starts to count processor time; leave stops counting, releases the lock and returns
+   `status`. */
 void koksma__store_enter(koksma__store *store);
 koksma_status koksma__store_leave(koksma__store *store, koksma_status status);
 
-/* The key of the series' row: with the hash of a points' file where its pattern, or its reference, names one, and
-   with the revisions of this program; until the next call. */
+/* Sets *key to the key of the series' row, which adds to `series` the hash of a points file that its pattern or
+   reference names, and the revisions of this program. *key is valid until the next call. */
 void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key);
 
-/* What a statement that writes has come to: after a failure nothing is written any more, as what is in the seal may
-   not be in the file. */
+/* Records the status of a statement that writes, and returns it. After a failure nothing more is written, because
+   rows counted in the seal may not be in the file. */
 koksma_status koksma__store_wrote(koksma__store *store, koksma_status status);
 
-/* Reads the seal from meta. */
+/* Reads the seal from table meta. */
 koksma_status koksma__seal_read(koksma__store *store);
 
-/* A transaction, unless there is one; its end, if there is one. */
+/* Begin a transaction unless one is open; end the open transaction if there is one. */
 koksma_status koksma__store_begin(koksma__store *store);
 koksma_status koksma__store_end(koksma__store *store);
 
-/* Carries out a statement that writes, in a transaction, which ends when it has lasted. */
+/* Runs a statement that writes, within a transaction that ends once it has lasted KOKSMA__WRITE_AFTER_S seconds. */
 koksma_status koksma__store_write(koksma__store *store, koksma__query query);
 
 koksma_status koksma__store_put_text(koksma__store *store, const char *key, const char *value);
@@ -115,40 +119,40 @@ koksma_status koksma__store_find_text(koksma__store *store, const char *key, cha
 
 /* ---- store_schema.c ------------------------------------------------------------------------------------------- */
 
-/* Whether the database has the tables of a schema of ours and nothing else: KOKSMA__SCHEMA, or an older one that
-   can be upgraded. Errors: MALFORMED (another program's, or a newer schema). */
+/* Finds which schema of Koksma the database has, and that it has no other tables: KOKSMA__SCHEMA, or an older one
+   that can be upgraded. Errors: MALFORMED (another program's database, or a newer schema). */
 koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema);
 
-/* Whether the header has our application's id. */
+/* Whether the header has Koksma's application id. */
 bool koksma__schema_is_ours(const koksma__database_header *header);
 
-/* Makes the tables of KOKSMA__SCHEMA in an empty database. */
+/* Creates the tables of KOKSMA__SCHEMA in an empty database. */
 koksma_status koksma__schema_make(koksma__database *database);
 
 /* ---- store_upgrade.c ------------------------------------------------------------------------------------------ */
 
-/* The rows of `old`, which is of that schema and attached, into a new store. */
+/* Copies the rows of the attached database `old`, which has this schema, into a new store. */
 koksma_status koksma__store_upgrade(int schema, koksma__store *store);
 
 /* ---- store_tables.c ------------------------------------------------------------------------------------------- */
 
-/* Adds the rows of all tables but result. */
+/* Adds the rows of all tables but result to the seal. */
 koksma_status koksma__seal_rest(koksma__store *store, koksma__seal *seal);
 
-/* MALFORMED: what is there is not what was written. */
+/* Fails with MALFORMED: the rows in the file are not those that runs wrote. */
 koksma_status koksma__seal_fail(const koksma__store *store);
 
-/* The row of table series that a statement is at (GET_SERIES). */
+/* Reads the current row of the statement GET_SERIES, a row of table series. */
 koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,
                                         long long *id);
 
-/* The row of table result from a column on: seed, values. The id is set. */
+/* Reads the seed and the values of a row of table result, beginning at a column. The caller has set row->id. */
 koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, int column, koksma__row *row);
 
 /* ---- store_series.c ---------------------------------------------------------------------------------------------
  */
 
-/* Reads which series have rows alone, unless that is known. */
+/* Reads all series into `known` unless that is done; forget frees `known`. */
 koksma_status koksma__store_know_series(koksma__store *store);
 void koksma__store_forget(koksma__store *store);
 
@@ -158,7 +162,7 @@ void koksma__store_forget(koksma__store *store);
 koksma_status koksma__store_rows_init(koksma__store *store);
 void koksma__store_rows_fini(koksma__store *store);
 
-/* Writes and commits all rows that were gathered. */
+/* Writes and commits all gathered rows. */
 koksma_status koksma__store_write_rows(koksma__store *store);
 
 #endif

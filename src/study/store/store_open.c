@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Making and opening a store; and its statements. An existing file is first checked without a byte being written
-   (database.h), and refused if it is not a store; a new store, or an old one's copy, is made under a name of its own
-   and renamed when it is whole. */
+/* Creates and opens a store, and holds the SQL of its statements. An existing file is first checked without
+   changing any byte (database.h), and rejected if it is not a store. A new store, or the upgraded copy of an old
+   one, is written under a temporary name and renamed when complete. */
 #include <errno.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -52,7 +52,7 @@ static const char *const queries[KOKSMA__N_QUERIES] = {
 
 _Static_assert(KOKSMA__ROWS_AT_ONCE == 32, "as PUT_ROWS has it");
 
-/* ---- The object ---------------------------------------------------------------------------------------- */
+/* ---- Allocation ---------------------------------------------------------------------------------------- */
 
 static koksma_status make_store(koksma__database *database, koksma__store **out)
 {
@@ -77,9 +77,10 @@ static koksma_status open_queries(koksma__store *store)
     return status;
 }
 
-/* ---- New ones ------------------------------------------------------------------------------------------ */
+/* ---- New stores ---------------------------------------------------------------------------------------- */
 
-/* A whole store in an empty file that nobody else knows (path ""), or in memory: of no rows, or of those of `old`. */
+/* Builds a complete store in an empty file that no other program knows, or in memory (path ""); it has the rows
+   of `old`, or none if `old` is NULL. */
 static koksma_status build(const char *path, const koksma__database *old, int schema, koksma__store **out)
 {
     koksma__database *database;
@@ -103,8 +104,9 @@ static koksma_status build(const char *path, const koksma__database *old, int sc
     return status;
 }
 
-/* Says in the header that the file has a write-ahead log, which SQLite would do in place, with a journal that a kill
-   may leave behind: bytes 18 and 19 (https://sqlite.org/fileformat.html). */
+/* Marks the file as one with a write-ahead log in bytes 18 and 19 of the header
+   (https://sqlite.org/fileformat.html). SQLite itself would change the header in place, with a journal that a
+   kill may leave behind. */
 static koksma_status mark_as_logged(const char *temporary, const char *path)
 {
     FILE *stream = fopen(temporary, "r+be");
@@ -113,7 +115,8 @@ static koksma_status mark_as_logged(const char *temporary, const char *path)
     return done ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: writing failed: %s", path, strerror(errno));
 }
 
-/* A store comes under its name when it is whole: a new one, unless another run was faster; or in the place of `old`. */
+/* Builds a store under a temporary name and moves it to `path` when complete. An upgrade replaces `old`; a new
+   store replaces nothing, so that the store of a run that was faster stays. */
 static koksma_status put_in_place(const char *path, const koksma__database *old, int schema)
 {
     koksma__atomic_file file;
@@ -126,14 +129,16 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
     status = status ? status : closed;
     status = status ? status : mark_as_logged(temporary, path);
     bool keep = !status;
-    if (keep && !old && (!link(temporary, path) || errno == EEXIST)) { /* else there are no links: a rename */
+    /* the file system may have no hard links: then rename */
+    if (keep && !old && (!link(temporary, path) || errno == EEXIST)) {
         keep = false;
     }
     const koksma_status placed = koksma__atomic_close(&file, keep);
     return status ? status : placed;
 }
 
-/* What an older run that was killed has in its log goes into the file, and from then on the file is ours alone. */
+/* Upgrades a file. Opening it first moves the write-ahead log of an older, killed run into the file, and locks
+   the file. */
 static koksma_status upgrade_file(const char *path, int schema)
 {
     koksma__database *old;
@@ -146,9 +151,9 @@ static koksma_status upgrade_file(const char *path, int schema)
     return status;
 }
 
-/* ---- Those that are there ------------------------------------------------------------------------------ */
+/* ---- Existing stores ----------------------------------------------------------------------------------- */
 
-/* Checks the name of the plan that the file belongs to; writes the name into a new file. */
+/* Checks that the file belongs to the plan `name`; writes the name into a new file. */
 static koksma_status check_plan(koksma__store *store, const char *name)
 {
     char *found;
@@ -163,7 +168,8 @@ static koksma_status check_plan(koksma__store *store, const char *name)
     return status;
 }
 
-/* A store by its header and tables, before anything could write to it; *exists is false for an empty file, too. */
+/* Opens a store to read and checks its header and tables before anything can write to it; *exists is false for an
+   empty file, too. */
 static koksma_status look(const char *path, bool *exists, int *schema, koksma__database **out)
 {
     koksma__database_header header;
@@ -181,7 +187,8 @@ static koksma_status look(const char *path, bool *exists, int *schema, koksma__d
     return status;
 }
 
-/* Where another program has taken the log from a file of ours, and was killed with a journal, SQLite undoes that. */
+/* Rolls back the journal that another program left when it was killed while it turned off the file's write-ahead
+   log. */
 static koksma_status end_journal(const char *path)
 {
     koksma__database_header header;
@@ -216,7 +223,7 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
     return status ? status : koksma__seal_read(*out);
 }
 
-/* The log of a file that was taken away: a new file must not get what is in it. */
+/* Removes the log of a file that was deleted, so that SQLite does not write its contents into the new file. */
 static void remove_log(const char *path)
 {
     static const char *const endings[] = {"-wal", "-shm", "-journal"};
@@ -234,7 +241,8 @@ static void pass(void *context, long long series, long long trial)
     (void)trial;
 }
 
-/* One run at a time: a second one on the same folder fails instead of doing the same work. */
+/* Opens a store for the only run that may write it; a second run on the same folder fails instead of doing the
+   work twice. */
 static koksma_status open_to_write(const char *path, const char *plan_name, koksma__store **out)
 {
     koksma__database *database;
@@ -258,12 +266,13 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     if (!status && koksma__database_has_moved(database)) {
         status = koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
     }
-    status = status ? status : koksma__database_look(path, &header); /* again, as nobody else can write now */
+    /* look again, now that no other program can write */
+    status = status ? status : koksma__database_look(path, &header);
     status = status ? status : koksma__schema_of(database, &header, &schema);
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
-    if (!status) {                      /* damage is reported before a byte is written */
-        (*out)->in_transaction = false; /* which the scan would end */
+    if (!status) {                      /* report damage before any byte is written */
+        (*out)->in_transaction = false; /* a scan would end the open transaction */
         status = koksma__store_scan(*out, pass, NULL);
         (*out)->in_transaction = true;
     }
@@ -282,7 +291,7 @@ koksma_status koksma__store_open(const char *path, koksma__store_mode mode, cons
     *out = store;
     if (status) {
         if (store) {
-            store->in_transaction = false; /* closing rolls back */
+            store->in_transaction = false; /* closing the database rolls the transaction back */
             store->failed = true;
         }
         koksma__store_close(store);

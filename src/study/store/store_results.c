@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Results read back. */
+/* Reads results from the store. A scan reads all rows, compares them with the seal, and finds the number of
+   trials of each series; results of a series are then looked up trial by trial, or filtered from all rows where
+   that is faster. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
 #include "study/store/store_internal.h"
 
-/* Reads all rows, in the order of their ids, and compares them with the store's seal. */
+/* Reads all rows in the order of their ids, calls `see` for each result, and compares the rows with the store's
+   seal. */
 static koksma_status scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
                           void *context)
 {
@@ -46,11 +49,11 @@ static void see_end(void *context, long long series, long long trial)
     k->count++;
 }
 
-/* Trials are made in their order, but for jobs that were running when a run ended, so that a number far above the
-   others is damage; looking up all below it would take hours. */
+/* Trials are made in order, except for jobs that were running when a run ended. A trial number far above the
+   number of trials is therefore damage; looking up all trials below it would take hours. */
 static const long long MOST_HOLES = 100000;
 
-/* How far the trials of every series go. */
+/* Finds the highest trial of every series. */
 static koksma_status find_ends(koksma__store *store)
 {
     koksma_status status = koksma__store_write_rows(store);
@@ -74,7 +77,7 @@ static long long end_of(const koksma__store *store, long long series)
     return series >= 0 && (size_t)series < store->n_known ? store->known[series].end : 0;
 }
 
-/* False where the row has no result of the series, only of others of its group. */
+/* Reads a series' result from a row; false if the row only has results of other series of its group. */
 static bool read_result(koksma__statement *s, const koksma__store *store, long long series, koksma__result *result)
 {
     const int place = (int)(series - koksma__group_of(series));
@@ -87,10 +90,11 @@ static bool read_result(koksma__statement *s, const koksma__store *store, long l
     return !isnan(result->values[0]);
 }
 
-/* Looking up a row by its id takes about as long as passing over so many. */
+/* Looking up one row by its id takes about as long as reading this many rows in sequence. */
 static const long long ROWS_A_LOOKUP = 8;
 
-/* Shows a series' results with trials below `end`, in order: trial by trial, or out of all rows where that is quicker. */
+/* Calls `visit` for a series' results with trials below `end`, in order; looks trials up one by one, or filters
+   all rows where that is faster. */
 static koksma_status each_result(koksma__store *store, long long series, long long end, const koksma__series *key,
                                  koksma__row_visitor visit, void *context)
 {

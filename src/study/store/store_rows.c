@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Results on their way into the store. */
+/* Writes results to the store. Results are gathered into rows in one buffer while the rows of a second buffer are
+   written, KOKSMA__ROWS_AT_ONCE with one statement where possible. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +55,7 @@ static koksma_status find_row(koksma__store *store, koksma__row *row, bool *foun
     return status;
 }
 
-/* What a row has already stays; where it has no value, what others of its group have made goes in. */
+/* Writes one row. If the row exists, its values stay, and only missing ones are taken from `from`. */
 static koksma_status put_one(koksma__store *store, const koksma__row *from)
 {
     koksma__row row = {.id = from->id};
@@ -74,8 +75,8 @@ static koksma_status put_one(koksma__store *store, const koksma__row *from)
     return koksma__statement_run(store->database, store->queries[KOKSMA__PUT_ROW]);
 }
 
-/* Writes up to ROWS_AT_ONCE rows; *done: how many. A row that exists ends the statement there, which is rare:
-   put_one merges it, as its group may have values that the row lacks. */
+/* Writes up to ROWS_AT_ONCE rows; *done is their number. The statement stops at a row that exists, which is rare:
+   put_one merges this row, because it may lack values of other series in its group. */
 static koksma_status put_many(koksma__store *store, const koksma__row *from, size_t *done)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_ROWS];
@@ -95,7 +96,7 @@ static koksma_status put_many(koksma__store *store, const koksma__row *from, siz
     return conflict ? put_one(store, &from[(*done)++]) : KOKSMA_OK;
 }
 
-/* The lock is held, so that the spare room is free. */
+/* The store's lock is held, so that no other thread uses the spare buffer. */
 koksma_status koksma__store_write_rows(koksma__store *store)
 {
     pthread_mutex_lock(&store->gather_lock);
@@ -104,7 +105,7 @@ koksma_status koksma__store_write_rows(koksma__store *store)
     store->spare.at = taken.at;
     store->written_s = koksma__now_s();
     pthread_mutex_unlock(&store->gather_lock);
-    if (taken.n) { /* what is known of the rows is known no more */
+    if (taken.n) { /* what was read about series before is out of date */
         koksma__store_forget(store);
     }
     koksma_status status = taken.n || store->in_transaction ? koksma__store_begin(store) : KOKSMA_OK;
@@ -121,7 +122,7 @@ static long long row_id(long long series, long long trial)
     return (long long)((unsigned long long)trial << 32 | (unsigned long long)koksma__group_of(series));
 }
 
-/* There must be room for one more. */
+/* Adds a result to the last gathered row, or to a new one; the buffer must have a free row. */
 static void gather(koksma__rows *to, long long series, const koksma__result *result)
 {
     const long long id = row_id(series, result->trial);

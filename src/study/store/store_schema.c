@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which tables a file may have. The text of every table and view in it, as SQLite keeps it, is compared with the
-   statements of schema.sql (of schema_past.sql for a file from before schema 6), without comments and with one blank
-   for white space: each statement is there once, and nothing else is. So a stranger's file has no triggers,
-   no views of its own, no virtual or foreign tables, no computed columns. */
+/* Checks which tables a file has. The SQL of every table and view, as SQLite stores it, is compared with the
+   statements of schema.sql (of schema_past.sql for files older than schema 6), after removing comments and
+   replacing white space by one blank: the file must have each statement once and nothing else. A file from an
+   untrusted source thus has no triggers, further tables or views, virtual tables, or computed columns. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,13 +13,13 @@
 #include "study/store/schema_past.h"
 #include "study/store/store_internal.h"
 
-/* "Kksm", as SQLite's own list of ids has it for nobody else (magic.txt). */
+/* "Kksm", which no other program has in SQLite's own list of application ids (magic.txt). */
 static const uint32_t APPLICATION = 0x4b6b736d;
 
 enum { OLDEST = 3, MAX_STATEMENTS = 16, STATEMENTS = 6 };
 
-/* A statement without comments, and with one blank for white space; ends at ';' outside of a text, or at the end.
-   Returns what follows. */
+/* Writes one statement to `out` without comments and with one blank for each white space; the statement ends at a
+   ';' outside of quotes, or at the end. Returns the rest of the SQL. */
 static const char *normal_form(const char *sql, char *out)
 {
     char *to = out;
@@ -40,7 +40,8 @@ static const char *normal_form(const char *sql, char *out)
     return *sql ? sql + 1 : sql;
 }
 
-/* Which statement of `schema` is `sql`, whose normal form is made in `out`; -1: none. */
+/* Returns the index of the statement in `schema` that equals `sql`, or -1; `out` receives the normal form of
+   `sql`. */
 static int find_statement(const char *schema, const char *sql, char *out, char *known)
 {
     normal_form(sql, out);
@@ -53,7 +54,8 @@ static int find_statement(const char *schema, const char *sql, char *out, char *
     return -1;
 }
 
-/* Whether all entries of the file's schema are statements of `schema`, each once; *n: how many. */
+/* Checks that every entry of the file's schema is a statement of `schema`, each once; *n is the number of
+   entries. */
 static koksma_status compare(koksma__database *database, const char *schema, int *n)
 {
     koksma__statement *s;
@@ -65,7 +67,7 @@ static koksma_status compare(koksma__database *database, const char *schema, int
         const char *sql = koksma__column_text(s, 0), *type = koksma__column_text(s, 1);
         const char *name = koksma__column_text(s, 2);
         if (koksma__column_is_null(s, 0) && !strcmp(type, "index") && !strncmp(name, "sqlite_autoindex_", 17)) {
-            continue; /* what UNIQUE and PRIMARY KEY make */
+            continue; /* an index that SQLite makes for UNIQUE and PRIMARY KEY */
         }
         free(out);
         out = malloc(strlen(sql) + 1);
@@ -88,7 +90,7 @@ static koksma_status compare(koksma__database *database, const char *schema, int
     return status;
 }
 
-/* What the table meta of an old store says. */
+/* Reads the schema's number from the table meta of an old store. */
 static koksma_status old_schema(koksma__database *database, int *schema)
 {
     koksma__statement *s;

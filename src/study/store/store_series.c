@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The ids of series, and which of them have rows alone. */
+/* Finds and creates the ids of series, and records which series have rows of their own (images and coherences)
+   and which share rows with up to three others. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
 #include "study/store/store_internal.h"
 
-/* A plan's tasks are in memory, too, and each is far more than a number. */
+/* More series would not fit into memory, where a plan's tasks are kept as well. */
 static const long long MOST_SERIES = 1 << 26;
 
-/* All that the series of a group have in common: the key up to the height, and what made the points. */
+/* Binds the part of the key that all series of a group share: everything up to the height, and the points'
+   revisions. */
 static void bind_group(koksma__statement *s, int *column, const koksma__series *key)
 {
     koksma__bind_text(s, column, key->kind);
@@ -31,7 +33,7 @@ static void bind_series(koksma__statement *s, int *column, const koksma__series 
     koksma__bind_text(s, column, key->measured_by);
 }
 
-/* Numbers are small, unless the file is damaged. */
+/* Checks the number of a series: a number out of range is damage. */
 static koksma_status check_number(const koksma__store *store, long long number)
 {
     return number >= 0 && number <= MOST_SERIES
@@ -40,7 +42,7 @@ static koksma_status check_number(const koksma__store *store, long long number)
                               koksma__database_path(store->database), number);
 }
 
-/* The id for a new series: the next of its group, or the first of a new one. */
+/* Finds the id for a new series: the next in its group, or the first of a new group. */
 static koksma_status next_series(koksma__store *store, const koksma__series *key, long long *id)
 {
     koksma__statement *s = store->queries[KOKSMA__NEXT_SERIES];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rows of the store's tables as they are read: every column must be of the kind that the schema says, whatever a
-   damaged file has there. */
+/* Reads rows of the store's tables and checks that every column has the type that the schema gives it, because a
+   damaged file may hold anything. */
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -25,7 +25,7 @@ koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s,
     return right ? KOKSMA_OK : fail_row(store, "result", row->id);
 }
 
-/* Columns of GET_SERIES. */
+/* Reads the columns of GET_SERIES. */
 koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,
                                         long long *id)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Stores of schemas 3 to 5, as rows of this one in a new database (schema_upgrade*.sql). They have no revisions: those
-   before the first change, as schema 6 had them when it came. Schemas 3 and 4 have no coherence of errors, so that the
-   next run renders their images again; no reference has a hash of its pixels, so that a run makes it again before it
-   compares anything with it. */
+/* Upgrades stores of schemas 3 to 5 into a new database of the current schema (schema_upgrade*.sql). Old rows
+   have no revisions and get those with which schema 6 began. Schemas 3 and 4 lack the coherence of errors, so
+   that the next run renders their images again. No old reference has a hash of its pixels, so that a run renders
+   a reference again before it compares anything with it. */
 #include <string.h>
 
 #include "core/status.h"
@@ -10,7 +10,7 @@
 #include "study/store/schema_upgrade_3.h"
 #include "study/store/store_internal.h"
 
-/* The next series by its id, and what made it. */
+/* Writes the revisions of every series, in the order of ids. */
 static koksma_status upgrade_series(koksma__store *store, koksma__statement *get, koksma__statement *put)
 {
     koksma_status status = KOKSMA_OK;
@@ -81,7 +81,7 @@ koksma_status koksma__store_upgrade(int schema, koksma__store *store)
     for (int i = 0; i < N; i++) {
         koksma__statement_close(s[i]);
     }
-    if (status && status != KOKSMA_IO && status != KOKSMA_MEMORY) { /* a spec that isn't one */
+    if (status && status != KOKSMA_IO && status != KOKSMA_MEMORY) { /* the series names a spec that does not exist */
         return koksma__fail_in(KOKSMA_MALFORMED, koksma__database_path(store->database));
     }
     store->for_audit = true;
