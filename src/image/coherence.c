@@ -11,7 +11,8 @@
  * varies over the image. The power of such noise is still exponentially distributed at each frequency, but at
  * neighbouring frequencies it is correlated, so
  *   that sums over neighbours, and windows, have a distribution that depends on the scene. The price is that a
- *   wave half-way between two frequencies in both directions keeps (2/pi)^4 = 0.16 of its peak, in the mean over all waves 0.6.
+ *   wave half-way between two frequencies in both directions keeps (2/pi)^4 = 0.16 of its peak; the mean
+ *   over all waves is 0.6.
  * - Each image's power is divided by its own mean before the images are averaged, so that all images have the same
  * weight. - Blue noise is not coherent: P is divided by the power of its ring where that is above 1. The rings have
  * equal areas (16, or fewer so that each has 64 frequencies). The power of a ring is the mean of P in it, where a

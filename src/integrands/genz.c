@@ -14,7 +14,8 @@
  *
  * All but two are products, with closed forms of each factor. For the oscillatory family, with s(t) = sin(t) / t,
  *
- *     E(f | x_v)          r cos(2 pi u_1 + sum_v a x + theta), r = prod_{i not in v} s(a_i / 2), theta = sum_{not v} a / 2
+ *     E(f | x_v)          r cos(2 pi u_1 + sum_v a x + theta),
+ *                         r = prod_{i not in v} s(a_i / 2), theta = sum_{not v} a / 2
  *     E(E(f | x_v)^2)     r^2 / 2 (1 + cos(4 pi u_1 + sum a) prod_v s(a_i))
  *
  * The corner peak is 1/d! times the integral over t of t^d exp(-t - t sum a_i x_i), so that its integral, and that of
