@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mesh and instance: which file, where it stands, what it is made of. A mesh is read once; its instances are
- * placements of the same triangles. Embree intersects them (accel/accel_embree.c).
+ * mesh and instance: they have a file, a placement and a material. A mesh is read once; its instances are placements
+ * of the same triangles. Embree intersects them (accel/accel_embree.c).
  */
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "render/placements.h"
 #include "render/shapes/shapes.h"
 
-/* A positive number, or three. */
+/* Reads a positive number, or three. */
 static koksma_status parse_scale(const field *f, double scale[3])
 {
     field node;
