@@ -206,9 +206,8 @@ static void take_output(conversation *c, const char *bytes, size_t count)
         return;
     }
     if (count > c->child->most_output - c->size) {
-        stop_program(c,
-                     koksma__fail(KOKSMA_MALFORMED, "%s: it prints more than %zu bytes, which the points can't need",
-                                  c->child->name, c->child->most_output));
+        stop_program(c, koksma__fail(KOKSMA_MALFORMED, "%s: it prints more than %zu bytes, more than the points need",
+                                     c->child->name, c->child->most_output));
         return;
     }
     if (c->size + count > c->capacity) {
@@ -290,9 +289,9 @@ static koksma_status judge(const conversation *c)
     if (c->status) {
         return c->status; /* the error's text is that of the last failure */
     }
-    KOKSMA__FAIL_IF(!c->heard, KOKSMA_SYSTEM, "%s: the process that watches over it was killed", name);
+    KOKSMA__FAIL_IF(!c->heard, KOKSMA_SYSTEM, "%s: the process that supervises it was killed", name);
     KOKSMA__FAIL_IF(c->outcome.error == ENOEXEC, KOKSMA_MISSING,
-                    "%s: it can't be run: it is no program; a script begins with #!, as in #!/usr/bin/env python3",
+                    "%s: it can't be run: it is not a program; a script begins with #!, as in #!/usr/bin/env python3",
                     name);
     KOKSMA__FAIL_IF(c->outcome.error, KOKSMA_MISSING, "%s: it can't be run: %s", name, strerror(c->outcome.error));
     KOKSMA__FAIL_IF(status, KOKSMA_MALFORMED, "%s: it ended with %s %d%s%s", name,
@@ -351,7 +350,7 @@ static koksma_status start_keeper(conversation *c, pid_t *keeper)
     }
     return *keeper > 0
                ? KOKSMA_OK
-               : koksma__fail(KOKSMA_SYSTEM, "%s: no process can be had for it: %s", c->child->name, strerror(error));
+               : koksma__fail(KOKSMA_SYSTEM, "%s: can't start a process for it: %s", c->child->name, strerror(error));
 }
 
 koksma_status koksma__child_run(const koksma__child *child, const koksma_run *run, char **output, size_t *size)

@@ -133,7 +133,7 @@ static koksma_status standardise(const koksma_coherence *c, double *errors, bool
     double largest = 0;
     for (size_t i = 0; i < n; i++) {
         KOKSMA__FAIL_IF(!isfinite(errors[i]), KOKSMA_MALFORMED,
-                        "pixel %zu,%zu of an image or its reference is no finite number", i % (size_t)c->width,
+                        "pixel %zu,%zu of an image or its reference is not a finite number", i % (size_t)c->width,
                         i / (size_t)c->width);
         largest = fmax(largest, fabs(errors[i]));
     }

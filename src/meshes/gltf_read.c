@@ -38,14 +38,14 @@ static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__g
     }
     KOKSMA__FAIL_IF(size < 20 || number_at(file + 4) != 2 || memcmp(file + 16, "JSON", 4) != 0 ||
                         number_at(file + 12) > size - 20,
-                    KOKSMA_MALFORMED, "%s: no glTF 2 in its binary form, or cut short", path);
+                    KOKSMA_MALFORMED, "%s: not a glTF 2 file in binary form, or cut short", path);
     *text = (koksma__gltf_bytes){file + 20, number_at(file + 12)};
     const size_t next = 20 + text->size;
     KOKSMA__FAIL_IF(number_at(file + 8) != size ||
                         (next < size && (size - next < 8 || number_at(file + next) > size - next - 8)),
-                    KOKSMA_MALFORMED, "%s: its pieces are not as long as the file", path);
+                    KOKSMA_MALFORMED, "%s: its chunks are not as long as the file", path);
     if (next < size && text->size % 4) { /* glTF 2.0, section 4.4.3.1 */
-        return koksma__fail(KOKSMA_MALFORMED, "%s: its first piece has %zu bytes, no multiple of 4", path,
+        return koksma__fail(KOKSMA_MALFORMED, "%s: its first chunk has %zu bytes, which is not a multiple of 4", path,
                             text->size);
     }
     if (next < size && !memcmp(file + next + 4, "BIN", 4)) {

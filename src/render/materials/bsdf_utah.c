@@ -63,7 +63,7 @@ static const char *check(const koksma__material *m)
 {
     for (int i = 0; i < 6; i++) {
         if (m->albedo[i / 3][i % 3] + m->values[REFLECTANCE + i % 3] > 1) {
-            return "albedo + reflectance is above 1: it would reflect more than it gets";
+            return "albedo + reflectance is above 1: it would reflect more light than arrives";
         }
     }
     return NULL;

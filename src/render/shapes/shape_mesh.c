@@ -46,7 +46,7 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
     double radiance[3];
     KOKSMA__TRY(koksma__parse_colour(f, "emission", true, BRIGHT, radiance));
     KOKSMA__JSON_FAIL_IF(p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth, f,
-                         "a light is neither smooth nor does it move");
+                         "a mesh that is a light can be neither smooth nor moving");
     const koksma_status added = koksma__scene_add_glow(scene, p, radiance);
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
 }
