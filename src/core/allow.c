@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The permission to run code of others, one number of each thread. It belongs to the caller and never to data: no spec,
-   plan, scene or store can hold it. core/parallel.c and the MPI server hand it to the threads that they start. */
+/* The permission to run other people's code, kept as one number per thread. The caller of the library gives it; data
+   cannot: no spec, plan, scene or store can hold the permission. core/parallel.c and the MPI server hand it to the
+   threads that they start. */
 #include "core/allow.h"
 
 enum { MOST_SECONDS = 86400 };

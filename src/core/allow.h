@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Whether patterns may run code that their path names: koksma_allow_exec, and how it reaches other threads. */
+/* koksma_allow_exec: whether a pattern may run the program or library that its path names, and how a thread hands
+   this permission to the threads that it starts. */
 #ifndef KOKSMA_CORE_ALLOW_H
 #define KOKSMA_CORE_ALLOW_H
 
@@ -7,8 +8,8 @@
 
 #include "core/visibility.h"
 
-/* The seconds that the calling thread allows, 0 where it allows nothing: for threads that it starts, which call
-   koksma_allow_exec with them. */
+/* The number of seconds for which the calling thread lets a pattern's program run; 0 where the thread allows none. A
+   new thread passes its creator's number to koksma_allow_exec. */
 KOKSMA__LAB double koksma__exec_seconds(void);
 
 #endif

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A file is written under a temporary name in the folder of its own, synced, and renamed when it is whole (POSIX rename
+ * A file is written under a temporary name in its target folder, synced, and renamed when it is whole (POSIX rename
  * is atomic), so that readers and later runs see the old file or the new one; then the folder is synced. After a loss
- * of power the file is the old or the new one, whole; it is the new one if the program had ended with success. A folder is
- * lost with all that is in it where its own entry was not synced, so that making one syncs the folder above.
+ * of power the file is the old or the new one, whole; if the program had ended with success, it is the new one. A new
+ * folder whose entry in the folder above was not synced can be lost with its contents, so that making a folder also
+ * syncs the folder above it.
  *
- * The temporary name has 64 random bits, and O_EXCL makes a new file: what others planted in the folder, or another
- * process with an equal number (the rule in containers) chose, is never opened. All steps go by the folder's
- * descriptor, which stays the same folder whatever is renamed above it.
+ * The temporary name has 64 random bits, and O_EXCL makes a new file: a file that somebody else placed there under
+ * the same name is never opened. A process number in the name would not do, as processes in different containers
+ * often have equal numbers. All steps use the folder's descriptor, which refers to the same folder even when a folder
+ * above it is renamed.
  *
- * The writer holds a lock (flock) on its temporary file for as long as it lives. A file of such a name that belongs to
- * the user, has no other name and can be locked is of a dead process, and the next writer into the folder removes it.
- * Who locks a file that somebody else is about to remove finds it without a name, and takes another one. Where the
- * file system has no locks nothing is removed.
+ * The writer holds a lock (flock) on its temporary file for as long as it lives. A file with a temporary name that
+ * belongs to the user, has no other hard link and can be locked was left by a process that died; the next writer into
+ * the folder removes it. A writer whose new file was removed by another process before it was locked finds no link to
+ * the file, and makes another one. On a file system without locks no left-over file is removed.
  */
 #define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH */
 #include "core/atomic_file.h"
@@ -34,14 +36,14 @@ static const char prefix[] = ".koksma-";
 enum { PREFIX = sizeof prefix - 1, RANDOM = 16, TRIES = 100 };
 
 typedef struct koksma__output {
-    char *path, *name; /* for messages; in the folder */
+    char *path, *name; /* path: for messages; name: within the folder */
     char temporary[PREFIX + RANDOM + 1];
-    int folder; /* -1: what is written is no plain file */
+    int folder; /* -1: the target is not a plain file */
     int descriptor;
     int reason; /* errno of the first write that failed */
 } output;
 
-/* Keeps the reason, which stdio would lose. */
+/* Writes bytes and keeps errno of the first failure, which stdio would lose. */
 static ssize_t put(void *cookie, const char *bytes, size_t size)
 {
     output *o = cookie;
@@ -73,7 +75,7 @@ static void remove_if_dead(int folder, const char *name)
     if (fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) || !is_ours(&info)) {
         return;
     }
-    /* for writing, as NFS wants it of who locks */
+    /* open for writing, which NFS requires of a process that locks */
     const int descriptor = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor >= 0 && !fstat(descriptor, &opened) && is_ours(&opened) && opened.st_ino == info.st_ino &&
         !flock(descriptor, LOCK_EX | LOCK_NB)) {
@@ -84,7 +86,8 @@ static void remove_if_dead(int folder, const char *name)
     }
 }
 
-/* A process that writes many files into one folder looks once. */
+/* Removes temporary files that dead processes left. A process that writes many files into one folder looks there
+   once. */
 static void remove_leftovers(int folder)
 {
     static atomic_ullong last;
@@ -108,14 +111,14 @@ static void remove_leftovers(int folder)
 
 /* ---- Opening --------------------------------------------------------------------------------------------- */
 
-/* A folder that can be written and not read is enough. */
+/* Opens a folder; one that may be written but not read is opened by O_PATH. */
 static int open_folder(int at, const char *path, int flags)
 {
     const int folder = openat(at, path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags);
     return folder < 0 && errno == EACCES ? openat(at, path, O_PATH | O_DIRECTORY | O_CLOEXEC | flags) : folder;
 }
 
-/* Away from 0, 1 and 2, which other code writes to even where they were closed. */
+/* Moves a descriptor above 0, 1 and 2, to which other code writes even where those streams were closed. */
 static int above_streams(int descriptor)
 {
     if (descriptor < 0 || descriptor > STDERR_FILENO) {
@@ -126,7 +129,7 @@ static int above_streams(int descriptor)
     return other;
 }
 
-/* A new file with a lock. False: errno. */
+/* Makes a new temporary file and locks it. False: errno says why. */
 static bool make_temporary(output *o)
 {
     struct stat info;
@@ -145,15 +148,15 @@ static bool make_temporary(output *o)
         if (o->descriptor < 0 || (locked && !fstat(o->descriptor, &info) && info.st_nlink > 0)) {
             return o->descriptor >= 0;
         }
-        close(o->descriptor); /* somebody is removing it as a leftover */
+        close(o->descriptor); /* another process is removing the file as a leftover */
         o->descriptor = -1;
     }
     errno = EAGAIN;
     return false;
 }
 
-/* The stream that the process has open under such a path already, "/dev/stdout" or "/dev/fd/3": where it leads to a
-   file, that has what others wrote, and what they write next goes on behind. -1: another path. */
+/* The descriptor of the stream that a path such as "/dev/stdout" or "/dev/fd/3" means, if the process has it open; -1
+   for any other path. A redirected stream's file keeps what was written before, and later output follows. */
 static int descriptor_of(const char *path)
 {
     int number = -1, used = 0;
@@ -165,7 +168,7 @@ static int descriptor_of(const char *path)
     return numbered && used > 0 && !path[used] ? number : -1;
 }
 
-/* Where a link leads that leads to no file yet; NULL for what is no such link. */
+/* The target of a symbolic link that points to no file yet; NULL for any other path. */
 static char *new_target(const char *path)
 {
     char to[4096];
@@ -184,7 +187,8 @@ static char *new_target(const char *path)
     return target;
 }
 
-/* What is no plain file, as it is: renaming over it would replace it. False: it is one, or none yet. */
+/* Opens a target that is not a plain file, such as a device or pipe: renaming a file over it would replace it. False:
+   the target is a plain file, or does not exist. */
 static bool open_special(const char *path, output *o)
 {
     struct stat info;
@@ -203,7 +207,8 @@ static bool open_special(const char *path, output *o)
     return true;
 }
 
-/* Below the folder's descriptor, which it takes over, no link is followed. False: errno. */
+/* Opens a temporary file below `folder`, whose descriptor the output then owns, following no symbolic links. False:
+   errno says why. */
 static bool open_within(int folder, const char *path, output *o)
 {
     struct stat info;
@@ -321,13 +326,13 @@ void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA_
 
 /* ---- Closing --------------------------------------------------------------------------------------------- */
 
-/* File systems that can't sync a folder say so, as do folders that may not be read. */
+/* Syncs a folder. A file system that cannot sync folders, or a folder that may not be read, is no error. */
 static bool sync_folder(int folder)
 {
     return !fsync(folder) || errno == EINVAL || errno == EBADF || errno == ENOTSUP;
 }
 
-/* Of the folder that holds `path`. False: errno. */
+/* Syncs the folder that holds `path`. False: errno says why. */
 static bool sync_above(const char *path)
 {
     size_t length = strlen(path);
@@ -383,7 +388,8 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     if (o->folder >= 0 && !placed) {
         unlinkat(o->folder, o->temporary, 0);
     }
-    if (o->folder < 0 && close(o->descriptor) && !o->reason) { /* after fsync closing has nothing to tell */
+    /* a plain file needs no check of close() after fsync */
+    if (o->folder < 0 && close(o->descriptor) && !o->reason) {
         o->reason = errno;
     }
     o->descriptor = o->folder < 0 ? -1 : o->descriptor;

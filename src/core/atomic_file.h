@@ -14,24 +14,26 @@ typedef struct koksma__atomic_file {
     struct koksma__output *output; /* the file behind the stream */
 } koksma__atomic_file;
 
-/* Opens a file for writing. folder NULL: path is the user's. "-" is standard output; streams, devices and pipes are
-   written as they are; where a link leads is replaced, not the link. Else path is a name below folder that the program
-   chose: links below folder are not followed, and one in the file's place is replaced. Errors: IO, MEMORY. */
+/* Opens a file for writing. With folder NULL, path is the user's: "-" is standard output; streams, devices and pipes
+   are written directly; of a symbolic link the target is replaced, not the link. Otherwise path is a name below
+   folder that the program chose: symbolic links below folder are not followed, and a link in the file's place is
+   replaced. Errors: IO, MEMORY. */
 KOKSMA__LAB koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file);
 
 enum { KOKSMA__TEMPORARY_PATH = 64 };
 
-/* The path of the temporary file while it is open, for a library that opens files by name. Only of plain files. */
+/* Gives the path of the temporary file while it is open, for a library that opens files by name. For plain files
+   only. */
 KOKSMA__LAB void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH]);
 
-/* Closes the file. If keep is true it is synced and put in its place; if keep is false, or a step fails, what was in
-   its place stays. Errors: IO, with the system's reason for the first write that failed. */
+/* Closes the file. If keep is true, the file is synced and renamed to its final name; if keep is false, or a step
+   fails, an older file of that name stays. Errors: IO, with the system's reason for the first write that failed. */
 KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);
 
-/* Both, and the bytes between them. */
+/* Opens a file, writes the bytes and closes it. */
 KOKSMA__LAB koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size);
 
-/* Makes a folder, unless it is there, that will be there after a loss of power. Error: IO. */
+/* Makes a folder, unless it exists, and syncs its entry, so that it survives a loss of power. Error: IO. */
 KOKSMA__LAB koksma_status koksma__atomic_folder(const char *path);
 
 #endif

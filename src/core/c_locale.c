@@ -20,7 +20,7 @@ static void make_c_locale(void)
     c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
 }
 
-/* Gives the locale to go back to. */
+/* Switches this thread to the "C" locale; returns the locale to restore. */
 static locale_t enter(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;

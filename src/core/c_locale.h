@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Numbers as text, the same whatever the host program's locale is: libc's own functions write 0,5 and stop reading
    0.5 at the point once a program in Germany has called setlocale(LC_ALL, ""), as those with Qt or GTK do. All
-   conversions of numbers with a decimal point use these functions (tests/lint/locale.sh); whole numbers may use libc's. The
-   locale is switched for the duration of the call and in its thread only, so that the host's code never runs under
-   another locale. */
+   conversions of numbers with a decimal point use these functions (tests/lint/locale.sh); whole numbers may use
+   libc's. The locale is switched for the duration of the call and in its thread only, so that the host program's code
+   never runs under a locale that it did not choose. */
 #ifndef KOKSMA_CORE_C_LOCALE_H
 #define KOKSMA_CORE_C_LOCALE_H
 
@@ -14,7 +14,7 @@
 
 #include "core/visibility.h"
 
-/* As libc's functions of these names in the "C" locale. */
+/* strtod and vsnprintf in the "C" locale. */
 KOKSMA__LAB double koksma__strtod(const char *text, char **end);
 KOKSMA__LAB float koksma__strtof(const char *text, char **end);
 KOKSMA__LAB int koksma__fprintf(FILE *stream, const char *format, ...) KOKSMA_PRINTF(2, 3);

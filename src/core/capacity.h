@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Arrays that grow an item at a time; and the end of several blocks of memory. */
+/* Arrays that grow by one item at a time, and a macro that frees several blocks of memory. */
 #ifndef KOKSMA_CORE_CAPACITY_H
 #define KOKSMA_CORE_CAPACITY_H
 
@@ -8,8 +8,8 @@
 
 #include "core/status.h"
 
-/* The items with room for one more than n: for `first`, then for twice as many each time. NULL when memory runs out,
-   which is the error's text then; the items are as they were. */
+/* Returns the array `items` with capacity for one item more than n: `first` items at first, then twice the old
+   capacity. When memory runs out it returns NULL and sets the error's text; the old array stays valid. */
 static inline void *koksma__room_for_one(void *items, size_t n, size_t *capacity, size_t first, size_t item_size)
 {
     if (n < *capacity) {
@@ -25,8 +25,9 @@ static inline void *koksma__room_for_one(void *items, size_t n, size_t *capacity
     return grown;
 }
 
-/* A new item, all zero, at the end of the array that *array points to, which only this function has lengthened: its
-   capacity is the power of two from *n on. NULL when memory runs out, which is the error's text then. */
+/* Adds an item, all zero, at the end of the array that *array points to and returns the item. Only this function may
+   have lengthened the array, whose capacity is the smallest power of two from *n on. When memory runs out it returns
+   NULL and sets the error's text. */
 static inline void *koksma__add_one(void *array, size_t *n, size_t item_size)
 {
     char *items;
@@ -43,7 +44,7 @@ static inline void *koksma__add_one(void *array, size_t *n, size_t item_size)
     return memset(items + (*n)++ * item_size, 0, item_size);
 }
 
-/* KOKSMA__FREE(a, b, c) frees each; NULL is allowed. */
+/* KOKSMA__FREE(a, b, c) frees each pointer; NULL is allowed. */
 #define KOKSMA__FREE(...)                                                                                            \
     koksma__free_all((void *const[]){__VA_ARGS__}, sizeof((void *const[]){__VA_ARGS__}) / sizeof(void *))
 static inline void koksma__free_all(void *const *blocks, size_t n)

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A program in a process of its own, for samplers that are programs. Three processes take part:
+ * Runs a program as a child process, for samplers that are programs. Three processes take part:
  *
- *     caller   reads what the program prints, and looks at the clock and at run->keep_going
- *     keeper   a fork of the caller. It adopts all orphans below it (PR_SET_CHILD_SUBREAPER), so that no daemon, fork or
- *              new session of the program escapes: when the program has ended, or the caller's end of their socket is
- *              shut, because the caller says so or is dead, it kills whatever is below it until there is nothing left
- *     program  in a process group of its own, with limits of memory and no core file
+ *     caller   reads what the program prints, and checks the time limit and run->keep_going
+ *     keeper   a fork of the caller, connected to it by a socket. It adopts all orphans below it
+ *              (PR_SET_CHILD_SUBREAPER), so that no daemon, fork or new session of the program escapes: when the
+ *              program has ended, or when the caller closes its end of the socket or dies, the keeper kills all its
+ *              descendants
+ *     program  in a process group of its own, with a limit on memory and no core file
  *
- * A keeper is needed because to adopt orphans is a property of a whole process, which a library must not give to its
- * host. Between fork and exec only calls are made that are safe there in a process of several threads.
+ * A keeper is needed because adopting orphans is a property of a whole process, which a library must not set for its
+ * host. Between fork and exec the child makes only calls that are safe after fork in a process of several threads.
  */
 #define _GNU_SOURCE /* pipe2, ppoll */
 #include "core/child.h"
@@ -44,13 +45,14 @@ koksma_status koksma__child_run(const koksma__child *child, const koksma_run *ru
 
 enum { OUT, ERR, KEEPER, N_ENDS, STEP_MS = 20, CHUNK = 1 << 16, SHOWN = 200, MOST_FILES = 1 << 16 };
 
-/* What the keeper says at its end, and the program before that if it can't be started. */
+/* The message that the keeper sends at its end, or that the program's process sends if it cannot start the
+   program. */
 typedef struct outcome {
-    int error;  /* errno; 0: it was started */
-    int status; /* as of waitpid */
+    int error;  /* errno of a failed start; 0: the program was started */
+    int status; /* the exit status as of waitpid */
 } outcome;
 
-/* ---- The program and its keeper: only what is safe after fork -------------------------------------------- */
+/* ---- The program and its keeper: these functions make only calls that are safe after fork ----------------- */
 
 static void tell(int socket, int error, int status)
 {
@@ -77,11 +79,12 @@ static _Noreturn void become_program(const koksma__child *child, const int ends[
     _exit(127);
 }
 
-/* All files but three: the caller's own must not stay open here when the caller has died. */
+/* Closes all files but the three of `ends`: the caller's files must not stay open in the keeper when the caller has
+   died. */
 static void close_others(const int ends[N_ENDS])
 {
     unsigned first = 0;
-    for (int round = 0; round <= N_ENDS; round++) { /* the gaps between them in rising order */
+    for (int round = 0; round <= N_ENDS; round++) { /* closes the gaps between the three, in rising order */
         unsigned next = ~0u;
         for (int e = 0; e < N_ENDS; e++) {
             next = (unsigned)ends[e] >= first && (unsigned)ends[e] < next ? (unsigned)ends[e] : next;
@@ -95,7 +98,7 @@ static void close_others(const int ends[N_ENDS])
     }
 }
 
-/* Kills this process's children, as the kernel lists them. */
+/* Kills this process's children, as /proc lists them. */
 static void kill_children(void)
 {
     char text[4096];
@@ -117,10 +120,11 @@ static void kill_children(void)
 
 static void on_child(int number)
 {
-    (void)number; /* it only ends ppoll */
+    (void)number; /* the handler does nothing; the signal ends ppoll */
 }
 
-/* Until the program ends or the caller shuts its end. The program is left unreaped: its number is no one else's yet. */
+/* Waits until the program ends or the caller shuts its end of the socket. The program is not reaped yet, so that no
+   other process can get its number. */
 static void await(pid_t program, int socket)
 {
     const struct sigaction action = {.sa_handler = on_child};
@@ -152,7 +156,7 @@ static _Noreturn void keep(const koksma__child *child, const int ends[N_ENDS])
         tell(ends[KEEPER], errno, 0);
         _exit(1);
     }
-    setpgid(program, program); /* whoever comes first */
+    setpgid(program, program); /* both sides call setpgid, as either may run first */
     close(ends[OUT]);
     close(ends[ERR]);
     await(program, ends[KEEPER]);
@@ -178,7 +182,7 @@ typedef struct conversation {
     char line[SHOWN], last[SHOWN]; /* of standard error: the current line, and the last that was not empty */
     size_t length;
     outcome outcome;
-    bool heard;           /* the keeper or the program has said an outcome */
+    bool heard;           /* an outcome has come from the keeper or the program */
     koksma_status status; /* why the program is being stopped */
 } conversation;
 
@@ -202,9 +206,8 @@ static void take_output(conversation *c, const char *bytes, size_t count)
         return;
     }
     if (count > c->child->most_output - c->size) {
-        stop_program(c,
-                     koksma__fail(KOKSMA_MALFORMED, "%s: it prints more than %zu bytes, which the points can't need",
-                                  c->child->name, c->child->most_output));
+        stop_program(c, koksma__fail(KOKSMA_MALFORMED, "%s: it prints more than %zu bytes, more than the points need",
+                                     c->child->name, c->child->most_output));
         return;
     }
     if (c->size + count > c->capacity) {
@@ -237,7 +240,7 @@ static void take_message(conversation *c, const char *bytes, size_t count)
 static void take_outcome(conversation *c, const char *bytes, size_t count)
 {
     if (count >= sizeof c->outcome &&
-        !c->heard) { /* the first: a program that can't be started speaks before its keeper */
+        !c->heard) { /* keep the first: a program that cannot start sends one before its keeper */
         memcpy(&c->outcome, bytes, sizeof c->outcome);
         c->heard = true;
     }
@@ -255,13 +258,13 @@ static void take(conversation *c, int end, char *chunk)
     }
 }
 
-/* Until the keeper is gone, and with it all who could still print. */
+/* Reads output until the keeper has ended; then no process is left that could still print. */
 static void talk(conversation *c, char *chunk)
 {
     while (c->ends[OUT] >= 0 || c->ends[ERR] >= 0 || c->ends[KEEPER] >= 0) {
         struct pollfd files[N_ENDS];
         for (int e = 0; e < N_ENDS; e++) {
-            files[e] = (struct pollfd){.fd = c->ends[e], .events = POLLIN}; /* poll() passes over -1 */
+            files[e] = (struct pollfd){.fd = c->ends[e], .events = POLLIN}; /* poll() ignores -1 */
         }
         const int ready = poll(files, N_ENDS, STEP_MS);
         for (int e = 0; e < N_ENDS && ready > 0; e++) {
@@ -284,11 +287,11 @@ static koksma_status judge(const conversation *c)
     const char *name = c->child->name;
     const int status = c->outcome.status;
     if (c->status) {
-        return c->status; /* its text is that of the last failure */
+        return c->status; /* the error's text is that of the last failure */
     }
-    KOKSMA__FAIL_IF(!c->heard, KOKSMA_SYSTEM, "%s: the process that watches over it was killed", name);
+    KOKSMA__FAIL_IF(!c->heard, KOKSMA_SYSTEM, "%s: the process that supervises it was killed", name);
     KOKSMA__FAIL_IF(c->outcome.error == ENOEXEC, KOKSMA_MISSING,
-                    "%s: it can't be run: it is no program; a script begins with #!, as in #!/usr/bin/env python3",
+                    "%s: it can't be run: it is not a program; a script begins with #!, as in #!/usr/bin/env python3",
                     name);
     KOKSMA__FAIL_IF(c->outcome.error, KOKSMA_MISSING, "%s: it can't be run: %s", name, strerror(c->outcome.error));
     KOKSMA__FAIL_IF(status, KOKSMA_MALFORMED, "%s: it ended with %s %d%s%s", name,
@@ -297,7 +300,7 @@ static koksma_status judge(const conversation *c)
     return KOKSMA_OK;
 }
 
-/* Above those of the standard streams, which the program's take the place of. */
+/* Moves a descriptor above those of the standard streams, which dup2 replaces in the program. */
 static bool lift(int *end)
 {
     const int low = *end;
@@ -308,7 +311,7 @@ static bool lift(int *end)
     return *end >= 0;
 }
 
-/* Pairs of connected files: ours, theirs. */
+/* Makes pairs of connected files: one end for the caller, one for the child. */
 static bool open_ends(int ours[N_ENDS], int theirs[N_ENDS])
 {
     bool good = true;
@@ -324,7 +327,7 @@ static bool open_ends(int ours[N_ENDS], int theirs[N_ENDS])
     return good;
 }
 
-/* *keeper is its process. All signals are blocked in it from its first moment on. */
+/* Forks the keeper and sets *keeper to its process number. All signals are blocked in the keeper from the start. */
 static koksma_status start_keeper(conversation *c, pid_t *keeper)
 {
     int theirs[N_ENDS];
@@ -347,7 +350,7 @@ static koksma_status start_keeper(conversation *c, pid_t *keeper)
     }
     return *keeper > 0
                ? KOKSMA_OK
-               : koksma__fail(KOKSMA_SYSTEM, "%s: no process can be had for it: %s", c->child->name, strerror(error));
+               : koksma__fail(KOKSMA_SYSTEM, "%s: can't start a process for it: %s", c->child->name, strerror(error));
 }
 
 koksma_status koksma__child_run(const koksma__child *child, const koksma_run *run, char **output, size_t *size)
@@ -360,7 +363,7 @@ koksma_status koksma__child_run(const koksma__child *child, const koksma_run *ru
     if (!status) {
         talk(&c, chunk);
         while (waitpid(keeper, NULL, 0) < 0 &&
-               errno == EINTR) { /* a host that ignores SIGCHLD has none to wait for */
+               errno == EINTR) { /* ECHILD, where the host ignores SIGCHLD, ends the loop */
         }
         status = judge(&c);
     }

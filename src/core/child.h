@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs another program to its end, within limits, and leaves nothing running. */
+/* Runs another program to its end, within limits of time, output and memory, and ends all its processes. */
 #ifndef KOKSMA_CORE_CHILD_H
 #define KOKSMA_CORE_CHILD_H
 
 #include <koksma/koksma.h>
 
 typedef struct koksma__child {
-    const char *name;       /* what errors call it */
-    char *const *arguments; /* up to a NULL; the first is the program's path, which is not searched for */
-    double seconds;         /* the longest that it may take */
-    size_t most_output;     /* bytes on standard output */
-    uint64_t most_memory;   /* bytes of data of each of its processes */
+    const char *name;       /* the program's name in error messages */
+    char *const *arguments; /* ends with NULL; the first is the program's path, used without a search */
+    double seconds;         /* the time limit */
+    size_t most_output;     /* limit of bytes on standard output */
+    uint64_t most_memory;   /* limit of data for each of its processes, in bytes */
 } koksma__child;
 
-/* What the program prints, for the caller to free. Its standard input is empty; the last line that it prints to standard
-   error explains a failure. When the call returns, every process that the program started has ended.
-   Errors: MISSING (it can't be run), MALFORMED (it ended with an exit code or signal, took too long, printed too much),
-   INTERRUPTED, MEMORY, SYSTEM. */
+/* Runs the program and returns its standard output, which the caller frees. The program's standard input is empty;
+   the last line that it prints to standard error becomes the text of a failure. When the call returns, every process
+   that the program started has ended. Errors: MISSING (the program cannot be run), MALFORMED (it ended with an exit
+   code or signal, took too long or printed too much), INTERRUPTED, MEMORY, SYSTEM. */
 koksma_status koksma__child_run(const koksma__child *child, const koksma_run *run, char **output, size_t *size);
 
 #endif

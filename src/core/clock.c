@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* POSIX's monotonic clock, or a test's. */
+/* Reads POSIX's monotonic clock, or the clock that a test has set. */
 #include "core/clock.h"
 
 #include <stdatomic.h>

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The smallest distance of a set of the plane by halving: the closest pair lies in the left half of the points, in
- * the right, or across the line between them, and there among the few that are as near to the line, and to each other
- * in y, as the best so far. Source: Shamos & Hoey 1975. On the torus the points near a side come once more, with
- * copies of them beyond the sides.
+ * The smallest distance between two points of a set in the plane, by divide and conquer (Shamos & Hoey 1975): the
+ * closest pair lies in the left half of the points, in the right half, or across the line between the halves. A pair
+ * across the line can be closer than the best pair so far only if both points are nearer to the line, and to each
+ * other in y, than that pair; few points are. On the torus the points near a side are searched once more, together
+ * with copies of the points near the opposite side.
  */
 #include "core/closest_pair.h"
 
@@ -17,7 +18,7 @@
 
 enum { PAIRS_AT_ONCE = 1 << 20 };
 
-/* A point, or a copy in a neighbouring tile, whose coordinates are rounded by less than ROUNDED. */
+/* A point, or its copy in a neighbouring tile, whose coordinates are rounded by less than ROUNDED. */
 typedef struct place {
     double x, y;
     const double *point;
@@ -28,7 +29,8 @@ static const double ROUNDED = 0x1p-51;
 typedef struct search {
     const koksma_run *run;
     bool torus, stopped;
-    double best, reach; /* the least square so far; what is further apart in x or in y is no better */
+    /* best: the least squared distance so far; reach: a pair further apart than this in x or in y cannot be closer */
+    double best, reach;
     size_t pairs, n_done, n;
 } search;
 
@@ -56,7 +58,7 @@ static void try_pair(search *s, const double *p, const double *q)
     }
 }
 
-/* On the way places in the order of x come into that of y. scratch: for n. */
+/* Finds the closest pair among n places in the order of x, and sorts them by y on the way. scratch: capacity n. */
 static void divide(search *s, place *at, place *scratch, size_t n)
 {
     if (n < 2 || s->stopped || !(s->best > 0)) {
@@ -97,7 +99,8 @@ static koksma_status find(search *s, place *places, size_t n)
     return s->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* The points less than `margin` from a side, and all copies as near beyond one; out may be NULL, to count them. */
+/* Collects the points less than `margin` from a side, and the copies less than `margin` beyond a side; out may be
+   NULL, to count only. */
 static size_t lay_out_sides(const koksma_points *points, double margin, place *out)
 {
     size_t m = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* CSV as RFC 4180 has it: quotes stand only where a reader needs them, so that plain tables stay plain. */
+/* CSV as in RFC 4180: a field has quotes only where a reader needs them, so that plain tables stay plain. */
 #include "core/csv.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The one writer of CSV fields (RFC 4180). The stream is of one thread. */
+/* The only writer of CSV fields (RFC 4180). One thread at a time may use a stream. */
 #ifndef KOKSMA_CORE_CSV_H
 #define KOKSMA_CORE_CSV_H
 
@@ -8,10 +8,12 @@
 
 #include "core/visibility.h"
 
-/* Writes a field: in quotes, which are doubled inside, if it has a comma, a quote or the end of a line. */
+/* Writes a field. A field with a comma, a quote or the end of a line is put in quotes, and quotes inside it are
+   doubled. */
 KOKSMA__LAB void koksma__csv_put(FILE *stream, const char *text);
 
-/* Numbers, which need no quotes: digits; "%.17g" in the C locale, and nothing for NaN. */
+/* Write numbers, which need no quotes: whole ones as digits, others as "%.17g" in the C locale; NaN is an empty
+   field. */
 KOKSMA__LAB void koksma__csv_put_whole(FILE *stream, uint64_t number);
 KOKSMA__LAB void koksma__csv_put_number(FILE *stream, double number);
 

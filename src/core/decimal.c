@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Decimal numbers to doubles and back by exact arithmetic in 128 bits: no table of approximate powers, and no case that
- * is in doubt. What does not fit, and everything where there are no such integers, goes by libc.
+ * Converts decimal numbers to doubles and back by exact arithmetic in 128 bits, without a table of approximate powers
+ * and without undecided cases. Numbers that do not fit, and all numbers where the compiler has no integers of 128
+ * bits, are left to libc.
  *
- * Reading w 10^-k, w < 2^64, k <= 27: 5^k fits into 64 bits. With w and 5^k shifted so that their top bits are set, the
- * quotient of w 2^63 by 5^k has 63 or 64 bits; its lowest bit is set if there is a remainder, which is all that rounding
- * to 53 bits needs to know.
+ * Reading w 10^-k, w < 2^64, k <= 27: 5^k fits into 64 bits. With w and 5^k shifted so that their top bits are set,
+ * the quotient of w 2^63 by 5^k has 63 or 64 bits; if there is a remainder, the lowest bit is set, which makes
+ * rounding to 53 bits exact.
  *
- * Writing x = m 2^e from 1e-4 to 1 with 17 digits: p is such that x 10^p has 17 digits, 17 <= p <= 20, and m 5^p fits into
- * 100 bits: so x 10^p = m 5^p 2^(e + p) is that number shifted, and the bits shifted out decide the rounding, ties to
- * even as printf's.
+ * Writing x = m 2^e from 1e-4 to 1 with 17 digits: p is such that x 10^p has 17 digits, 17 <= p <= 20, and m 5^p fits
+ * into 100 bits: so x 10^p = m 5^p 2^(e + p) is m 5^p shifted, and the bits shifted out decide the rounding, with
+ * ties to even as in printf.
  */
 #include "core/decimal.h"
 
@@ -48,12 +49,13 @@ bool koksma__decimal_read(const char *text, char **end, double *out)
 {
     enum { MOST = 19 };
     uint64_t w = 0;
-    const char *s = text, *point = NULL, *first = NULL; /* the point; the first digit that is not 0 */
+    /* point: the decimal point; first: the first digit that is not 0 */
+    const char *s = text, *point = NULL, *first = NULL;
     for (;; s++) {
         const unsigned digit = (unsigned)*s - '0';
         if (digit <= 9) {
             first = first || !digit ? first : s;
-            w = 10 * w + digit; /* too long a number wraps around and is refused below */
+            w = 10 * w + digit; /* w wraps around for more digits than fit; such a number is left to libc below */
         } else if (*s == '.' && !point) {
             point = s;
         } else {
@@ -71,7 +73,8 @@ bool koksma__decimal_read(const char *text, char **end, double *out)
     return true;
 }
 
-/* Digits 16 .. 0 of d < 10^17, in pairs of its upper 9 and its lower 8, which do not wait for each other. */
+/* Writes digits 16 .. 0 of d < 10^17 in pairs. The upper 9 and the lower 8 digits are computed independently, for
+   speed. */
 static void put_digits(uint64_t d, char text[17])
 {
     uint32_t halves[2] = {(uint32_t)(d / 100000000), (uint32_t)(d % 100000000)};

@@ -2,15 +2,16 @@
 /*
  * The discrete Fourier transform of one sequence.
  *
- * Of a power of two: radix 4 with decimation in frequency one way and in time back, depth first, so that the parts
- * soon fit a cache and every loop is over neighbours; in place, O(n log n). A convolution multiplies transforms entry
- * by entry, and so takes them in any order: the permutation and the second buffer of Stockham's transform
- * (kernels/fast_fourier.c, 16 sequences side by side) are saved.
+ * Lengths that are powers of two: radix 4 with decimation in frequency for the forward transform and in time for the
+ * inverse, in place, O(n log n). The recursion is depth first, so that the parts soon fit a cache and every loop runs
+ * over adjacent numbers. A convolution multiplies transforms entry by entry, and so takes them in any order: the
+ * permutation and the second buffer of Stockham's transform (kernels/fast_fourier.c, 16 sequences side by side) are
+ * not needed.
  *
- * Of any length, in order: by the definition up to 16; above by Bluestein 1970: as jk = (j^2 + k^2 - (k - j)^2)/2,
- * the transform is a convolution with the chirp exp(i pi j^2 / length) between two products with its conjugate, and a
- * convolution can be as long as a power of two, with zeros behind. j^2 is taken modulo 2 length before it becomes an
- * angle, so that long lengths lose no digits.
+ * Any length, with the result in order: up to 16 by the definition; above by Bluestein's algorithm (1970): as jk =
+ * (j^2 + k^2 - (k - j)^2)/2, the transform is a convolution with the chirp exp(i pi j^2 / length) between two
+ * products with its conjugate, and a convolution can be padded with zeros to a power of two. j^2 is taken modulo 2
+ * length before it becomes an angle, so that long lengths lose no digits.
  */
 #include "core/dft.h"
 
@@ -56,7 +57,7 @@ static void pair(double *x)
     x[0] = sum;
 }
 
-/* Two steps of radix 2: the quarters become what gives the frequencies 0, 2, 1 and 3 modulo 4. */
+/* Two steps of radix 2: the four quarters become the inputs of the frequencies 0, 2, 1 and 3 modulo 4. */
 static void split(const koksma__fourier *f, size_t quarter, double *re, double *im)
 {
     const double *restrict cosines = f->cosines + quarter, *restrict sines = f->sines + quarter;
@@ -80,7 +81,7 @@ static void split(const koksma__fourier *f, size_t quarter, double *re, double *
     }
 }
 
-/* Its transpose, conjugate: 4 times its inverse. */
+/* The conjugate transpose of split(), which is 4 times its inverse. */
 static void join(const koksma__fourier *f, size_t quarter, double *re, double *im)
 {
     const double *restrict cosines = f->cosines + quarter, *restrict sines = f->sines + quarter;

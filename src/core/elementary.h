@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions of which a libm gives other last bits on another machine (glibc's exp depends on whether there is a fused
- * multiply-add), for points, whose bits are promised. Only sums and products, which are the same everywhere.
+ * exp, log, erf and its inverse for points, whose bits are the same on every machine. A libm's results differ in the
+ * last bits between machines (glibc's exp depends on whether there is a fused multiply-add). These functions use only
+ * sums and products, which IEEE 754 rounds the same way everywhere.
  */
 #ifndef KOKSMA_CORE_ELEMENTARY_H
 #define KOKSMA_CORE_ELEMENTARY_H
@@ -20,8 +21,8 @@ static inline double koksma__power_of_two(int k)
 }
 
 /* exp(x) = 2^k exp(r), x = k ln 2 + r, |r| <= ln 2 / 2, with ln 2 in two parts (Cody & Waite 1980) and Taylor's
-   series up to r^13, which leaves out less than 5e-18. The nearest double in 98 cases of 100, else its neighbour; 0
-   below -708, where it would lose digits. */
+   series up to r^13, which leaves out less than 5e-18. The result is the nearest double in 98 cases of 100, and else
+   a neighbour of it; below x = -708, where results would lose digits, it is 0. */
 static inline double koksma__exp(double x)
 {
     if (!(x >= -708)) {
@@ -48,8 +49,9 @@ static inline double koksma__exp(double x)
     return (first + (lost + (low + sum * (r * r)))) * koksma__power_of_two((int)k);
 }
 
-/* log(x) = e ln 2 + 2 artanh((m - 1) / (m + 1)), x = 2^e m, m from sqrt(1/2) to sqrt(2), of finite x > 0: the series
-   in odd powers up to the 23rd, which leaves out less than 1e-18 of it. Within two units in the last place. */
+/* log(x) = e ln 2 + 2 artanh((m - 1) / (m + 1)), x = 2^e m, m from sqrt(1/2) to sqrt(2), for finite x > 0: the series
+   of artanh in odd powers up to the 23rd, whose remainder is less than 1e-18 of the sum. Within two units in the last
+   place. */
 static inline double koksma__log(double x)
 {
     int e;
@@ -89,9 +91,9 @@ static inline double koksma__erf(double x)
     return copysign(1 - 0x1.20dd750429b6dp-1 * koksma__exp(-square) / fraction, x);
 }
 
-/* t with erf(t) = x, |x| <= 1; 6, beyond which koksma__erf is 1, for 1. Giles's approximation (2012), to 4e-7 of t
-   but for the last 1e-7 of x, and Halley's iteration (erf'' = -2 t erf'), which has three times as many digits after
-   a step. */
+/* The t with erf(t) = x, |x| <= 1; for x = 1 it is 6, beyond which koksma__erf is 1. Giles's approximation (2012),
+   accurate to 4e-7 of t except in the last 1e-7 of x, then Halley's iteration (erf'' = -2 t erf'), each step of which
+   triples the number of correct digits. */
 static inline double koksma__inverse_erf(double x)
 {
     static const double middle[] = {2.81022636e-8,  3.43273939e-7,  -3.5233877e-6, -4.39150654e-6, 2.1858087e-4,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* JSON text for exports, reports and the program's --json. A value is a comma if another one stands before it, its
-   key if it has one, and its text; a stack of closing brackets knows what is open. Texts are copied byte by byte:
-   quotes, backslashes and control characters are escaped, and what is not valid UTF-8 (RFC 3629: no overlong forms,
-   no surrogates, nothing above U+10FFFF) is replaced by U+FFFD, because file names may hold any bytes and JSON may
-   not. Numbers do not follow the host's locale. */
+   key if it has one, and its text; a stack holds the closing brackets of the open objects and arrays. Texts are
+   copied byte by byte: quotes, backslashes and control characters are escaped, and what is not valid UTF-8 (RFC 3629:
+   no overlong forms, no surrogates, nothing above U+10FFFF) is replaced by U+FFFD, because file names may hold any
+   bytes and JSON may not. Numbers do not follow the host's locale. */
 #include "core/json_writer.h"
 
 #include <math.h>
@@ -59,7 +59,7 @@ static void append_quoted(koksma__json_writer *w, const char *text)
     append(w, "\"", 1);
 }
 
-/* What comes before a value: the comma and the key. */
+/* Writes the comma and the key before a value. */
 static void begin_value(koksma__json_writer *w, const char *key)
 {
     if (w->comma) {

@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Modifiers: maps of the cube to itself that any pattern takes after its own parameters. Each is one line of the table
- * below, with what it keeps; tests/core/test_modifiers.c tests every entry for every pattern.
+ * Modifiers: maps of the cube to itself that any pattern takes after its own parameters. Each is one row of the table
+ * below, with the claims of a pattern that it preserves; tests/core/test_modifiers.c tests every entry for every
+ * pattern.
  *
  *     shift          x + u modulo 1, u uniform in [0,1)^dim                         (Cranley & Patterson 1976)
- *     phase=K        the same with the u that shift has for seed K, whatever the seed
+ *     phase=K        x + u modulo 1 with the u that shift has for seed K, independent of the pattern's seed
  *     digital-shift  the binary digits of x_k, xor those of u_k                     (L'Ecuyer & Lemieux 2002)
- *     owen           digit m of x_k is flipped by a random bit of its own for each value of the digits before it:
+ *     owen           digit m of x_k is flipped by a random bit, a different one for each value of the digits before it:
  *                    nested uniform scrambling in base 2                            (Owen 1995)
  *     axes           x_k becomes x_p(k), p a random permutation
  *     mirror         x_k becomes 1 - 2^-53 - x_k or stays, with probability 1/2 each
- *     owen-base=B    owen's scrambling in base B: digit m goes through a random permutation of its own for each value of the
- *                    digits before it
- *     tent           x_k becomes 1 - |2 x_k - 1|, the baker's or tent transform, at most 1 - 2^-53: behind shift, a lattice
- *                    integrates smooth functions that are not periodic with errors near n^-2          (Hickernell 2002)
+ *     owen-base=B    owen's scrambling in base B: digit m goes through a random permutation, a different one for each
+ *                    value of the digits before it
+ *     tent           x_k becomes 1 - |2 x_k - 1|, the baker's or tent transform, at most 1 - 2^-53: after shift, a
+ *                    lattice integrates smooth functions that are not periodic with errors near n^-2
+ *                    (Hickernell 2002)
  *
- * Digits are the first 53. A random bit of owen is found by its node of the tree of digits: one call of the generator has
- * the 127 bits of seven levels below a node. The mirror image flips all 53 digits: half-open strata go to half-open ones.
+ * The first 53 digits are scrambled. owen hashes the node of the tree of digits to its random bit: one call of the
+ * generator gives the 127 bits of the seven levels below a node. mirror flips all 53 digits, so that half-open strata
+ * map to half-open strata.
  */
 #include "core/modifiers.h"
 
@@ -66,14 +69,16 @@ static void scramble(uint64_t seed, double value, koksma_points *points)
     }
 }
 
-/* Digits in a base: x is the nearest double to, or just above, a multiple of base^-digits, as nets have them. */
+/* The digits of x in a base, as an integer: x is the double nearest to, or just above, a multiple of base^-digits, as
+   in nets. */
 static uint64_t digits_in_base(double x, double scale)
 {
     const uint64_t floor = (uint64_t)(x * scale);
     return floor + ((double)(floor + 1) / scale <= x) - ((double)floor / scale > x);
 }
 
-/* Where a digit goes at a node of the tree of digits: Fisher-Yates with a call of the generator for each place. */
+/* The image of a digit under the permutation at a node of the tree of digits: Fisher-Yates with one call of the
+   generator for each position. */
 static uint32_t permuted(uint64_t seed, uint32_t lane, uint64_t node, uint32_t base, uint32_t digit)
 {
     uint32_t order[MOST_BASE];
@@ -103,7 +108,8 @@ static void scramble_in_base(uint64_t seed, double value, koksma_points *points)
     for (size_t c = 0; c < points->n * dim; c++) {
         const uint64_t x = digits_in_base(points->xs[c], scale);
         uint64_t y = 0;
-        for (int m = 0; m < digits; m++) { /* a node: the digits before, behind those of all shorter ones */
+        /* the node's number: the digits before, after the numbers of all nodes of shorter prefixes */
+        for (int m = 0; m < digits; m++) {
             const uint64_t before = x / powers[digits - m], digit = x / powers[digits - m - 1] % base;
             y = y * base +
                 permuted(seed, (uint32_t)(c % dim), before + (powers[m] - 1) / (base - 1), base, (uint32_t)digit);
@@ -153,7 +159,7 @@ static void mirror(uint64_t seed, double value, koksma_points *points)
     }
 }
 
-/* x + u on the torus; never 1. */
+/* x + u on the torus; never returns 1. */
 static void shift_by(uint64_t seed, koksma_points *points)
 {
     double u[KOKSMA_MAX_DIM + 1];
@@ -277,7 +283,7 @@ unsigned koksma__claims_left(const koksma_spec *spec, size_t n)
     return claims;
 }
 
-/* Behind 0, which is not to apply it, most have the range from 1. */
+/* A value of 0 means that the modifier is not applied; the ranges of most modifiers begin at 1. */
 koksma_param koksma__modifier_param(size_t i)
 {
     const koksma_modifier *m = &rows[i].modifier;

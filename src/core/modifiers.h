@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The modifiers of patterns (koksma_modifier), which are read, printed and applied in the order of their table. */
+/* The modifiers of patterns (koksma_modifier). They are read, printed and applied in the order of their table. */
 #ifndef KOKSMA_CORE_MODIFIERS_H
 #define KOKSMA_CORE_MODIFIERS_H
 
@@ -7,31 +7,32 @@
 
 #include "core/visibility.h"
 
-/* The parameters of a pattern (NULL: none) and behind them the modifiers, up to one whose name is NULL. */
+/* The parameters of a pattern (NULL: none), followed by the modifiers; an entry whose name is NULL ends the list. */
 typedef struct koksma__all_params {
     koksma_param params[KOKSMA_MAX_PARAMS + KOKSMA_MAX_MODIFIERS + 1];
-    size_t own; /* how many come before the modifiers */
+    size_t own; /* how many precede the modifiers */
 } koksma__all_params;
 
 void koksma__all_params_init(koksma__all_params *all, const koksma_param *own);
 
-/* Where the modifiers at the end of "PATH,shift=1,phase=3" begin: at a comma, or at the text's end. What has a dot or
-   a slash is still of the path: x,shift=1.txt is a file's name. */
+/* Where the modifiers at the end of "PATH,shift=1,phase=3" begin: at a comma, or at the text's end. A part with a dot
+   or a slash still belongs to the path: x,shift=1.txt is a file's name. */
 KOKSMA__LAB const char *koksma__modifiers_of_path(const char *text);
 
-/* Applies all modifiers that are not 0 to points in [0,1), which stay there. */
+/* Applies all modifiers whose value is not 0 to points in [0,1), which stay in [0,1). */
 void koksma__modify(const double *values, uint64_t seed, koksma_points *points);
 
-/* Modifier i as a parameter, whose default 0 may be below its range. */
+/* Modifier i as a parameter. Its default 0 may be below its range. */
 koksma_param koksma__modifier_param(size_t i);
 
-/* Whether one of them depends on the seed. */
+/* Whether any of the modifiers given depends on the seed. */
 KOKSMA__LAB bool koksma__modifiers_are_random(const double *values);
 
-/* Whether one of them works on digits: rates of decay that rest on other strata than those in base 2 are lost. */
+/* Whether any of the modifiers given works on digits. Claims about rates of decay that need strata in another base
+   than 2 are then lost. */
 bool koksma__modifiers_of_digits(const double *values);
 
-/* The claims of a pattern that its points still keep, for n points. */
+/* The claims of a pattern that still hold for n points after its modifiers. */
 KOKSMA__LAB unsigned koksma__claims_left(const koksma_spec *spec, size_t n);
 
 #endif

@@ -2,13 +2,14 @@
 /*
  * The quality t of nets: n = b^m points are a (t,m,s)-net in base b if every elementary interval, a product of
  * [a/b^k, (a+1)/b^k), of volume b^(t-m) holds b^t of them (Niederreiter 1992). Smaller is better; t = m always holds,
- * and a (t,m,s)-net is a (t+1,m,s)-net, so that the first t that holds is the least.
+ * and a (t,m,s)-net is a (t+1,m,s)-net, so that the least t is found by trying t = 0, 1, 2, ... in turn.
  *
- * Most fractions a/b^k are no doubles unless b is a power of two: 1/5 times 5 rounds to 1, but 1/49 times 49 to less
- * than 1. So a stratum is bounded by the doubles nearest to its fractions (a quotient of whole numbers is rounded
- * once), and a coordinate that is the double nearest to a/b^k counts as this fraction. Equal fractions have one
- * nearest double: the stratum of x among b^k is that among b^m over b^(m-k), and a point's strata are searched for
- * once. The shapes with m - t digits are C(m - t + s - 1, s - 1), each a pass over the points.
+ * Unless b is a power of two, most fractions a/b^k are not exact doubles: 1/5 times 5 rounds to 1, but 1/49 times 49
+ * to less than 1. So a stratum is bounded by the doubles nearest to its fractions (a quotient of whole numbers is
+ * rounded once), and a coordinate that is the double nearest to a/b^k counts as this fraction. Equal fractions have
+ * the same nearest double, so that the stratum of x among b^k is its stratum among b^m divided by b^(m-k); each
+ * coordinate's stratum is therefore searched for only once. There are C(m - t + s - 1, s - 1) shapes of intervals
+ * with m - t digits, and each costs a pass over the points.
  */
 #include "core/net.h"
 
@@ -54,19 +55,20 @@ void koksma__net_fini(koksma__net *net)
     *net = (koksma__net){0};
 }
 
-/* A search for intervals, all of one volume, that do not hold `each` points. */
+/* A search for intervals of one volume that do not hold exactly `each` points. */
 typedef struct search {
     const koksma__net *net;
     const int *use;
     int dim;
     size_t n, cells;
     uint32_t each;
-    uint32_t sides[KOKSMA_MAX_DIM]; /* strata along each coordinate */
+    uint32_t sides[KOKSMA_MAX_DIM]; /* number of strata along each coordinate */
     const koksma_run *run;
     bool stopped;
 } search;
 
-/* Whether all intervals of this shape hold the same number of points; false also when told to stop. */
+/* Whether all intervals of the current shape hold the same number of points; also false when the run was
+   cancelled. */
 static bool is_even(search *s)
 {
     const koksma__net *net = s->net;
@@ -87,10 +89,10 @@ static bool is_even(search *s)
             return false;
         }
     }
-    return true; /* none has more, so none has less */
+    return true; /* no interval has more than its share, so that none has less */
 }
 
-/* All ways to share `left` digits among coordinates k and later. */
+/* Tries all ways to distribute `left` digits over coordinates k and later. */
 static bool all_even(search *s, int k, int left)
 {
     if (k + 1 == s->dim) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Asks Linux for large pages (madvise) for large blocks that are read in random order: fewer misses of the table of
- * pages. A wish only; elsewhere it does nothing.
+ * Asks Linux for large pages (madvise) for large blocks that are read in random order, which makes TLB misses rarer.
+ * The kernel may ignore the request; on other systems the function does nothing.
  */
 #ifdef __linux__
 #define _DEFAULT_SOURCE /* madvise */
@@ -15,7 +15,7 @@
 #include <unistd.h>
 #endif
 
-enum { MANY = 1 << 22 }; /* twice the size of a large page, so that one is inside */
+enum { MANY = 1 << 22 }; /* twice the size of a large page, so that a whole large page lies inside */
 
 void koksma__large_pages(void *memory, size_t bytes)
 {

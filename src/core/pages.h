@@ -4,8 +4,9 @@
 
 #include <stddef.h>
 
-/* Asks the system for large pages in a fresh block of memory, if it is one of many megabytes: touching it the first
-   time takes as long as filling it several times does, most of it for each page. The system may ignore it. */
+/* Asks the system for large pages in a fresh block of memory of many megabytes; smaller blocks are left alone. The
+   first access to a fresh block takes as long as filling it several times, most of that time for each page. The
+   system may ignore the request. */
 void koksma__large_pages(void *memory, size_t bytes);
 
 #endif

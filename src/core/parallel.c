@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A job of numbered blocks on several threads: each thread takes the next number from an atomic counter, so that
+ * Runs a job of numbered blocks on several threads: each thread takes the next number from an atomic counter, so that
  * the assignment of blocks to threads may differ and results must not depend on it. Threads are made for each job;
- * the caller's thread works too. The first failure stops the job, and its text becomes the caller's.
+ * the caller's thread works too. The first failure stops the job, and its error text is copied to the caller's
+ * thread.
  */
 #include "core/parallel.h"
 
@@ -24,10 +25,10 @@ typedef struct pool {
     atomic_size_t next;
     atomic_size_t done;
     atomic_int status;
-    pthread_mutex_t lock; /* guards what follows */
+    pthread_mutex_t lock; /* guards the members below */
     pthread_cond_t ended; /* a helper has */
     int running;          /* helpers */
-    double exec_s;        /* what the caller's thread allows */
+    double exec_s;        /* the caller's permission to run programs (core/allow.h) */
     char text[512];
 } pool;
 
@@ -98,7 +99,7 @@ static void look(pool *p, const koksma_run *run)
     }
 }
 
-/* Looks as often as this while the helpers do their last blocks, which may take long. */
+/* How often the caller asks keep_going while the helpers finish their last blocks, which may take long. */
 static const long LOOK_NS = 50000000;
 
 static void wait_for_helpers(pool *p, const koksma_run *run)
@@ -131,9 +132,9 @@ koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__b
     int n_helpers = 0;
     size_t wanted = (size_t)koksma__threads(run);
     wanted = wanted < n_blocks ? wanted : n_blocks;
-    pthread_mutex_lock(&p.lock); /* so that none ends before it is counted */
+    pthread_mutex_lock(&p.lock); /* held so that no helper ends before it is counted */
     while ((size_t)n_helpers + 1 < wanted && !pthread_create(&helpers[n_helpers], NULL, work, &p)) {
-        n_helpers++; /* a thread that can't be had only makes it slower */
+        n_helpers++; /* if a thread cannot be created, the job only takes longer */
     }
     p.running = n_helpers;
     pthread_mutex_unlock(&p.lock);

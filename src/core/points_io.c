@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Files of points: the first byte tells NumPy's format (points_npy.c) from text (points_text.c) when reading, the
- * ending of the name when writing.
+ * Files of points. When reading, the first byte distinguishes NumPy's format (points_npy.c) from text
+ * (points_text.c); when writing, the ending of the file's name chooses the format.
  */
 #include "core/points_io.h"
 
@@ -17,7 +17,7 @@ koksma_status koksma__points_read(const char *path, koksma__named by, koksma_poi
     *points = (koksma_points){0};
     KOKSMA__TRY(koksma__file_open(path, KOKSMA__FILE_POINTS, by, &stream));
     const char *name = stream == stdin ? "standard input" : path;
-    const int first = getc(stream); /* the first byte of "\x93NUMPY"; no text begins with it */
+    const int first = getc(stream); /* first byte of "\x93NUMPY"; no text file begins with this byte */
     ungetc(first, stream);
     const koksma_status status = first == 0x93 ? koksma__points_read_npy(stream, name, points)
                                                : koksma__points_read_text(stream, name, points);

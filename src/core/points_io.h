@@ -10,43 +10,48 @@
 #include "core/read_file.h"
 #include "core/visibility.h"
 
-/* An error unless dim is a number of dimensions and n points of so many fit into one set. Errors: ARGUMENT, DIM. */
+/* An error unless dim is a valid number of dimensions and n points of that dimension fit into one set. Errors:
+   ARGUMENT, DIM. */
 koksma_status koksma__points_fit(size_t n, int dim);
 
-/* An error unless there are points, they fit, and each coordinate is in [0,1] (NaN is not): what every public
-   function that takes points and has no other rule asks first. Errors: ARGUMENT, DIM. */
+/* An error unless the set has points, its size is within the limits, and each coordinate is in [0,1] (NaN is not).
+   Every public function that takes points, unless it documents another rule, makes this check first. Errors:
+   ARGUMENT, DIM. */
 KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
 
-/* koksma_points_read, and who named the file. */
+/* koksma_points_read, with who named the file: `by` decides which kinds of files may be opened (core/read_file.h). */
 koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points);
 
-/* Readers by format. `name` is what errors call the source. On failure points is left empty. */
+/* Readers by format. Error messages call the source `name`. On failure points is left empty. */
 koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points);
 koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points);
 
-/* A file of n points that is written piece by piece, by the ending of its name. Any numbers are accepted. */
+/* A file of n points that is written piece by piece, in the format given by the ending of its name. Coordinates may
+   be any numbers. */
 typedef struct koksma__points_writer {
     koksma__atomic_file file;
     enum { KOKSMA__POINTS_TEXT, KOKSMA__POINTS_CSV, KOKSMA__POINTS_NPY } format;
     uint64_t n, done;
 } koksma__points_writer;
 
-/* Opens the file and writes what comes before the points. Errors: IO, MEMORY. */
+/* Opens the file and writes the header before the points. Errors: IO, MEMORY. */
 koksma_status koksma__writer_open(const char *path, uint64_t n, int dim, const char *comment,
                                   koksma__points_writer *writer);
 
-/* Adds points, until writing fails, which closing reports. Error: INTERRUPTED, when run's progress function says so. */
+/* Writes more points. After a failed write it does nothing; koksma__writer_close reports the failure. Error:
+   INTERRUPTED, when run->keep_going asks to stop. */
 koksma_status koksma__writer_put(koksma__points_writer *writer, const koksma_points *points, const koksma_run *run);
 
-/* Puts the file in its place if status is OK; else leaves what was there. Returns status, or IO. */
+/* Closes the file. If status is OK, the new file takes its final name; otherwise an older file of that name stays.
+   Returns status, or IO. */
 koksma_status koksma__writer_close(koksma__points_writer *writer, koksma_status status);
 
-/* All of it at once: koksma_points_write without the check for points outside [0,1]. */
+/* Writes all rows with one call: koksma_points_write without the check that coordinates are in [0,1]. */
 koksma_status koksma__numbers_write(const char *path, const koksma_points *rows, const char *comment,
                                     const koksma_run *run);
 
-/* The parts of the formats: what comes before the points, and points. `progress` is the share of all that was done
-   before these points, and `share` is theirs. */
+/* Writers by format: the header before the points, and the points. `progress` is the fraction of the whole file that
+   was written before these points; `share` is the fraction that they make up. */
 typedef struct koksma__progress {
     const koksma_run *run;
     double done, share;

@@ -22,7 +22,7 @@ static koksma_status malformed(const char *name, const char *reason)
     return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: %s", name, reason);
 }
 
-/* The text after 'key': in the header's dictionary, or NULL. */
+/* The text after 'key': in the header's dictionary; NULL: the dictionary lacks the key. */
 static const char *find_value(const char *header, const char *key)
 {
     char quoted[32];
@@ -121,7 +121,7 @@ static double decode(const unsigned char *bytes, const layout *l)
     return x;
 }
 
-/* Stores number `item` of the file in the points, or fails if it is no coordinate. */
+/* Stores number `item` of the file in the points; fails if the number is not a coordinate. */
 static koksma_status put_item(const char *name, const layout *l, size_t item, double x, koksma_points *points)
 {
     KOKSMA__FAIL_IF(!(x >= 0 && x <= 1), KOKSMA_MALFORMED, "%s: item %zu: coordinate %.17g is outside [0,1]", name,
@@ -150,12 +150,13 @@ static koksma_status read_items(FILE *stream, const char *name, const layout *l,
     return KOKSMA_OK;
 }
 
-/* A claim of 10^9 points is believed only when the file is that long: nothing large is allocated before. */
+/* Checks that the file is as long as its header claims before memory is allocated: a small file that claims 10^9
+   points fails here. */
 static koksma_status check_length(FILE *stream, const char *name, const layout *l)
 {
     const long here = ftell(stream);
     if (here < 0 || fseek(stream, 0, SEEK_END)) {
-        return KOKSMA_OK; /* a pipe: read_items finds out */
+        return KOKSMA_OK; /* a pipe has no length; read_items checks it */
     }
     const long end = ftell(stream);
     fseek(stream, here, SEEK_SET);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Points as text: one point a line, `%.17g`, with `# key value` lines in front. Reading takes any of blanks,
-   commas, tabs, comments and a CSV header; `# n N` and `# dim D` are promises that are checked. So are `n N` and
-   `dim D` among plain `key number` lines that end at a line `points`, as sets with known values are kept. */
+/* Points as text: one point a line, `%.17g`, with `# key value` lines in front. Reading accepts blanks, commas and
+   tabs between fields, comments, and a CSV header. A line `# n N` or `# dim D` must match the points. So must `n N`
+   and `dim D` in a preamble of plain `key number` lines that a line `points` ends, the form of test files with known
+   values. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,14 +18,14 @@ enum { MAX_LINE = 1 << 18, BLOCK = 2 * MAX_LINE, SHOWN = 40 };
 typedef struct reader {
     FILE *stream;
     const char *name;
-    char *block; /* BLOCK + 1 bytes: those from at to held are to come */
+    char *block; /* BLOCK + 1 bytes; those from at to held are not read yet */
     size_t at, held;
     bool at_end;
-    char *line; /* in the block */
+    char *line; /* points into the block */
     size_t line_number, length;
-    uint64_t bytes; /* of all lines */
+    uint64_t bytes; /* total of all lines so far */
     bool header_seen;
-    bool in_preamble; /* after a `key number` line and before `points` */
+    bool in_preamble; /* after a `key number` line, before `points` */
     size_t header_fields;
     unsigned long long promised_n, promised_dim; /* 0: nothing promised */
     size_t capacity;                             /* of xs, in coordinates */
@@ -36,7 +37,7 @@ static koksma_status malformed(const reader *r, const char *reason)
     return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: %s", r->name, r->line_number, reason);
 }
 
-/* Reads one line without its end. False at the end of the file. */
+/* Reads one line without its line end. Returns false at the end of the file. */
 static bool read_line(reader *r, koksma_status *status)
 {
     char *end;
@@ -62,7 +63,8 @@ static bool read_line(reader *r, koksma_status *status)
     }
     r->line[r->length] = '\0';
     r->bytes += r->length + 1;
-    if (r->bytes > koksma__file_most(KOKSMA__FILE_POINTS)) { /* a pipe without end, of comments or empty lines */
+    /* a pipe may send comments or empty lines without end */
+    if (r->bytes > koksma__file_most(KOKSMA__FILE_POINTS)) {
         *status = koksma__file_too_long(r->name, KOKSMA__FILE_POINTS);
         return false;
     }
@@ -82,7 +84,7 @@ static const char *skip_blanks(const char *s)
     return s;
 }
 
-/* From the end of a field to the start of the next; one comma or semicolon at most. NULL: two in a row. */
+/* From the end of a field to the start of the next; at most one comma or semicolon between. NULL: there are two. */
 static const char *next_field(const char *s)
 {
     s = skip_blanks(s);
@@ -99,7 +101,7 @@ static koksma_status read_promise(reader *r, const char *line, const char *forma
 {
     char key[8];
     char digits[24];
-    char after = ' '; /* "# n 1e2 points" promises nothing */
+    char after = ' '; /* "# n 1e2 points" is an ordinary comment */
     if (sscanf(line, format, key, digits, &after) >= 2 && (after == ' ' || after == '\t')) {
         unsigned long long *promise = !strcmp(key, "n")     ? &r->promised_n
                                       : !strcmp(key, "dim") ? &r->promised_dim
@@ -114,7 +116,7 @@ static koksma_status read_promise(reader *r, const char *line, const char *forma
     return KOKSMA_OK;
 }
 
-/* Takes a line of the preamble; false when it is none: a word and a number, or `points`. */
+/* Reads a line of the preamble: a word and a number, or `points`. Returns false for any other line. */
 static bool take_preamble(reader *r, const char *s, koksma_status *status)
 {
     if (!strcmp(s, "points") && r->in_preamble) {
@@ -130,7 +132,7 @@ static bool take_preamble(reader *r, const char *s, koksma_status *status)
         return false;
     }
     koksma__strtod(s, &end);
-    if (end != s) { /* "nan 0.5" is a bad point */
+    if (end != s) { /* begins with a number: "nan 0.5" is a bad point */
         return false;
     }
     r->in_preamble = true;
@@ -156,8 +158,8 @@ static koksma_status append(reader *r, double x)
     return KOKSMA_OK;
 }
 
-/* A first line of names is a CSV header: each field begins with a letter or _, maybe quoted. Where there are commas
-   or semicolons, names may have blanks in them. */
+/* Whether a first line is a CSV header: each field begins with a letter or _, perhaps after a quote. If the line has
+   commas or semicolons, names may contain blanks. */
 static bool take_header(reader *r, const char *s)
 {
     const char *separators = strpbrk(s, ",;") ? ",;" : " \t";
@@ -165,7 +167,7 @@ static bool take_header(reader *r, const char *s)
     while (s && *s) {
         const char first = s[*s == '"'];
         char *end;
-        koksma__strtod(s, &end); /* "nan 0.5" is a bad point */
+        koksma__strtod(s, &end); /* a field that is a number, as in "nan 0.5", makes the line a bad point */
         if (!((first | 32) >= 'a' && (first | 32) <= 'z') && first != '_') {
             return false;
         }
@@ -235,7 +237,8 @@ static koksma_status take_line(reader *r)
     if (control) {
         return malformed(r, "not text (a control character)");
     }
-    const bool marked = r->line_number == 1 && !strncmp(r->line, "\xef\xbb\xbf", 3); /* as Excel writes UTF-8 */
+    /* the byte order mark that Excel writes before UTF-8 */
+    const bool marked = r->line_number == 1 && !strncmp(r->line, "\xef\xbb\xbf", 3);
     const char *s = skip_blanks(r->line + (marked ? 3 : 0));
     if (*s == '\0') {
         return KOKSMA_OK;
@@ -323,7 +326,7 @@ void koksma__points_begin_text(FILE *stream, uint64_t n, int dim, const char *co
     while (comment && *comment) {
         fputs("# ", stream);
         for (; *comment && *comment != '\n';
-             comment++) { /* readers would take a file with control characters for another format */
+             comment++) { /* readers would mistake a file with control characters for a binary format */
             putc((unsigned char)*comment >= 0x20 ? *comment : '?', stream);
         }
         putc('\n', stream);

@@ -13,7 +13,7 @@ static inline double koksma__clock_s(clockid_t clock)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Processor time of this process, and of this thread. */
+/* Processor time used by this process and by this thread, in seconds. */
 static inline double koksma__processor_s(void)
 {
     return koksma__clock_s(CLOCK_PROCESS_CPUTIME_ID);

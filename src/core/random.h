@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Counter-based random numbers: every number is a hash of its key (seed, purpose, index, lane), so the same
- * arguments give the same bits in any order and on any number of threads. The generator is Philox4x32-10
- * (Salmon et al. 2011), from Random123. The bulk form with the same bits is the kernel `uniform`.
+ * Counter-based random numbers: every number is a hash of its key (seed, purpose, index, lane), so the same arguments
+ * give the same bits in any order and on any number of threads. The generator is Philox4x32-10 (Salmon et al. 2011),
+ * from Random123. The kernel `uniform` gives the same bits for many indices at once.
  */
 #ifndef KOKSMA_CORE_RANDOM_H
 #define KOKSMA_CORE_RANDOM_H
@@ -12,18 +12,18 @@
 
 #include "core/visibility.h"
 
-/* What a random number is used for. Numbers with different purposes are independent.
-   Add at the end only: the bits of every pattern depend on these. */
+/* What a random number is used for. Numbers with different purposes are independent. Add new purposes at the end
+   only: the bits of every pattern depend on these numbers. */
 typedef enum koksma__purpose {
     KOKSMA__PURPOSE_SEED = 1, /* deriving a seed from a seed */
-    KOKSMA__PURPOSE_POINT,    /* the place of a point in the cube or in its cell */
+    KOKSMA__PURPOSE_POINT,    /* the position of a point in the cube or in its cell */
     KOKSMA__PURPOSE_SHUFFLE,  /* a random permutation */
     KOKSMA__PURPOSE_DART,     /* a candidate point that may be rejected */
     KOKSMA__PURPOSE_SHIFT,    /* a toroidal or digital shift */
     KOKSMA__PURPOSE_SCRAMBLE, /* scrambling of digits */
-    KOKSMA__PURPOSE_SEARCH,   /* a random search of a measure */
+    KOKSMA__PURPOSE_SEARCH,   /* a random search that a measure makes */
     KOKSMA__PURPOSE_TEST,     /* tests and benchmarks */
-    KOKSMA__PURPOSE_AUDIT,    /* which rows of a study are drawn */
+    KOKSMA__PURPOSE_AUDIT,    /* which rows of a study are checked */
     KOKSMA__PURPOSE_NESTED,   /* the modifiers owen, digital-shift, axes and mirror */
     KOKSMA__PURPOSE_DIGITS,
     KOKSMA__PURPOSE_AXES,
@@ -45,8 +45,8 @@ static inline koksma__words koksma__random(uint64_t seed, uint32_t purpose, uint
     return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
 }
 
-/* 128 random bits by 7 rounds, the fewest that pass BigCrush (Salmon et al. 2011, table 2): for the renderer, which
-   draws more than all else. */
+/* 128 random bits by 7 rounds, the fewest that pass BigCrush (Salmon et al. 2011, table 2). The renderer uses them
+   because it draws more random numbers than all other parts. */
 static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane)
 {
     const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};
@@ -61,7 +61,7 @@ static inline double koksma__unit(uint32_t high, uint32_t low)
     return (double)(((uint64_t)high << 21) | (low >> 11)) * 0x1p-53;
 }
 
-/* Two doubles in [0,1): the pair that stands at `index` of the kernel `uniform`. */
+/* Two doubles in [0,1): the pair that the kernel `uniform` gives at `index`. */
 static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane, double pair[2])
 {
     const koksma__words r = koksma__random(seed, purpose, index, lane);
@@ -69,7 +69,7 @@ static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t
     pair[1] = koksma__unit(r.w[2], r.w[3]);
 }
 
-/* A seed for part `index` of what `seed` is for. */
+/* A seed for part `index` of the purpose that `seed` serves, derived from `seed`. */
 static inline uint64_t koksma__random_seed(uint64_t seed, uint64_t index, uint32_t lane)
 {
     const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_SEED, index, lane);

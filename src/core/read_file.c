@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Opens files from outside, for every reader. A scene, plan or model from a stranger may name a device without end, a
- * fifo that nobody writes to, or a sparse file of any size, so that a file which a file names is opened only if it is
- * plain, and read only up to the limit of its kind (file_kinds.def), its first bytes first. stat() looks before
- * open(), because opening alone makes some devices act; fstat() looks again at what was opened. O_NONBLOCK keeps a
- * fifo that came in between, and files of /proc, from waiting. A fifo that the user names is opened without it: reading
- * would else end before another program has begun to write.
+ * Opens input files, for every reader. A scene, plan or model from a stranger may name a device without end, a fifo
+ * that nobody writes to, or a sparse file of any size. Therefore a file named by another file is opened only if it is
+ * a plain file, and is read only up to the limit of its kind (file_kinds.def), after a check of its first bytes.
+ * stat() is called before open(), because opening alone makes some devices act; fstat() then checks the file that was
+ * opened. O_NONBLOCK keeps open() from waiting where a fifo replaced the file between the two calls, and on files of
+ * /proc. A fifo that the user names is opened without O_NONBLOCK, as reading would otherwise end before another
+ * program has begun to write.
  */
 #include "core/read_file.h"
 
@@ -46,7 +47,7 @@ static koksma_status fail_read(const char *name, int reason)
     return koksma__fail(exhausted ? KOKSMA_SYSTEM : KOKSMA_MISSING, "%s: can't be read: %s", name, strerror(reason));
 }
 
-/* An error for what is no file, or too long. */
+/* Fails if the path is not a file that may be read, or the file is too long. */
 static koksma_status check_file(const char *path, const struct stat *info, koksma__file_kind kind, koksma__named by,
                                 bool terminal)
 {
@@ -66,7 +67,7 @@ static koksma_status check_file(const char *path, const struct stat *info, koksm
     return (uint64_t)info->st_size > koksma__file_most(kind) ? koksma__file_too_long(path, kind) : KOKSMA_OK;
 }
 
-/* *descriptor is -1 after an error. */
+/* Opens a path; *descriptor is -1 after an error. */
 static koksma_status open_path(const char *path, koksma__file_kind kind, koksma__named by, int *descriptor)
 {
     enum { FLAGS = O_RDONLY | O_CLOEXEC | O_NOCTTY };
@@ -117,7 +118,8 @@ koksma_status koksma__check_text(const unsigned char *bytes, size_t size)
                                   : KOKSMA_OK;
 }
 
-/* Bytes to make room for at once: a plain file's length and one more, which shows its end; 0 for a pipe. */
+/* The number of bytes to allocate at first: a plain file's length and one more, which detects the end; 0 for a
+   pipe. */
 static size_t length_of(FILE *stream, size_t most)
 {
     struct stat info;
@@ -125,7 +127,7 @@ static size_t length_of(FILE *stream, size_t most)
     return !plain ? 0 : (uint64_t)info.st_size < most ? (size_t)info.st_size + 1 : most + 1;
 }
 
-/* Reads to the end; capacity doubles where a file does not tell its length, as a pipe, and ends at the limit. */
+/* Reads to the end, or up to the limit. The capacity doubles for files without a known length, such as pipes. */
 static koksma_status read_all(FILE *stream, const char *name, size_t most, koksma__check_start *check,
                               unsigned char **bytes, size_t *size)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* SHA-256 as FIPS 180-4, section 6.2, has it: blocks of 64 bytes are mixed into a state of eight words by 64 rounds.
-   The constants are the first 32 bits of the fractional parts of the cube roots of the first 64 primes, and of the
-   square roots of the first eight. */
+/* SHA-256 (FIPS 180-4, section 6.2): blocks of 64 bytes are mixed into a state of eight words by 64 rounds. The
+   constants are the first 32 bits of the fractional parts of the cube roots of the first 64 primes, and of the square
+   roots of the first eight. */
 #include "core/sha256.h"
 
 #include <string.h>
@@ -21,7 +21,7 @@ static inline uint32_t rotate(uint32_t x, int n)
     return x >> n | x << (32 - n);
 }
 
-/* Round k modulo 8, in which a is s[-k] and h is s[7 - k], modulo 8. */
+/* Round k modulo 8. The working variables rotate: a is s[-k] and h is s[7 - k], indices modulo 8. */
 static inline void mix_round(uint32_t s[8], unsigned k, uint32_t add)
 {
     const uint32_t a = s[(8 - k) % 8], b = s[(9 - k) % 8], c = s[(10 - k) % 8];
@@ -44,7 +44,7 @@ static void mix(uint32_t state[8], const unsigned char block[64])
                (rotate(b, 17) ^ rotate(b, 19) ^ b >> 10);
     }
     memcpy(s, state, sizeof s);
-    for (int i = 0; i < 64; i += 8) { /* instead of moving a to h on, their roles go round */
+    for (int i = 0; i < 64; i += 8) { /* the indices of a to h rotate, which saves moving their values */
         mix_round(s, 0, constants[i] + w[i]);
         mix_round(s, 1, constants[i + 1] + w[i + 1]);
         mix_round(s, 2, constants[i + 2] + w[i + 2]);

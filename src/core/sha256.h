@@ -12,14 +12,14 @@ enum { KOKSMA__SHA256_TEXT = 65 };
 
 typedef struct koksma__sha256 {
     uint32_t state[8];
-    uint64_t size; /* bytes so far */
+    uint64_t size; /* number of bytes added so far */
     unsigned char block[64];
 } koksma__sha256;
 
 KOKSMA__LAB void koksma__sha256_init(koksma__sha256 *hash);
 KOKSMA__LAB void koksma__sha256_add(koksma__sha256 *hash, const void *bytes, size_t size);
 
-/* The hash of all that was added, 64 hexadecimal digits. */
+/* The hash of all bytes that were added, as 64 hexadecimal digits. */
 KOKSMA__LAB void koksma__sha256_finish(koksma__sha256 *hash, char text[KOKSMA__SHA256_TEXT]);
 
 #endif

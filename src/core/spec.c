@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The text of specs, "name" or "name:key=value,key=value", read against a member's table of parameters and printed in
-   a canonical form: parameters in table order, those at their default left out, numbers as the shortest decimal that
-   reads back to the same double. Which members there are is not known here: api/specs.c looks them up. */
+/* Specs as text, "name" or "name:key=value,key=value", are parsed with the table of parameters of a pattern or
+   measure, and printed in a canonical form: parameters in table order without those at their default, numbers as the
+   shortest decimal that reads back to the same double. api/specs.c looks up the names of patterns and measures. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +26,7 @@ static koksma_status parse_choice(const char *member, const koksma_param *param,
     return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%s: it takes %s", member, param->name, text, words);
 }
 
-/* A modifier's 0, which is not to apply it, may be below its range. */
+/* Checks a value's range. A modifier's value 0 means that the modifier is not applied, and may be below its range. */
 static koksma_status check_range(const char *member, const koksma_param *param, double value)
 {
     if (param->whole && value != floor(value)) {
@@ -132,7 +132,7 @@ koksma_status koksma__spec_split(const char *text, char *name, const char **rest
     return KOKSMA_OK;
 }
 
-/* The shortest decimal that reads back to the same double; whole numbers without an exponent. */
+/* The shortest decimal that reads back to the same double; whole numbers have no exponent. */
 static void shortest(double value, char *text, size_t size)
 {
     if (value == floor(value) && fabs(value) < 1e15) {

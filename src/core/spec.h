@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Specs as text, and the checks of their parameters. member is what errors call the pattern or measure. */
+/* Specs as text, and the checks of their parameters. `member` is the name of the pattern or measure in error
+   messages. */
 #ifndef KOKSMA_CORE_SPEC_H
 #define KOKSMA_CORE_SPEC_H
 
@@ -7,7 +8,8 @@
 
 #include "core/visibility.h"
 
-/* Parses "key=value,key=value" for a table of parameters (NULL: it has none); values get defaults first. */
+/* Parses "key=value,key=value" with a table of parameters (NULL: there are none); values are set to the defaults
+   first. */
 KOKSMA__LAB koksma_status koksma__params_parse(const char *member, const koksma_param *params, const char *text,
                                                double *values);
 
@@ -15,16 +17,17 @@ KOKSMA__LAB koksma_status koksma__params_parse(const char *member, const koksma_
 KOKSMA__LAB koksma_status koksma__params_check(const char *member, const koksma_param *params, const double *values);
 koksma_status koksma__modifiers_check(const char *pattern, const double *values);
 
-/* Whether a member has a form in so many dimensions. Errors: DIM. */
+/* Whether a pattern or measure supports a number of dimensions. Errors: DIM. */
 koksma_status koksma__dim_check(const char *member, int dim, int min_dim, int max_dim);
 
-/* Appends ":key=value,…" for the parameters that are not at their defaults. */
+/* Appends ":key=value,…" with the parameters that differ from their defaults. */
 KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
 
-/* The name before the colon, of up to 63 letters, and where the parameters begin. Errors: ARGUMENT. */
+/* Splits a spec: the name before the colon, of up to 63 letters, and the start of the parameters. Errors:
+   ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
 
-/* The arguments that the functions of a pattern or measure get from its spec. */
+/* The arguments for the functions of a pattern or measure, from its spec. */
 koksma_args koksma__spec_arguments(const koksma_spec *spec, const koksma_run *run);
 
 #endif

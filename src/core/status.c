@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Statuses and the text of the last error, which each thread has for itself: a fixed buffer, so that running out of
- * memory can be reported.
+ * Statuses, and the text of the last error of each thread. The text has a fixed buffer, so that running out of memory
+ * can be reported.
  */
 #include "core/status.h"
 #include "core/c_locale.h"
@@ -63,7 +63,7 @@ size_t koksma__utf8_length(const unsigned char *text)
     return overlong || no_character ? 0 : length;
 }
 
-/* A terminal obeys the control characters of Latin-1, too (U+0080 to U+009F). */
+/* Control characters are escaped, also those of Latin-1 (U+0080 to U+009F), because terminals obey them. */
 void koksma_text_escape(char *text, size_t size)
 {
     static const char hex[] = "0123456789abcdef";
@@ -89,7 +89,7 @@ void koksma_text_escape(char *text, size_t size)
 
 koksma_status koksma__fail(koksma_status status, const char *format, ...)
 {
-    char text[TEXT_SIZE]; /* arguments may point into error_text */
+    char text[TEXT_SIZE]; /* a separate buffer, as arguments may point into error_text */
     va_list arguments;
     va_start(arguments, format);
     koksma__vsnprintf(text, sizeof text, format, arguments);

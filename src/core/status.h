@@ -11,18 +11,18 @@
    the text one line of UTF-8. */
 KOKSMA__LAB koksma_status koksma__fail(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* The bytes of the UTF-8 character (RFC 3629) at the text's start; 0: there is none. */
+/* The number of bytes of the UTF-8 character (RFC 3629) at the text's start; 0 if the bytes are not valid UTF-8. */
 size_t koksma__utf8_length(const unsigned char *text);
 
-/* malloc's and realloc's failure, said in one place. */
+/* Fails with MEMORY and the text for a block of `bytes` that malloc or realloc did not give. */
 KOKSMA__LAB koksma_status koksma__fail_memory(size_t bytes);
 
 /* Puts a name in front of the text of the last failure ("PATH: reason") and returns status. */
 KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name);
 
-/* The checks that a public function begins with: KOKSMA__REQUIRE(points, out) returns ARGUMENT with a text that names the
-   first pointer that is NULL; KOKSMA__REQUIRE_OR(result, ...) returns another result, or nothing, as in
-   KOKSMA__REQUIRE_OR(, text); KOKSMA__REQUIRE_RUN(run) is for a run, which may be NULL but not of nonsense. */
+/* The checks that a public function begins with: KOKSMA__REQUIRE(points, out) returns ARGUMENT and names the first
+   NULL pointer in the error text; KOKSMA__REQUIRE_OR(result, ...) returns another result, or nothing, as in
+   KOKSMA__REQUIRE_OR(, text); KOKSMA__REQUIRE_RUN(run) accepts NULL, or a run whose values are in range. */
 #define KOKSMA__REQUIRE_OR(result, ...)                                                                              \
     do {                                                                                                             \
         const void *const required_[] = {__VA_ARGS__};                                                               \
@@ -33,9 +33,10 @@ KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name
 #define KOKSMA__REQUIRE(...) KOKSMA__REQUIRE_OR(KOKSMA_ARGUMENT, __VA_ARGS__)
 #define KOKSMA__REQUIRE_RUN(run) KOKSMA__TRY(koksma__run_check(__func__, run))
 
-/* How a function that returns a status ends early. KOKSMA__TRY(call) returns the status of a call that failed;
+/* Macros that end a function early with a status. KOKSMA__TRY(call) returns the status of a call that failed;
    KOKSMA__FAIL_IF(condition, status, format, ...) returns koksma__fail(status, format, ...);
-   KOKSMA__REQUIRE_MEMORY(pointer, bytes) fails where malloc gave NULL. What was claimed before must be freed by then. */
+   KOKSMA__REQUIRE_MEMORY(pointer, bytes) fails where malloc gave NULL. These macros free nothing: the function must
+   not hold memory when it uses them. */
 #define KOKSMA__TRY(call)                                                                                            \
     do {                                                                                                             \
         const koksma_status failed_ = (call);                                                                        \
@@ -56,14 +57,16 @@ KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name
         }                                                                                                            \
     } while (0)
 
-/* Whether one of n pointers is NULL; its name, of those that commas separate, is then in the error's text. */
+/* Whether one of n pointers is NULL; the error text then names it. `names` holds the pointers' names, separated by
+   commas. */
 KOKSMA__LAB bool koksma__missing(const char *function, const char *names, const void *const *pointers, size_t n);
 
-/* Whether an array of n items of so many bytes can be: `array` is there, unless n is 0, and no array is so long that a
-   number of bytes can't say it. what: its name. Errors: ARGUMENT. */
+/* Checks an array of n items of a given size: `array` must not be NULL, unless n is 0, and its size in bytes must fit
+   into size_t. `what` names the array in messages. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__array_check(const char *what, const void *array, size_t n, size_t bytes);
 
-/* Errors: ARGUMENT (a negative number of threads, a time limit that is negative or NaN). */
+/* Checks the members of a run. Errors: ARGUMENT (a negative number of threads, a time limit that is negative or
+   NaN). */
 KOKSMA__LAB koksma_status koksma__run_check(const char *function, const koksma_run *run);
 
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The name that a misspelt word was meant to be: the one that the fewest edits lead to. An edit inserts, deletes or
- * replaces a character or swaps two neighbours (Damerau 1964; the distance without edits inside a swapped pair,
- * "optimal string alignment", three rows at a time). One that only the word's end is missing from counts as one edit,
- * so that `jitter` means jittered. Equally close: the one with the longer common beginning, then the first.
+ * Finds the name that a misspelt word probably means: the name that the fewest edits turn the word into. An edit
+ * inserts, deletes or replaces a character or swaps two neighbours (Damerau 1964; the distance without edits inside a
+ * swapped pair, "optimal string alignment", three rows at a time). A word that is the beginning of a name counts as
+ * one edit away, so that `jitter` means jittered. Among equally close names the one with the longer common beginning
+ * wins, then the first.
  */
 #include <ctype.h>
 #include <stdio.h>
@@ -34,7 +35,8 @@ static bool equal(char a, char b)
 
 static size_t edits(const char *a, size_t n, const char *b, size_t m)
 {
-    size_t rows[3][MAX_WORD + 1] = {{0}}; /* rows[i % 3][j]: from the first i characters of a to the first j of b */
+    /* rows[i % 3][j]: distance between the first i characters of a and the first j of b */
+    size_t rows[3][MAX_WORD + 1] = {{0}};
     for (size_t j = 0; j <= m; j++) {
         rows[0][j] = j;
     }
@@ -60,7 +62,7 @@ const char *koksma_closest_name(const char *word, koksma_name_at *name, const vo
         return NULL;
     }
     const char *closest = NULL, *candidate;
-    size_t fewest = 1 + (length + 1) / 3; /* words of which more is wrong have nothing in common */
+    size_t fewest = 1 + (length + 1) / 3; /* a word that needs more edits than that resembles no name */
     for (size_t i = 0; (candidate = name(table, i)) != NULL; i++) {
         const size_t beginning = common_beginning(word, candidate), size = strlen(candidate);
         if (size > MAX_WORD) {

@@ -2,7 +2,7 @@
 #ifndef KOKSMA_CORE_TORUS_H
 #define KOKSMA_CORE_TORUS_H
 
-/* b - a on the torus: the representative of smallest size, in [-1/2, 1/2]. */
+/* b - a on the torus: the difference modulo 1 that is in [-1/2, 1/2]. */
 static inline double koksma__torus_difference(double a, double b)
 {
     const double t = b - a;

@@ -24,7 +24,7 @@ static inline void koksma__subtract(const double a[3], const double b[3], double
     }
 }
 
-/* False when the vector is too short to have a direction. */
+/* Scales v to length 1. Returns false when v is too short to have a direction. */
 static inline bool koksma__normalise(double v[3])
 {
     const double length = sqrt(koksma__dot(v, v));

@@ -2,8 +2,8 @@
 #ifndef KOKSMA_CORE_VISIBILITY_H
 #define KOKSMA_CORE_VISIBILITY_H
 
-/* Marks what libkoksma-lab takes from libkoksma beside the public functions: seen across the border of the shared
-   libraries, under a symbol version of its own (src/exports.map.in), and by nobody else. */
+/* Marks the functions of libkoksma, beside the public ones, that libkoksma-lab calls. They are exported by the shared
+   library under a symbol version for this purpose (src/exports.map.in); other programs must not use them. */
 #if defined(__GNUC__)
 #define KOKSMA__LAB __attribute__((visibility("default")))
 #else

@@ -3,24 +3,27 @@
  * The coherence of an error: the peak of its spectrum over the mean. Shirley 1991 (5.5.6): "it is the regularity of
  * the error, rather than its magnitude, that is objectionable"; Mitchell 1992 warns of the Moire patterns of the
  * Zaremba points. Noise has a flat or, dithered well, a rising spectrum (Ulichney 1987; Georgiev & Fajardo 2016;
- * Heitz & Belcour 2019 look at the spectra of rendering errors for that reason); bands and Moire have peaks. Whether
- * a peak of a periodogram is one is Fisher's test of 1929 (coherence_law.c), here for all frequencies of an image and
- * the mean of several images.
+ * Heitz & Belcour 2019 look at the spectra of rendering errors for that reason); bands and Moire have peaks. Fisher's
+ * test of 1929 (coherence_law.c) decides whether a peak of a periodogram is significant, here over all frequencies of
+ * an image and for the mean of several images.
  *
- * Choices.
- * - Single frequencies, no window and no smoothing. Errors sit on edges: they are noise times a size that varies over
- * the image. At each frequency its power is exponentially distributed all the same, but neighbours are correlated, so
- *   that sums over neighbours, and windows, have a distribution that depends on the scene. The price: a wave half-way
- *   between two frequencies in both directions keeps (2/pi)^4 = 0.16 of its peak, in the mean over all waves 0.6.
- * - Each image's power is divided by its own mean before the images are averaged, so that all count alike.
- * - Blue noise is not coherent: P is divided by the power of its ring where that is above 1. The rings have equal
- * areas (16, or fewer so that each has 64 frequencies). The power of a ring is the mean of P in it, where a peak
- * counts no more than noise of the ring's power would have (in ROUNDS rounds), made nondecreasing in frequency
- * (isotonic regression: Ayer et al. 1955, pool adjacent violators). So a ring's power is excused only as far as all
- * finer rings have it, too: coarse errors, those that the eye sees best, never are.
- * - What images have in common: with z the errors over their standard deviations, |sum z|^2 / n = T + T (T - 1) r.
+ * Choices. - Single frequencies, no window and no smoothing. Errors sit on edges: they are noise times a size that
+ * varies over the image. The power of such noise is still exponentially distributed at each frequency, but at
+ * neighbouring frequencies it is correlated, so
+ *   that sums over neighbours, and windows, have a distribution that depends on the scene. The price is that a
+ *   wave half-way between two frequencies in both directions keeps (2/pi)^4 = 0.16 of its peak; the mean
+ *   over all waves is 0.6.
+ * - Each image's power is divided by its own mean before the images are averaged, so that all images have the same
+ * weight. - Blue noise is not coherent: P is divided by the power of its ring where that is above 1. The rings have
+ * equal areas (16, or fewer so that each has 64 frequencies). The power of a ring is the mean of P in it, where a
+ * peak counts no more than noise of the ring's power would have (in ROUNDS rounds), made nondecreasing in frequency
+ * (isotonic regression: Ayer et al. 1955, pool adjacent violators). So a ring's power is normalised away only as far
+ * as all finer rings have as much; coarse errors, which the eye sees best, are never normalised away. - - The share r
+ * of the error that T images have in common: with z the errors over their standard deviations, |sum z|^2 / n = T + T
+ * (T - 1) r.
  *
- * Sums are in index order. Errors below 1e-12 of the largest, beside their mean, are rounding: no error.
+ * Sums are in index order. Errors whose deviation from their mean is below 1e-12 of the largest error count as 0,
+ * because they are rounding.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -83,8 +86,9 @@ void koksma_coherence_fini(koksma_coherence *coherence)
 
 /* ---- Frequencies --------------------------------------------------------------------------------------- */
 
-/* 0: the frequency is the mean, or has its mirror image among those before; 1: it is its own mirror image; 2: it has
-   one, which counts with it. */
+/* The weight of frequency (u, v) in sums over the stored half of the spectrum. 0: the mean (0, 0), or a frequency
+   whose mirror image has been counted before; 1: a frequency that is its own mirror image; 2: one that also counts
+   for its mirror image. */
 static int weight_of(const koksma_coherence *c, size_t u, size_t v)
 {
     const size_t width = (size_t)c->width, height = (size_t)c->height;
@@ -102,7 +106,7 @@ static double signed_frequency(size_t v, int height)
     return (2 * v > (size_t)height ? (double)v - height : (double)v) / height;
 }
 
-/* The share of the square of frequencies, -1/2 .. 1/2 in both directions, with at most this distance. */
+/* The share of the square of frequencies, [-1/2, 1/2]^2, that lies within distance f of 0. */
 static double share_within(double f)
 {
     const double square = f * f;
@@ -121,7 +125,7 @@ static size_t ring_of(const koksma_coherence *c, size_t u, size_t v, size_t ring
 
 /* ---- Adding -------------------------------------------------------------------------------------------- */
 
-/* The errors over their standard deviation, their mean taken off; *even: they are all the same. */
+/* Subtracts the mean of the errors and divides them by their standard deviation. *even: all errors are equal. */
 static koksma_status standardise(const koksma_coherence *c, double *errors, bool *even)
 {
     const size_t n = pixels_of(c);
@@ -129,11 +133,11 @@ static koksma_status standardise(const koksma_coherence *c, double *errors, bool
     double largest = 0;
     for (size_t i = 0; i < n; i++) {
         KOKSMA__FAIL_IF(!isfinite(errors[i]), KOKSMA_MALFORMED,
-                        "pixel %zu,%zu of an image or its reference is no finite number", i % (size_t)c->width,
+                        "pixel %zu,%zu of an image or its reference is not a finite number", i % (size_t)c->width,
                         i / (size_t)c->width);
         largest = fmax(largest, fabs(errors[i]));
     }
-    const double scale = largest > 0 ? 1 / largest : 1; /* squares neither overflow nor vanish */
+    const double scale = largest > 0 ? 1 / largest : 1; /* so that squares neither overflow nor underflow */
     for (size_t i = 0; i < n; i++) {
         errors[i] *= scale;
         koksma__sum_add(&sum, errors[i]);
@@ -151,8 +155,8 @@ static koksma_status standardise(const koksma_coherence *c, double *errors, bool
     return KOKSMA_OK;
 }
 
-/* The mean of the power over all frequencies but (0, 0) is that of the squared errors, by Parseval, times n / (n -
-   1): what stands at (0, 0) is rounding. */
+/* By Parseval's theorem the mean power over all frequencies but (0, 0) is the mean squared error times n / (n - 1).
+   The power at (0, 0) is only rounding, and is left out. */
 static void add_power(koksma_coherence *c, const double *errors, const double *power)
 {
     const size_t n = pixels_of(c), n_powers = powers_of(c);
@@ -208,13 +212,14 @@ koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_ima
 
 /* ---- The peak ------------------------------------------------------------------------------------------ */
 
-/* The frequencies by kind, and the power of each ring, nondecreasing and at least 1. */
+/* The numbers of frequencies with and without a mirror image, and the power of each ring, nondecreasing and at
+   least 1. */
 typedef struct rings {
     size_t n, waves, real;
     double power[MAX_RINGS];
 } rings;
 
-/* Neighbours that decrease are pooled, from the left, until none do. */
+/* Pool adjacent violators: merges neighbours that decrease, from the left, until none do. */
 static void make_nondecreasing(size_t n, const double *sums, const double *counts, double *out)
 {
     double sum[MAX_RINGS], count[MAX_RINGS];
@@ -251,8 +256,8 @@ static void count_frequencies(const koksma_coherence *c, rings *out)
     out->n = n < 1 ? 1 : n < MAX_RINGS ? n : MAX_RINGS;
 }
 
-/* The mean power of each ring, in several rounds: powers above `most` times the mean of the round before count as
-   `most` times that mean. */
+/* The mean power of each ring, in several rounds. A power above `most` times the mean of the round before counts as
+   only `most` times that mean. */
 static void find_rings(const koksma_coherence *c, double most, rings *out)
 {
     const size_t columns = koksma__fourier_columns(c->width);
@@ -280,7 +285,7 @@ static void find_rings(const koksma_coherence *c, double most, rings *out)
     }
 }
 
-/* The share of the squared errors that all images have in common. */
+/* The share of the squared errors that is common to all images. */
 static double find_common(const koksma_coherence *c)
 {
     const double images = (double)c->images;
@@ -301,7 +306,8 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
     for (size_t v = 0; v < (size_t)c->height; v++) {
         for (size_t u = 0; u < columns; u++) {
             const size_t i = v * columns + u;
-            if (weight_of(c, u, v) && c->power[i] > out->coherence) { /* a ring's power is 1 or more */
+            /* only such a power can be a new maximum, as it is divided by a ring's power of at least 1 */
+            if (weight_of(c, u, v) && c->power[i] > out->coherence) {
                 const double ring = r->power[ring_of(c, u, v, r->n)];
                 if (c->power[i] / ring > out->coherence) {
                     out->coherence = c->power[i] / ring;
@@ -313,7 +319,7 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
     }
     const double y = signed_frequency(peak / columns, c->height);
     out->frequency_x = (double)(peak % columns) / c->width;
-    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* rows count downwards */
+    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* rows are counted downwards */
     if (c->images > 1) {
         const double images = (double)c->images, mean = c->power[peak];
         const double variance = fmax(c->squares[peak] - mean * mean, 0) * images / (images - 1);

@@ -3,28 +3,29 @@
  * How large the peak of a white error's spectrum is by chance.
  *
  * One image: white noise of n pixels puts n - 1 degrees of freedom on its frequencies, 2 on each with a mirror image
- * ("wave"), 1 on each of up to three that are their own (alternating columns, rows or both). Over the mean of all, a
- * wave's power exceeds x with probability (Fisher 1929)
+ * ("wave"), 1 on each of up to three frequencies that are their own mirror image (alternating columns, rows or both).
+ * A wave's power, divided by the mean over all, exceeds x with probability (Fisher 1929)
  *
  *     (1 - 2 x / (n - 1))^((n - 3) / 2),   nearly exp(-x).
  *
- * T images: the mean of T powers. A part r of the squared error may be the same in all of them, as where the pattern
- * or the pixel is; then the amplitudes of the T images have the covariance matrix (1 - r) I + r 1 1', with
- * eigenvalues 1 + (T - 1) r and T - 1 times 1 - r, and the mean power is
+ * T images: the power is the mean of T powers. A share r of the squared error may be the same in all images, for
+ * example where all use the same pattern; then the amplitudes of the T images have the covariance matrix (1 - r) I +
+ * r 1 1', with eigenvalues 1 + (T - 1) r and T - 1 times 1 - r, and the mean power is
  *
  *     a X + b G,   a = (1 + (T - 1) r) / T,  b = (1 - r) / T,  X exponential, G gamma distributed with shape T - 1,
  *
  *     P(a X + b G > x) = Q(T - 1, x / b) + exp(-x / a) (1 - b / a)^(1 - T) P(T - 1, (x / b) (1 - b / a))
  *
- * with the regularised incomplete gamma functions P and Q = 1 - P. r = 0: a gamma distribution of shape T. r = 1:
- * what one image has. The few frequencies without a mirror image have a gamma distribution of half the shape that
- * has the variance of a wave, 1 / (a^2 + (T - 1) b^2).
+ * with the regularised incomplete gamma functions P and Q = 1 - P. For r = 0 this is a gamma distribution of shape T;
+ * for r = 1 it is the distribution of one image. The power of the few frequencies without a mirror image is taken as
+ * gamma distributed with half the shape of the gamma distribution that has a wave's variance, 1 / (a^2 + (T - 1)
+ * b^2).
  *
- * The distribution of the largest power assumes that powers at different frequencies are independent, which holds
- * for Gaussian noise. Errors that are independent but not Gaussian, or larger in some pixels than in others, have
- * the same distribution at each frequency (in the limit), but depend on those at neighbouring frequencies. Their
- * tail is at most the sum of the tails over the frequencies, which exceeds what is computed here by 2.6 % at a tail
- * of 5 %, and by less further out.
+ * The distribution of the largest power assumes that powers at different frequencies are independent, which holds for
+ * Gaussian noise. Errors that are independent but not Gaussian, or larger in some pixels than in others, have the
+ * same distribution at each frequency (in the limit), but depend on those at neighbouring frequencies. The tail of
+ * their largest power is at most the sum of the tails over the frequencies, which exceeds the tail computed here by
+ * 2.6 % at a tail of 5 %, and by less for smaller tails.
  */
 #include "image/coherence_law.h"
 
@@ -34,7 +35,7 @@
 
 enum { TERMS = 1000000, HALVINGS = 200 };
 
-/* log of P(k, x) for x up to some k + 1: Abramowitz & Stegun 1964, 6.5.29. */
+/* log of P(k, x) for x up to about k + 1: Abramowitz & Stegun 1964, 6.5.29. */
 static double log_series(double k, double x)
 {
     double term = 1, sum = 1;
@@ -45,7 +46,7 @@ static double log_series(double k, double x)
     return k * log(x) - x - koksma__log_gamma(k + 1) + log(sum);
 }
 
-/* Q(k, x) for x above k + 1 by Lentz' method on the continued fraction 6.5.31. */
+/* Q(k, x) for x above k + 1, by Lentz's method on the continued fraction 6.5.31 of Abramowitz & Stegun. */
 static double upper_fraction(double k, double x)
 {
     double b = x + 1 - k, c = 1e300, d = 1 / b, f = d;
@@ -69,7 +70,7 @@ static double upper_gamma(double k, double x)
     return x <= 0 ? 1 : x < k + 1 ? -expm1(log_series(k, x)) : upper_fraction(k, x);
 }
 
-/* One frequency with a mirror image. */
+/* The tail of the power at one frequency with a mirror image. */
 static double wave_tail(const koksma__coherence_law *law, double x)
 {
     const double images = (double)law->images, free = 2 * (double)law->waves + (double)law->real;
@@ -84,7 +85,7 @@ static double wave_tail(const koksma__coherence_law *law, double x)
         return exp(-x / a);
     }
     const double k = images - 1, z = x / b, rest = 1 - b / a, y = z * rest;
-    if (y < k + 1) { /* (1 - b/a)^-k and y^k are taken together: each may be beyond all numbers */
+    if (y < k + 1) { /* (1 - b/a)^-k and y^k are multiplied as logarithms, as each may overflow alone */
         double term = 1, sum = 1;
         for (int j = 1; j < TERMS && term > 1e-17 * sum; j++) {
             term *= y / (k + j);

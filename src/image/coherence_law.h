@@ -5,17 +5,19 @@
 
 #include <stddef.h>
 
-/* The power is a mean over `images` images; the share `common` of their squared errors is the same in all. Each has
-   `waves` frequencies with a mirror image and `real` ones without (the mean, which is left out, is none). */
+/* The model of the power: a mean over `images` images, with the share `common` of their squared errors equal in all.
+   Each image has `waves` frequencies with a mirror image and `real` frequencies without one; the mean (0, 0) counts
+   as neither. */
 typedef struct koksma__coherence_law {
     size_t images, waves, real;
     double common;
 } koksma__coherence_law;
 
-/* The probability that the largest power over the mean power is above x. */
+/* The probability that the largest power divided by the mean power exceeds x. */
 double koksma__coherence_tail(const koksma__coherence_law *law, double x);
 
-/* The x that the ratio exceeds with probability `tail`, 0 < tail < 1: the inverse of koksma__coherence_tail. */
+/* The x that the largest power divided by the mean exceeds with probability `tail`, 0 < tail < 1: the inverse of
+   koksma__coherence_tail. */
 double koksma__coherence_quantile(const koksma__coherence_law *law, double tail);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* EXR as an image format: known here, read and written by the module koksma-exr.so, which the first file loads. */
+/* EXR as an image format. The module koksma-exr.so, loaded with the first EXR file, reads and writes it; this file
+   recognises EXR files and calls the module. */
 #include <string.h>
 
 #include "image/exr.h"

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Between EXR as an image format (exr.c) and the module koksma-exr.so (exr_openexr.c, exr_rgba.c). */
+/* The interface between EXR as an image format (exr.c) and the module koksma-exr.so (exr_openexr.c, exr_rgba.c). */
 #ifndef KOKSMA_IMAGE_EXR_H
 #define KOKSMA_IMAGE_EXR_H
 
 #include "image/formats.h"
 
-/* Of the module: as in koksma__image_format. */
+/* Functions that the module provides, as in koksma__image_format. */
 typedef struct koksma__exr_functions {
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
 } koksma__exr_functions;
 
-/* Of ours, for the module: formats.h has them. */
+/* Functions that the library provides to the module; formats.h documents them. */
 typedef struct koksma__exr_host {
     bool (*bytes_put)(koksma__bytes *bytes, size_t offset, const void *data, size_t size);
     koksma_status (*image_claim)(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
@@ -23,8 +23,8 @@ typedef struct koksma__exr_host {
 
 #define KOKSMA__EXR_HOST ((const koksma__exr_host *)koksma__own_host->functions)
 
-/* exr_rgba.c: EXR files by way of half floats: those compressed by DWAA, DWAB, B44 and B44A, whose channels are R, G,
-   B or Y. wide: they have numbers that are no halves; one too large for a half is UNSUPPORTED. */
+/* exr_rgba.c: reads EXR files as half floats: those compressed by DWAA, DWAB, B44 or B44A whose channels are R, G, B
+   or Y. wide: the file's numbers are not halves; a number too large for a half is UNSUPPORTED. */
 koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int channels, bool wide,
                                     koksma_image *out);
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The module koksma-exr.so: OpenEXR by the C library OpenEXRCore: reads the first part, scan lines or tiles, channels
- * R G B or Y (or the only one); writes floats, ZIP-compressed. OpenEXRCore 3.1.5 has no DWAA and DWAB, and decodes B44
- * and B44A wrongly without a word: exr_rgba.c reads those four.
+ * The module koksma-exr.so: EXR files by the C library OpenEXRCore. It reads a file's first part, in scan lines or
+ * tiles, with channels R G B or Y (or a single channel of any name); it writes floats, ZIP-compressed. OpenEXRCore
+ * 3.1.5 lacks DWAA and DWAB, and decodes B44 and B44A wrongly without an error: exr_rgba.c reads those four.
  *
  * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
- * reader takes that for uncompressed. So what is written is read back, and written raw if a bit differs.
+ * reader takes such a stream for uncompressed pixels. So each file is read back after writing, and written
+ * uncompressed if a bit differs.
  */
 #include <math.h>
 #include <openexr.h>
@@ -23,11 +24,11 @@ typedef struct source {
     koksma__bytes *out;
 } source;
 
-/* The first error's. Not in a source: OpenEXRCore 3.1 calls the handler with a lock on the context that it writes by,
-   and asking the context for its source would wait for that lock. */
+/* The text of the first error. It cannot be a member of source: OpenEXRCore 3.1 calls the handler while it holds the
+   lock of the context it writes by, and asking the context for its source would wait for that lock. */
 static _Thread_local char message[256];
 
-/* OpenEXRCore calls "out of memory" what it can't decompress. */
+/* Whether malloc has failed. OpenEXRCore's own "out of memory" also means data that it cannot decompress. */
 static _Thread_local bool exhausted;
 
 static void *allocate(size_t size)
@@ -46,7 +47,8 @@ static void on_error(exr_const_context_t file, exr_result_t code, const char *te
     }
 }
 
-/* otherwise: of what has no status of its own. What is written goes into memory, so that it fails by lack of it. */
+/* Turns an error of OpenEXRCore into a status: MEMORY, or `otherwise` for all other errors. A failed write is MEMORY,
+   because files are written into memory. */
 static koksma_status fail(exr_result_t code, koksma_status otherwise)
 {
     const char *text = *message ? message : exr_get_default_error_message(code);
@@ -75,7 +77,7 @@ static int64_t query_size(exr_const_context_t file, void *user)
     return (int64_t)((const source *)user)->size;
 }
 
-/* Which colour a channel is in an image of 1 or 3 channels; -1: none. */
+/* The index of a channel in an image of 1 or 3 channels; -1: the channel is not part of the image. */
 static int colour(const char *name, int channels)
 {
     static const char *const names[] = {"R", "G", "B"};
@@ -87,7 +89,7 @@ static int colour(const char *name, int channels)
     return channels == 1 && !strcmp(name, "Y") ? 0 : -1;
 }
 
-/* 3, 1 or 0 (no colour that we know). */
+/* The number of channels to read: 3, 1, or 0 if the file has no known colours. */
 static int count_channels(const exr_attr_chlist_t *list)
 {
     int rgb = 0, y = 0;
@@ -98,7 +100,8 @@ static int count_channels(const exr_attr_chlist_t *list)
     return rgb == 3 ? 3 : y || list->num_channels == 1 ? 1 : 0;
 }
 
-/* exr_rgba.c knows channels by their names, and makes colours of Y beside others. */
+/* Reads a file by exr_rgba.c. It accepts only R, G, B or Y alone, as the library behind it turns Y beside other
+   channels into colours. */
 static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, int channels, koksma_image *out)
 {
     bool y = false, others = false, wide = false;
@@ -151,7 +154,7 @@ static exr_result_t read_lines(exr_const_context_t file, int top, exr_decode_pip
     exr_result_t r = exr_get_scanlines_per_chunk(file, 0, &lines);
     for (int y = 0; !r && y < image->height; y += lines) {
         r = exr_read_scanline_chunk_info(file, 0, top + y, &chunk);
-        /* The decoder writes as many pixels as the chunk says it has. */
+        /* checked first, as the decoder writes as many pixels as the chunk claims */
         if (!r && (chunk.start_y != top + y || chunk.width != image->width || chunk.height > image->height - y)) {
             r = EXR_ERR_CORRUPT_CHUNK;
         }
@@ -180,7 +183,8 @@ static exr_result_t read_tiles(exr_const_context_t file, exr_decode_pipeline_t *
     return r;
 }
 
-/* Whether a tile is no larger than the image, or 2048 x 2048 pixels: the C++ library takes memory for whole tiles. */
+/* Whether a tile is no larger than the image, or than 2048 x 2048 pixels: OpenEXR's C++ library allocates memory for
+   whole tiles. */
 static bool tiles_fit(exr_const_context_t file, const exr_attr_box2i_t *window)
 {
     uint32_t width, height;
@@ -191,8 +195,8 @@ static bool tiles_fit(exr_const_context_t file, const exr_attr_box2i_t *window)
            (double)width * height <= fmax(image, 2048.0 * 2048.0);
 }
 
-/* Whether a chunk, a tile or some lines, has at most 256 MiB, or 16 bytes for each pixel of the image: the libraries take
-   memory for all its channels, ours or not. */
+/* Whether a chunk, which is a tile or some lines, has at most 256 MiB, or at most 16 bytes for each pixel of the
+   image: the libraries allocate memory for all its channels, also for those that are not read. */
 static bool chunks_fit(exr_const_context_t file, bool tiled, const exr_attr_box2i_t *window,
                        const exr_attr_chlist_t *list)
 {
@@ -252,7 +256,7 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
     return r ? fail(r, KOKSMA_MALFORMED) : KOKSMA_OK;
 }
 
-/* What reading and writing have in common; forgets the last failure. */
+/* Sets up a context for reading or writing, and clears the last failure. */
 static exr_context_initializer_t begin(source *s)
 {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;

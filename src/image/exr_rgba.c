@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * EXR files that OpenEXRCore 3.1.5 decodes wrongly (B44, B44A) or not at all (DWAA, DWAB), by the C face of OpenEXR's
- * C++ library. It opens files by name only and gives half floats, so the bytes go through a file in memory. Its last
- * error is a variable that threads share: the text may be another's, the status is not.
+ * EXR files that OpenEXRCore 3.1.5 decodes wrongly (B44, B44A) or not at all (DWAA, DWAB), read by the C interface of
+ * OpenEXR's C++ library. That interface opens files by name only, so that the bytes go through a file in memory, and
+ * it gives half floats. Its last error is a variable that threads share: an error's text may be another thread's, but
+ * the status is right.
  */
 #define _GNU_SOURCE /* memfd_create */
 #include <errno.h>
@@ -34,7 +35,7 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
     KOKSMA__REQUIRE_MEMORY(row, width * sizeof *row);
     bool whole = true, fits = true;
     for (int y = low_y; whole && y <= high_y; y++) {
-        /* the base is where pixel (0, 0) would be */
+        /* the library wants the address where pixel (0, 0) would be */
         ImfRgba *base = (ImfRgba *)((uintptr_t)row - (uintptr_t)((ptrdiff_t)low_x * (ptrdiff_t)sizeof *row));
         whole = ImfInputSetFrameBuffer(file, base, 1, 0) && ImfInputReadPixels(file, y, y);
         for (size_t x = 0; whole && x < width; x++) {
@@ -54,7 +55,8 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
                 : koksma__fail(KOKSMA_MALFORMED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
 }
 
-/* Whether a list of channels ends with its value: entries are a name and 16 bytes, and an empty name is the end. */
+/* Whether a list of channels ends where its value does: entries are a name and 16 bytes, and an empty name ends the
+   list. */
 static bool is_channel_list(const unsigned char *value, size_t size)
 {
     size_t at = 0;
@@ -65,8 +67,9 @@ static bool is_channel_list(const unsigned char *value, size_t size)
     return at + 1 == size;
 }
 
-/* Whether a value has the size of its type. The C++ library reads what the type takes, whatever the size says, and
-   would find the next attribute elsewhere than who goes by sizes. Other types it reads by their size. */
+/* Whether a value's stated size is that of its type. For these types the C++ library reads the type's size and
+   ignores the stated one, so that it would find the next attribute elsewhere than a reader that goes by stated sizes.
+   For all other types it uses the stated size. */
 static bool value_fits(const char *type, const unsigned char *value, size_t size)
 {
     static const struct {
@@ -104,16 +107,16 @@ static bool value_fits(const char *type, const unsigned char *value, size_t size
     return strcmp(type, "chlist") != 0 || is_channel_list(value, size);
 }
 
-/* Whether the attributes of the headers lie within the file: the C++ library takes as much memory as they claim. An
-   attribute is name, type, size and value; an empty name ends a header, and an empty header those of several parts
-   (https://openexr.com/en/latest/OpenEXRFileLayout.html). */
+/* Whether the attributes of the headers lie within the file: the C++ library allocates as much memory as they claim.
+   An attribute is name, type, size and value; an empty name ends a header, and an empty header ends the headers of a
+   file of several parts (https://openexr.com/en/latest/OpenEXRFileLayout.html). */
 static bool header_fits(const unsigned char *bytes, size_t size)
 {
     size_t at = 8;
     const bool parts = size > 8 && (bytes[5] & 0x10);
     while (at < size && bytes[at]) {
         const char *type = NULL;
-        for (int text = 0; text < 2; text++) { /* name and type */
+        for (int text = 0; text < 2; text++) { /* skips the name, then the type */
             type = (const char *)bytes + at;
             const unsigned char *end = memchr(bytes + at, 0, size - at);
             if (!end) {
@@ -131,7 +134,7 @@ static bool header_fits(const unsigned char *bytes, size_t size)
             return false;
         }
         at += value;
-        at += parts && at + 1 < size && !bytes[at]; /* on to the next header, or to the empty one */
+        at += parts && at + 1 < size && !bytes[at]; /* on to the next header, or to the empty one that ends them */
     }
     return at < size;
 }

@@ -9,68 +9,73 @@
 #include "core/read_file.h"
 #include "modules/module.h"
 
-/* Bytes that grow. */
+/* A growing array of bytes. */
 typedef struct koksma__bytes {
     unsigned char *data;
     size_t size, capacity;
 } koksma__bytes;
 
-/* Writes at an offset, filling a gap with zeros; false when memory runs out. */
+/* Writes data at an offset and fills a gap before it with zeros; false when memory runs out. */
 bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size);
 
 typedef struct koksma__image_format {
     const char *name;
     bool (*recognises)(const unsigned char *bytes, size_t size);
-    /* Errors name no file: the caller puts its name in front. On failure *out is left for the caller to release. */
+    /* Reads an image. Errors name no file: the caller puts its name in front. On failure the caller releases *out. */
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
-    /* NULL, or: the transparency, 1 where a pixel is opaque, as an image of one channel; none where the file has none. */
+    /* NULL, or reads the transparency as an image of one channel, 1 where a pixel is opaque; the image is empty if
+       the file has no transparency. */
     koksma_status (*read_alpha)(const unsigned char *bytes, size_t size, koksma_image *out);
-    /* Of n layers those that it has a place for: the first at least. */
+    /* Writes the first of n layers, or more if the format can hold them. */
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
-    bool has_layers; /* a file holds all layers; else the first alone */
-    double error; /* 0: every float is kept exactly; else numbers in [0,1] to within this, others as the nearer end */
-    const char *left_out; /* the library that this build does without: there is no read, no write; else NULL */
-    const koksma__module *module; /* what read and write load; NULL: nothing */
+    bool has_layers; /* a file holds all layers; else only the first */
+    /* 0: every float is kept exactly; else the largest error of numbers in [0,1], to which others are clamped */
+    double error;
+    const char *left_out; /* the library that this build lacks, without which read and write are NULL; else NULL */
+    const koksma__module *module; /* the module that read and write load; NULL: none */
 } koksma__image_format;
 
 #define FORMAT(name) extern const koksma__image_format koksma__format_##name;
 #include "image/formats.def"
 #undef FORMAT
 
-enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 }; /* letters; room for ".R" and 0 */
+/* a layer's name in letters, and the capacity for ".R" and 0 after it */
+enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 };
 
-/* What channel k of a layer is called. */
+/* Writes the name of channel k of a layer. */
 void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME]);
 
-/* The first layer with a channel of that name, and which of its channels it is; n: none has it. */
+/* The index of the first layer with a channel of that name; n: there is none. *channel: its index in the layer. */
 size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k);
 
-/* ARGUMENT unless these are images, of one size, whose channels have a name each. Errors name no file. */
+/* ARGUMENT unless the layers are images of one size, and no two channels have the same name. Errors name no file. */
 koksma_status koksma__layers_check(const koksma_layer *layers, size_t n);
 
-/* ARGUMENT unless an image may have these. */
+/* ARGUMENT unless these are valid dimensions of an image. */
 koksma_status koksma__image_check_shape(int width, int height, int channels);
 
-/* NULL past the end. */
+/* Format i of the table; NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
 /* The most pixels of an image that a scene or model names: 8192 x 8192. */
 enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
 
-/* An image file in memory, known by its content; kind IMAGE or TEXTURE. Errors name no file. */
+/* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors name no
+   file. */
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
                                        koksma_image *out);
 
-/* Whether all its pixels are numbers below 1e30: a sun that is brighter than its file's numbers can say, or what was
-   never computed, must not go dark without a word. MALFORMED names the first that is none, after `name`. */
+/* Checks that all pixels are numbers below 1e30. Others come from a sun that is too bright for its file's number
+   format, or from a failed computation, and must not turn dark unnoticed. MALFORMED names `name` and the first bad
+   pixel. */
 koksma_status koksma__image_check(const koksma_image *image, const char *name);
 
-/* koksma_image_init for sizes that a file claims: MALFORMED when they are out of range, or when `bytes` bytes can't
-   hold so many pixels at `pixels_a_byte` at best. */
+/* koksma_image_init for a size that a file claims: MALFORMED when the size is out of range, or when `bytes` bytes of
+   at most `pixels_a_byte` pixels each can't hold so many pixels. */
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out);
 
-/* Rec. 709's, of linear red, green and blue in doubles. */
+/* Luminance of linear red, green and blue (Rec. 709), in doubles. */
 #define KOKSMA__LUMINANCE(rgb) (0.2126 * (rgb)[0] + 0.7152 * (rgb)[1] + 0.0722 * (rgb)[2])
 
 /* Of a pixel. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The power of a picture at its Fourier frequencies: first all rows, then those columns that are not mirrors of
- * others (the values are real). Lines whose length is a power of two go 16 at a time by the kernel fourier16, others
- * one by one by core/dft.c. O(n log n) for n pixels of any size. Memory: 16 bytes for each of the frequencies and
- * some 64 lines.
+ * others (the values are real). The kernel fourier16 transforms lines whose length is a power of two, 16 at a time;
+ * core/dft.c transforms other lines one by one. O(n log n) for n pixels of any size. Memory: 16 bytes for each
+ * frequency, and about 64 lines.
  */
 #include "image/fourier.h"
 
@@ -17,15 +17,15 @@
 
 enum { LANES = 16 };
 
-/* Transforms of length n, LANES of them side by side: number k of line l at [LANES k + l]. */
+/* Transforms of length n, LANES of them side by side: number k of line l is at index LANES k + l. */
 typedef struct lines {
     size_t n;
     bool power_of_two;
-    koksma__fourier fourier; /* of other lengths */
+    koksma__fourier fourier; /* for lengths that are not powers of two */
     koksma__dft dft;
-    double *twiddles; /* of powers of two: cos and sin of 2 pi p / n */
-    double *work;     /* re, im and as many spare ones of the lines */
-    double *re, *im;  /* where the lines are */
+    double *twiddles; /* for powers of two: cos and sin of 2 pi p / n */
+    double *work;     /* real and imaginary parts of the lines, and scratch of the same size */
+    double *re, *im;  /* the lines' current position, within work */
 } lines;
 
 static void close_lines(lines *l)
@@ -52,7 +52,7 @@ static koksma_status open_lines(size_t n, lines *l)
     return status || l->power_of_two ? status : koksma__dft_init(&l->dft, &l->fourier, n);
 }
 
-/* The first `count` of the lines that begin at work, transformed: re and im say where. */
+/* Transforms the first `count` lines that begin at work; re and im then point to the results. */
 static void transform(lines *l, size_t count)
 {
     const size_t size = LANES * l->n;
@@ -60,7 +60,7 @@ static void transform(lines *l, size_t count)
     l->re = l->work;
     l->im = l->work + size;
     if (!l->power_of_two) {
-        for (size_t i = 0; i < count; i++) { /* of the spare numbers, fewer than 4 n of LANES n each */
+        for (size_t i = 0; i < count; i++) { /* needs fewer than 4 n of the LANES n scratch numbers of each part */
             koksma__dft_transform(&l->dft, &l->fourier, LANES, l->re + i, l->im + i, spare, spare + size);
         }
     } else if (koksma__kernels()->fourier16(l->n, l->twiddles, l->re, l->im, spare, spare + size)) {
@@ -69,7 +69,7 @@ static void transform(lines *l, size_t count)
     }
 }
 
-/* rows[2 (y * columns + u)], [+ 1]: the transform of row y. */
+/* Transforms the rows: entry u of row y is at rows[2 (y * columns + u)] (real) and one after it (imaginary). */
 static void transform_rows(lines *l, size_t width, size_t height, const double *values, double *rows)
 {
     const size_t columns = width / 2 + 1;

@@ -5,15 +5,15 @@
 
 #include <koksma/image.h>
 
-/* How many columns of frequencies a picture of that width has; the others mirror them. */
+/* The number of stored columns of frequencies of a picture of that width; the other columns mirror them. */
 static inline size_t koksma__fourier_columns(int width)
 {
     return (size_t)width / 2 + 1;
 }
 
-/* power[v * columns + u] = |sum_xy values[y * width + x] exp(-2 pi i (u x / width + v y / height))|^2 for
-   u = 0 .. width / 2 and v = 0 .. height - 1. To some 1e-15 of sum values^2, whatever the size; O(n log n). Equal
-   bits on every instruction set and for any number of threads. Errors: MEMORY. */
+/* power[v * columns + u] = |sum_xy values[y * width + x] exp(-2 pi i (u x / width + v y / height))|^2 for u = 0 ..
+   width / 2 and v = 0 .. height - 1. The error is about 1e-15 of sum values^2 for any size. O(n log n). The bits are
+   the same on every instruction set and for any number of threads. Errors: MEMORY. */
 koksma_status koksma__fourier_power(int width, int height, const double *values, double *power);
 
 #endif

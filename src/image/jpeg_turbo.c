@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The module koksma-jpeg.so: JPEG by libjpeg-turbo, baseline and progressive, grey or in colour (ITU-T T.81, T.871). Levels
- * are sRGB's, as in png.c; a profile in the file is not applied. Files are written without subsampling at quality 100.
+ * The module koksma-jpeg.so: JPEG by libjpeg-turbo, baseline and progressive, grey or in colour (ITU-T T.81, T.871).
+ * Levels are read as sRGB, as in png.c; a colour profile in the file is not applied. Files are written without
+ * subsampling at quality 100.
  *
- * A file that is cut short is an error, although the library would fill the rest with grey; so is one with more than 1000
- * scans, of which each takes as long as the whole picture. The library ends by longjmp out of on_error().
+ * A file that is cut short is an error, although the library would fill the rest with grey; so is one with more than
+ * 1000 scans, each of which takes as long as decoding the whole picture. On an error libjpeg leaves by longjmp from
+ * on_error().
  */
 #include <math.h>
 #include <setjmp.h>
@@ -24,7 +26,7 @@
 enum { SCANS = 1000 };
 
 typedef struct errors {
-    struct jpeg_error_mgr manager; /* first: the library knows no other part */
+    struct jpeg_error_mgr manager; /* must be first: the library sees only this member */
     jmp_buf back;
     char message[JMSG_LENGTH_MAX];
     bool no_memory;
@@ -38,7 +40,8 @@ static void on_error(j_common_ptr jpeg)
     longjmp(e->back, 1);
 }
 
-/* A warning about the file's end is an error; what else the library finds odd, such as bytes between markers, is not. */
+/* Makes a warning about the file's end an error; other warnings of the library, such as bytes between markers, are
+   ignored. */
 static void on_message(j_common_ptr jpeg, int level)
 {
     if (level < 0 && jpeg->err->msg_code == JWRN_JPEG_EOF) {
@@ -73,7 +76,7 @@ static float to_linear(int level)
     return (float)(s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4));
 }
 
-/* May longjmp, as read_rows may; nothing here that would need releasing. */
+/* Reads the header. It may longjmp, as read_rows may, and so owns nothing that needs releasing. */
 static bool read_head(struct jpeg_decompress_struct *jpeg, errors *e, const unsigned char *bytes, size_t size)
 {
     if (setjmp(e->back)) {
@@ -120,7 +123,7 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     if (!status) {
         const int channels = jpeg.num_components == 1 ? 1 : 3;
         jpeg.progress = &progress;
-        /* 2^15 blocks of 8 x 8 may be one run of a progressive file */
+        /* one run of a progressive file may code up to 2^15 blocks of 8 x 8 pixels */
         status = HOST->image_claim(jpeg.image_width, jpeg.image_height, channels, size, 64.0 * 32768, out);
         unsigned char *row = status ? NULL : malloc((size_t)out->width * (size_t)channels);
         if (!status && !row) {

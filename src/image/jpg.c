@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* JPEG as an image format: known here, read and written by the module koksma-jpeg.so, which the first file loads. */
+/* JPEG as an image format. The module koksma-jpeg.so, loaded with the first JPEG file, reads and writes it; this file
+   recognises JPEG files and calls the module. */
 #include <string.h>
 
 #include "image/jpeg.h"
@@ -24,7 +25,7 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
 {
     const void *functions;
     const koksma_status status = koksma__module_load(&module, &functions);
-    (void)n; /* one has a place */
+    (void)n; /* a file holds one layer */
     return status ? status : ((const koksma__jpeg_functions *)functions)->write(layers->image, metadata, out);
 }
 
@@ -33,5 +34,7 @@ const koksma__image_format koksma__format_jpg = {.name = "jpg",
                                                  .read = read,
                                                  .write = write,
                                                  .error = 4.0 / 255 * 2.4 /
-                                                          1.055, /* four levels where the curve is steepest, at 1 */
+                                                          /* error of four levels at 1, where the sRGB curve is
+                                                             steepest */
+                                                          1.055,
                                                  .module = &module};

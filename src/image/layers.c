@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Layers of one file: what may be written, and what their channels are called there. */
+/* The layers of an image file: checks which layers may be written together, and names their channels. */
 #include <stdio.h>
 #include <string.h>
 

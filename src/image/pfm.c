@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * PFM: "Pf" or "PF", width, height, a scale whose sign is the byte order (negative: little-endian), one blank, then
- * floats, the bottom row first. The scale's size has no agreed meaning and is not applied. Some writers end the
- * header with blanks and CR LF. The first byte of the floats may look like a blank, so their start is
- * counted back from the end of the file.
+ * floats, the bottom row first. The scale's magnitude has no agreed meaning and is ignored. Some writers end the
+ * header with blanks and CR LF. The first byte of the floats may look like a blank, so their start is computed from
+ * the end of the file.
  */
 #include <math.h>
 #include <stdio.h>
@@ -29,7 +29,7 @@ static float get_float(const unsigned char *b, bool little)
     return x;
 }
 
-/* Whether that ends a header: one blank of any kind, or blanks and the line's end. */
+/* Whether the bytes end a header: one blank of any kind, or blanks and a line end. */
 static bool is_end(const unsigned char *bytes, size_t size)
 {
     if (size == 1 && bytes[0] && strchr(" \t\r\n\v\f", bytes[0])) {
@@ -72,9 +72,9 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
 
 static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
-    const koksma_image *image = layers->image; /* one has a place */
+    const koksma_image *image = layers->image; /* a file holds one layer */
     (void)n;
-    (void)metadata; /* PFM has no place for it */
+    (void)metadata; /* the format cannot store metadata */
     char header[64];
     const int used = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", image->channels == 3 ? "PF" : "Pf",
                               image->width, image->height);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * PNG by libpng, 1 to 16 bits. Levels are sRGB's, whose curve (IEC 61966-2-1) is applied here in double precision:
+ * PNG by libpng, 1 to 16 bits. Levels are read as sRGB, whose curve (IEC 61966-2-1) is applied here in double
+ * precision:
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
  * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
- * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is what writers of sRGB say, and is taken
- * for sRGB. Transparency is dropped, but for who asks for it alone: albedos and comparisons take a pixel's own colour. Files are written as sRGB
- * with 8 bits.
+ * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is read as sRGB, because writers of sRGB
+ * files often store it. Transparency does not change the colours, so that albedos and comparisons use each pixel's
+ * colour; read_alpha reads the transparency alone. Files are written as sRGB with 8 bits.
  */
 #ifdef KOKSMA_PNG
 #include <math.h>
@@ -21,8 +22,8 @@ static bool recognises(const unsigned char *bytes, size_t size)
     return size >= 8 && !png_sig_cmp(bytes, 0, 8);
 }
 
-/* libpng makes room for what a chunk claims to hold before it reads it, up to 2 GiB: so no chunk may claim more than
-   the file has. */
+/* Checks that no chunk claims more bytes than the file has, because libpng allocates what a chunk claims, up to 2
+   GiB, before it reads the chunk. */
 static koksma_status check_chunks(const unsigned char *bytes, size_t size)
 {
     for (size_t at = 8; size - at >= 12;) {
@@ -38,7 +39,7 @@ static koksma_status check_chunks(const unsigned char *bytes, size_t size)
     return KOKSMA_OK;
 }
 
-/* What libpng reads from or writes to, and what it says. */
+/* The input or output of libpng, and its error message. */
 typedef struct stream {
     koksma__bytes *out;
     const unsigned char *in;
@@ -89,12 +90,12 @@ static void get(png_structp png, png_bytep data, size_t size)
 
 typedef struct head {
     png_uint_32 width, height;
-    bool alpha; /* the transparency is wanted, and nothing else */
+    bool alpha; /* read only the transparency */
     int channels, level_bytes, passes;
-    double power; /* of the curve; 0: sRGB's */
+    double power; /* exponent of the transfer function; 0: sRGB */
 } head;
 
-/* The exponent of the transfer function that the file states. */
+/* The exponent of the transfer function that the file states; 0: sRGB. */
 static double power_of(png_const_structp png, png_const_infop info)
 {
     png_fixed_point gamma = 0;
@@ -105,11 +106,12 @@ static double power_of(png_const_structp png, png_const_infop info)
     return 1e5 / gamma;
 }
 
-/* The head, and the wish for grey or red, green and blue of 8 or 16 bits. May longjmp; nothing here that would need
-   releasing. */
+/* Reads the header, and asks libpng for grey or red, green and blue of 8 or 16 bits. It may longjmp, and so owns
+   nothing that needs releasing. */
 static bool get_head(png_structp png, png_infop info, head *h)
 {
-    static const png_byte wanted[] = "gAMA\0iCCP\0sRGB\0tRNS"; /* texts may be huge once unpacked */
+    /* text chunks are skipped, as they may be huge once unpacked */
+    static const png_byte wanted[] = "gAMA\0iCCP\0sRGB\0tRNS";
     if (setjmp(png_jmpbuf(png))) {
         return false;
     }
@@ -165,7 +167,7 @@ static koksma_status to_linear(const unsigned char *levels, const head *h, size_
     return KOKSMA_OK;
 }
 
-/* The last channel, as it is. */
+/* Copies the last channel, without a transfer function. */
 static void to_alpha(const unsigned char *levels, const head *h, size_t pixels, float *out)
 {
     const size_t bytes = (size_t)h->level_bytes, step = (size_t)h->channels * bytes;
@@ -191,7 +193,7 @@ static koksma_status read_image(png_structp png, png_infop info, const stream *s
     if (alpha && h.channels % 2) {
         return KOKSMA_OK;
     }
-    /* Deflate packs 1032 bytes into one at most, and a pixel has 1 bit at least. */
+    /* deflate packs at most 1032 bytes into one, and a pixel has at least 1 bit */
     KOKSMA__TRY(koksma__image_claim(h.width, h.height, alpha ? 1 : h.channels, size, 8 * 1032, out));
     const size_t count = (size_t)h.width * h.height * (size_t)h.channels;
     unsigned char *levels = calloc(count, (size_t)h.level_bytes);
@@ -268,7 +270,7 @@ static void put_metadata(png_structp png, png_infop info, const char *metadata)
     }
 }
 
-/* All that may longjmp; nothing here that would need releasing. */
+/* All calls that may longjmp; this function owns nothing that needs releasing. */
 static bool put_image(png_structp png, png_infop info, const koksma_image *image, const char *metadata,
                       unsigned char *row)
 {
@@ -294,7 +296,7 @@ static bool put_image(png_structp png, png_infop info, const koksma_image *image
 
 static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
-    const koksma_image *image = layers->image; /* one has a place */
+    const koksma_image *image = layers->image; /* a file holds one layer */
     (void)n;
     stream s = {.out = out};
     const size_t count = (size_t)image->width * (size_t)image->channels;
@@ -321,7 +323,7 @@ const koksma__image_format koksma__format_png = {
     .read = read,
     .read_alpha = read_alpha,
     .write = write,
-    .error = 0.5 / 255 * 2.4 / 1.055, /* half a level where the curve is steepest, at 1 */
+    .error = 0.5 / 255 * 2.4 / 1.055, /* error of half a level at 1, where the sRGB curve is steepest */
 };
 #else
 

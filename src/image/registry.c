@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Images as such, and their files by way of the table of formats. */
+/* Memory and access for images, and reading and writing image files with the formats of formats.def. */
 #include "image/registry.h"
 
 #include <math.h>
@@ -74,7 +74,7 @@ void koksma_image_fini(koksma_image *image)
     }
 }
 
-/* The most pixels of the image that this thread reads. */
+/* The largest number of pixels that this thread accepts in an image file. */
 static _Thread_local size_t most_pixels = KOKSMA_MAX_PIXELS;
 
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
@@ -89,7 +89,7 @@ koksma_status koksma__image_claim(long long width, long long height, int channel
     return koksma_image_init(out, (int)width, (int)height, channels);
 }
 
-/* The library that a format lacks, or NULL. */
+/* The library that a format needs and this build lacks, or NULL. */
 static const char *missing(const koksma__image_format *format)
 {
     return format->module && !koksma__module_exists(format->module) ? format->module->library : format->left_out;
@@ -110,7 +110,7 @@ static koksma_status no_library(const koksma__image_format *format)
                                          format->left_out, format->name);
 }
 
-/* All names as in "exr, png or pfm": of each, `before` and its letters, capitals or small. */
+/* Lists all names as in "exr, png or pfm": for each name, `before` and its letters, in capitals or lower case. */
 static const char *list_names(const char *before, bool capitals, const char *comma, const char *last, char *text,
                               size_t size)
 {
@@ -160,7 +160,7 @@ koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, 
     return status;
 }
 
-/* The curve of sRGB backwards: what png.c and jpeg_turbo.c did is undone. */
+/* Applies the inverse sRGB curve, to undo the curve that png.c and jpeg_turbo.c apply. */
 static void uncurve(koksma_image *image)
 {
     const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;

@@ -5,14 +5,14 @@
 #include "core/status.h"
 #include "image/formats.h"
 
-/* ARGUMENT unless an image has pixels, and a shape that it may have. */
+/* ARGUMENT unless the image has pixels and valid dimensions. */
 static inline koksma_status koksma__image_usable(const koksma_image *image)
 {
     return image->pixels ? koksma__image_check_shape(image->width, image->height, image->channels)
                          : koksma__fail(KOKSMA_ARGUMENT, "an image without pixels");
 }
 
-/* Whether two images have pixels, and equally many in both directions. Errors: ARGUMENT. */
+/* ARGUMENT unless both images have pixels and the same width and height. */
 static inline koksma_status koksma__image_check_sizes(const koksma_image *a, const koksma_image *b)
 {
     KOKSMA__TRY(koksma__image_usable(a));

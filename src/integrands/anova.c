@@ -6,15 +6,17 @@
  *     total       1 - V(not u) / D
  *     component   sum over v within u of (-1)^(|u| - |v|) V(v) / D
  *
- * Where the integrand has a closed form of V it is used. Else by pick-freeze estimates from N pairs of points A, B: with
- * B_v for the point of B that has A's coordinates of v, so that f(A) and f(B_v) share x_v only,
+ * If the integrand has a closed form of V, the indices are computed from it. Otherwise they are pick-freeze estimates
+ * from N pairs of points A, B: with B_v for the point B with its coordinates v replaced by A's, so that f(A) and
+ * f(B_v) share x_v only,
  *
  *     V(v) = mean of f(A) (f(B_v) - f(B))              (Saltelli et al. 2010)
- *     D - V(not u) = mean of (f(A) - f(A_u))^2 / 2     (Jansen 1999), A_u having B's coordinates of u
+ *     D - V(not u) = mean of (f(A) - f(A_u))^2 / 2     (Jansen 1999), A_u: A with B's coordinates u
  *
- * A and B are the two halves of the coordinates of Owen-scrambled Sobol' points, or random points where these do not
- * have so many dimensions. SETS scramblings give independent estimates: their mean, and its interval by Student's t. f is
- * shifted by its mean over A and B, which makes V's estimate sharper where the mean is far from 0.
+ * A and B are the two halves of the coordinates of Owen-scrambled Sobol' points, or of random points if Sobol' points
+ * do not have so many dimensions. SETS scramblings give independent estimates; the result is their mean, with an
+ * interval by Student's t. The mean of f over A and B is subtracted from f, which reduces the variance of V's
+ * estimate if the mean is far from 0.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -28,10 +30,10 @@
 enum { SETS = 16, SAMPLES = 4096, MOST_SAMPLES = 1 << 20 };
 
 typedef struct parts {
-    double component, closed, total, variance; /* all but the last as shares */
+    double component, closed, total, variance; /* component, closed and total are shares of the variance */
 } parts;
 
-/* The subset of u with these bits, as coordinates that are held. */
+/* Marks the coordinates of the subset of u that `bits` describes as held. */
 static void hold(const int *axes, size_t n_axes, unsigned bits, bool others, int dim, bool *held)
 {
     for (int i = 0; i < dim; i++) {
@@ -42,7 +44,7 @@ static void hold(const int *axes, size_t n_axes, unsigned bits, bool others, int
     }
 }
 
-/* +1 or -1: that of a subset in the component of u. */
+/* The sign, +1 or -1, of a subset's term in the component of u. */
 static int sign_of(unsigned bits, size_t n_axes)
 {
     size_t missing = n_axes;
@@ -79,7 +81,8 @@ typedef struct job {
     parts sets[SETS];
 } job;
 
-/* The values of f where coordinates that are held come from the half `from` of the points, and others from the other. */
+/* The values of f at points whose held coordinates come from the half `from` of the points, and whose other
+   coordinates come from the other half. */
 static koksma_status values_of(const job *j, const koksma_points *both, bool from_b, const bool *held,
                                koksma_points *mixed, double *values)
 {
@@ -93,7 +96,7 @@ static koksma_status values_of(const job *j, const koksma_points *both, bool fro
     return koksma_integral_values(j->f, mixed, &one, values);
 }
 
-/* Takes the mean over A and B off the values at A; returns the variance. */
+/* Subtracts the mean over A and B from the values at A; returns the variance. */
 static double centre(size_t n, double *a, const double *b)
 {
     koksma__sum sum = {0}, square = {0};
@@ -109,7 +112,7 @@ static double centre(size_t n, double *a, const double *b)
     return koksma__sum_value(&square) / (2 * (double)n);
 }
 
-/* room: for three values of each point. */
+/* room: scratch for three values of each point. */
 static koksma_status estimate(const job *j, const koksma_points *both, koksma_points *mixed, double *room, bool *held,
                               parts *p)
 {

@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * asian: the discounted payoff exp(-R T) max(G - K, 0) of an Asian call option on the geometric mean G of the prices at d
- * equal steps up to T = 1 (Kemna & Vorst 1990; Glasserman 2004, 3.2), with the initial price S = 100, rate R = .05 and
- * prices S exp((R - v^2 / 2) t + v W(t)). x_k becomes a normal number z_k, and these the Brownian motion W: by steps in
- * time (path=steps), or by the bridge, the last time first and then always the middle of the widest gap (Caflisch,
- * Morokoff & Owen 1997), which puts most of the variance into the first coordinates.
+ * asian: the discounted payoff exp(-R T) max(G - K, 0) of an Asian call option on the geometric mean G of the prices
+ * at d equal steps up to T = 1 (Kemna & Vorst 1990; Glasserman 2004, 3.2), with the initial price S = 100, rate R =
+ * .05 and prices S exp((R - v^2 / 2) t + v W(t)). Each x_k is mapped to a normal number z_k, and the z_k to the
+ * Brownian motion W: by steps in time (path=steps), or by the Brownian bridge, which sets the last time first and
+ * then always the middle of the widest gap (Caflisch, Morokoff & Owen 1997), which puts most of the variance into the
+ * first coordinates.
  *
  * log G = mu + sum a_k z_k with weights a of the path, and sum a_k^2 = s^2, so that with h = (mu - log K) / s
  *
  *     integral / discount       exp(mu + s^2 / 2) Phi(h + s) - K Phi(h)
- *     E(E(f | x_u)^2)           that of two payoffs whose logarithms have the correlation rho = sum_u a^2 / s^2:
+ *     E(E(f | x_u)^2)           E of the product of two payoffs whose logarithms have the correlation
+ *                               rho = sum_u a^2 / s^2:
  *                               exp(2 mu + s^2 (1 + rho)) Phi2(h + s (1 + rho), same)
  *                               - 2 K exp(mu + s^2 / 2) Phi2(h + s, h + rho s) + K^2 Phi2(h, h)
  *
- * with Phi2 the normal distribution in the plane with correlation rho. The payoff has no bound: its variation is infinite.
+ * with Phi2 the normal distribution in the plane with correlation rho. The payoff is unbounded, and
+ * so is its variation.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,8 +33,8 @@ static double normal(double h)
     return erfc(-h * M_SQRT1_2) / 2;
 }
 
-/* Phi2(h, k; rho) = Phi(h) Phi(k) + 1 / (2 pi) times the integral of exp(-(h^2 + k^2 - 2 h k sin t) / (2 cos^2 t)) over t
-   from 0 to asin(rho) (Drezner & Wesolowsky 1990), by the tanh-sinh rule, for rho from 0. */
+/* Phi2(h, k; rho) = Phi(h) Phi(k) + 1 / (2 pi) times the integral of exp(-(h^2 + k^2 - 2 h k sin t) / (2 cos^2 t))
+   over t from 0 to asin(rho) (Drezner & Wesolowsky 1990), by the tanh-sinh rule, for rho >= 0. */
 static double normal_plane(double h, double k, double rho)
 {
     if (rho >= 1 - 1e-15) {
@@ -47,7 +50,7 @@ static double normal_plane(double h, double k, double rho)
     return normal(h) * normal(k) + half * step * sum / (2 * M_PI);
 }
 
-/* mu and s of log G. */
+/* mu and s, the mean and standard deviation of log G. */
 static double log_mean(const koksma_integral *f)
 {
     const double v = f->params[1], mean_time = (f->dim + 1.0) / (2.0 * f->dim);
@@ -63,7 +66,7 @@ static double deviation(const koksma_integral *f)
     return sqrt(square);
 }
 
-/* E of the squared mean given x_u, of which rho is the part of the variance. */
+/* E(E(f | x_u)^2), where rho is the share of x_u in the variance of log G. */
 static double explained_square(const koksma_integral *f, double rho)
 {
     const double mu = log_mean(f), s = deviation(f), K = f->params[0], h = (mu - log(K)) / s;
@@ -83,12 +86,13 @@ static double explained(const koksma_integral *f, const bool *held)
 }
 
 /* The weights of the bridge. A middle m between times l and r has W_m = ((r - m) W_l + (m - l) W_r) / (r - l) +
-   sqrt((m - l) (r - m) / ((r - l) d)) z. From the last gap to the first, what W_m weighs in the mean goes to z and to
-   W_l and W_r. */
+   sqrt((m - l) (r - m) / ((r - l) d)) z. From the last gap to the first, the weight of W_m in the mean is passed on
+   to z, W_l and W_r. */
 static koksma_status bridge_weights(koksma_integral *f)
 {
     const size_t d = (size_t)f->dim;
-    size_t *gaps = malloc(4 * d * sizeof *gaps), n = 1, z = d; /* pairs l, r: each with a middle becomes two more */
+    /* pairs l, r; the middle of each gap makes two gaps of it */
+    size_t *gaps = malloc(4 * d * sizeof *gaps), n = 1, z = d;
     double *weight = malloc((d + 1) * sizeof *weight);
     if (!gaps || !weight) {
         free(gaps);

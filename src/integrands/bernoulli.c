@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * bernoulli: prod (1 + w j^-decay B_r(x_j)) over the coordinates j = 1 .. d, B_r being Bernoulli's polynomial (Dick &
- * Pillichshammer 2010). Its integral is 1. With period 1 it has r - 2 continuous derivatives, none and a jump for r = 1:
- * r is the smoothness. Mean of B_r^2: (r!)^2 |B_2r| / (2 r)!.
+ * Pillichshammer 2010). Its integral is 1. Continued with period 1, it has r - 2 continuous derivatives; for r = 1 it
+ * has a jump. r is the smoothness. The mean of B_r^2 is (r!)^2 |B_2r| / (2 r)!.
  *
- * Variation of B_r over [0,1]: B_r' = r B_{r-1}. For even r the only extremum inside is at 1/2; for odd r from 3 on there
- * are two, at the roots of B_{r-1}, and B_r(0) = B_r(1/2) = B_r(1) = 0.
+ * Variation of B_r over [0,1]: B_r' = r B_{r-1}. For even r the only extremum inside is at 1/2; for odd r from 3 on
+ * there are two, at the roots of B_{r-1}, and B_r(0) = B_r(1/2) = B_r(1) = 0.
  */
 #include <math.h>
 
@@ -14,7 +14,7 @@
 
 enum { MOST = 8 };
 
-/* B_r(x) = sum binomial(r, k) B_k x^(r - k), by Horner. */
+/* B_r(x) = sum binomial(r, k) B_k x^(r - k), evaluated by Horner's rule. */
 static double polynomial(int r, double x)
 {
     static const double numbers[] = {1, -0.5, 1.0 / 6, 0, -1.0 / 30, 0, 1.0 / 42, 0, -1.0 / 30};
@@ -26,7 +26,7 @@ static double polynomial(int r, double x)
     return value;
 }
 
-/* The root of B_r in (0, 1/2), for even r: it falls or rises from 0 to 1/2. */
+/* The root of B_r in (0, 1/2) for even r, by bisection: B_r is monotone on [0, 1/2]. */
 static double root(int r)
 {
     double low = 0, high = 0.5;

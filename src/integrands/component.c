@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * ANOVA components of products as integrands: that of the coordinates u of offset + scale prod g_i(x_i) is
+ * ANOVA components of products as integrands. The component for the coordinates u of offset + scale prod g_i(x_i) is
  *
  *     scale prod_{i in u} (g_i(x_i) - m_i) prod_{i not in u} m_i,      m_i the mean of g_i,
  *
- * with integral 0 and variance scale^2 prod_u (q_i - m_i^2) prod_{not u} m_i^2. The components of all u but the empty one
- * add up to the function less its integral, and so do the errors of integrating them: they show which projections of a
- * pattern make its error.
+ * with integral 0 and variance scale^2 prod_u (q_i - m_i^2) prod_{not u} m_i^2. The components of all nonempty u add
+ * up to the function minus its integral, and their integration errors add up to the function's error: they show which
+ * projections of a pattern cause its error.
  */
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ static double factor_at(const koksma_integral *f, int axis, double x)
     return f->factors[axis].at ? f->factors[axis].at(x) : f->factor(f, axis, x);
 }
 
-/* context: the component itself. */
+/* The value of the component; context points to the component. */
 static double at(const double *x, int dim, void *context)
 {
     const koksma_integral *f = context, *whole = f->whole;
@@ -33,7 +33,7 @@ static double at(const double *x, int dim, void *context)
     return product;
 }
 
-/* The integrand once more, which the component owns. */
+/* Opens the integrand again; the component owns the copy. */
 static koksma_status open_whole(const koksma_integral *integral, koksma_integral **out)
 {
     koksma_integral_facts facts;
@@ -64,7 +64,7 @@ koksma_status koksma_integral_component(const koksma_integral *integral, const i
         return status;
     }
     koksma_integral *f = *out;
-    f->whole = whole; /* closed with it */
+    f->whole = whole; /* closed together with the component */
     f->function.context = f;
     f->chosen = calloc((size_t)whole->axes, sizeof *f->chosen);
     status = f->chosen ? KOKSMA_OK : koksma__fail_memory((size_t)whole->axes);

@@ -9,18 +9,19 @@
  *     continuous      exp(-sum a_i |x_i - u_i|)
  *     discontinuous   exp(sum a_i x_i) for x_1 <= u_1 and x_2 <= u_2, else 0
  *
- * u and a are random in (0,1), from the seed; a is then scaled such that its sum is the difficulty. The defaults are the
- * sums of Barthelmann, Novak and Ritter (2000); Genz's own program has h / d^e instead.
+ * u and a are random in (0,1), from the seed; a is then scaled such that its sum is the difficulty. The defaults are
+ * the sums of Barthelmann, Novak and Ritter (2000); Genz's own program has h / d^e instead.
  *
- * All but two are products, with closed forms of each factor. Of the oscillatory one, with s(t) = sin(t) / t,
+ * All but two are products, with closed forms of each factor. For the oscillatory family, with s(t) = sin(t) / t,
  *
- *     E(f | x_v)          r cos(2 pi u_1 + sum_v a x + theta), r = prod_{i not in v} s(a_i / 2), theta = sum_{not v} a / 2
- *     E of its square     r^2 / 2 (1 + cos(4 pi u_1 + sum a) prod_v s(a_i))
+ *     E(f | x_v)          r cos(2 pi u_1 + sum_v a x + theta),
+ *                         r = prod_{i not in v} s(a_i / 2), theta = sum_{not v} a / 2
+ *     E(E(f | x_v)^2)     r^2 / 2 (1 + cos(4 pi u_1 + sum a) prod_v s(a_i))
  *
- * The corner peak is 1/d! times the integral over t of t^d exp(-t - t sum a_i x_i), so that its integral, and that of its
- * square with 2 d + 1 for d, are integrals over t of products of (1 - exp(-a_i t)) / (a_i t): computed by the trapezoidal
- * rule in log t, which converges exponentially; no sum over the 2^d corners of the cube cancels. The same form gives its
- * variation, f(0) - f(1, .., 1).
+ * The corner peak is 1/d! times the integral over t of t^d exp(-t - t sum a_i x_i), so that its integral, and that of
+ * its square with 2 d + 1 in place of d, are integrals over t of products of (1 - exp(-a_i t)) / (a_i t). They are
+ * computed by the trapezoidal rule in log t, which converges exponentially and avoids the cancellation of the closed
+ * form, a sum over the 2^d corners of the cube. The first form also gives the variation, f(0) - f(1, .., 1).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,7 +31,7 @@
 #include "core/sum.h"
 #include "integrands/product.h"
 
-/* a and u from the seed. */
+/* Draws a and u from the seed. */
 static koksma_status draw(koksma_integral *f)
 {
     const size_t d = (size_t)f->dim;
@@ -51,7 +52,7 @@ static koksma_status draw(koksma_integral *f)
     return KOKSMA_OK;
 }
 
-/* ---- Products: what is known of a factor with a and u ----------------------------------------------------- */
+/* ---- Products: mean, square and variation of a factor with a and u ----------------------------------------- */
 
 typedef koksma__factor factor_of(double a, double u, bool cut);
 
@@ -71,7 +72,7 @@ static koksma_status prepare_product(koksma_integral *f, factor_of *factor, fact
     return status;
 }
 
-/* A peak of height top at u with g(0) and g(1) at the ends. */
+/* The factor of a peak of height `top` at u, with the values at_0 and at_1 at the ends. */
 static koksma__factor peak(double mean, double square, double top, double at_0, double at_1)
 {
     return (koksma__factor){.mean = mean,
@@ -260,8 +261,8 @@ static koksma_status prepare_oscillatory(koksma_integral *f)
 
 /* ---- The corner peak ---------------------------------------------------------------------------------------- */
 
-/* The integral over the cube of (1 + sum a x)^-(k + 1): 1/k! that over y = log t of t^(k+1) exp(-t) prod
-   (1 - exp(-a t)) / (a t). The weight's peak at t = k + 1 has width 1 / sqrt(k + 1) in y. */
+/* The integral over the cube of (1 + sum a x)^-(k + 1): 1/k! times the integral over y = log t of t^(k+1) exp(-t)
+   prod (1 - exp(-a t)) / (a t). The peak of t^(k+1) exp(-t) at t = k + 1 has width 1 / sqrt(k + 1) in y. */
 static double peak_integral(const koksma_integral *f, double k)
 {
     const double step = 0.2 / sqrt(k + 1), middle = log(k + 1);

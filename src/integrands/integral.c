@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * koksma_integral: an integrand with its parameters and dimensions, or a function of the caller; its values at points
- * and their mean. Points are taken in blocks of fixed size over the threads, and the sums of the blocks added in order.
+ * koksma_integral: an integrand of the table with its parameters and dimension, or a function of the caller; its
+ * values at points and their mean. Points are evaluated in blocks of fixed size on several threads, and the sums of
+ * the blocks are added in order.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -117,8 +118,8 @@ void koksma_integral_about(const koksma_integral *integral, koksma_integral_fact
 typedef struct job {
     const koksma_integral *f;
     const koksma_points *points;
-    double *values;    /* of each point, or NULL */
-    koksma__sum *sums; /* of each block, or NULL */
+    double *values;    /* one for each point, or NULL */
+    koksma__sum *sums; /* one for each block, or NULL */
 } job;
 
 static koksma_status evaluate_block(void *context, size_t block)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of integrands, and what its members know of themselves. */
+/* The table of integrands, and what is known of each: integral, variance, variation and range. */
 #ifndef KOKSMA_INTEGRANDS_INTEGRANDS_H
 #define KOKSMA_INTEGRANDS_INTEGRANDS_H
 
@@ -9,27 +9,28 @@
 #include "integrands/integrands.def"
 #undef INTEGRAND
 
-/* One coordinate's factor g of a product: over [0,1] its mean, the mean of its square, its variation, |g(1)|, and its
+/* One coordinate's factor g of a product: its mean over [0,1], the mean of its square, its variation, |g(1)|, and its
    range. */
 typedef struct koksma__factor {
     double mean, square, variation, end, lowest, highest;
-    double (*at)(double x); /* g; NULL: the member's factor() has it */
+    double (*at)(double x); /* g; NULL: the integrand's factor() computes it */
 } koksma__factor;
 
 struct koksma_integral {
-    const koksma_integrand *integrand; /* NULL: the function of a caller */
-    koksma_function function;          /* with a name of its own */
+    const koksma_integrand *integrand; /* NULL: a function of the caller */
+    koksma_function function;          /* with a name of its own, for a function of the caller */
     int dim, axes;
     double params[KOKSMA_MAX_PARAMS];
     double value, variance, variation, lowest, highest;
-    /* Var(E(f | x_u)), u being the axes that are held. NULL: no closed form. */
+    /* Var(E(f | x_u)), where held[i] says whether coordinate i is in u. NULL: there is no closed form. */
     double (*explained)(const koksma_integral *f, const bool *held);
-    /* offset + scale * the product of the factors' functions, one factor for each axis */
+    /* a product is offset + scale * the product of the factors, one for each axis */
     double offset, scale;
-    koksma__factor *factors;                                        /* NULL: it is no product */
-    double (*factor)(const koksma_integral *f, int axis, double x); /* g of an axis; NULL: factors[axis].at has it */
-    double *a, *b;                                                  /* two numbers for each axis, of the member */
-    /* Of an ANOVA component: the product, and whether each axis is in it (component.c). */
+    koksma__factor *factors;                                        /* NULL: the function is not a product */
+    double (*factor)(const koksma_integral *f, int axis, double x); /* g of an axis; NULL: use factors[axis].at */
+    /* two parameters for each axis, which the integrand defines */
+    double *a, *b;
+    /* for an ANOVA component: the whole product, and whether each axis is in the component (component.c) */
     koksma_integral *whole;
     bool *chosen;
 };

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Errors of integration over trials and sizes. With e_t the error of trial t, the mean of e_t^2 is that of squared errors,
- * RMSE its root. Its interval is that of the logarithm of the mean by the delta method, log rmse +- t_{T-1} sd(e^2) /
- * (2 sqrt(T) mean(e^2)): squared errors are skew, and a bound stays positive. Slopes are half those of the mean squared
- * errors, with the error of koksma_joint_line.
+ * Errors of integration over trials and sizes. With e_t the error of trial t, the mean of e_t^2 is that of squared
+ * errors, RMSE its root. Its confidence interval is computed for log rmse by the delta method, log rmse +- t_{T-1}
+ * sd(e^2) / (2 sqrt(T) mean(e^2)), because squared errors are skew, and so that the lower bound stays positive. The
+ * slope of the RMSE is half the slope of the mean squared errors, with the error that koksma_joint_line gives.
  *
- * The sets of all trials and sizes are independent jobs. Where there are fewer jobs than threads, each set is made on all
- * threads in turn; the bits are the same either way.
+ * The sets of all trials and sizes are independent jobs. If there are fewer jobs than threads, the jobs run one after
+ * the other, each on all threads; the bits are the same either way.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -34,7 +34,7 @@ static koksma_status check_options(const koksma_integration_options *o)
 
 /* ---- The statistics ----------------------------------------------------------------------------------------- */
 
-/* The estimates of a size. */
+/* Statistics of the estimates for one size. */
 static koksma_tally tally_of(const koksma_integration_options *o, const double *estimates, size_t size)
 {
     koksma_tally tally = {0};
@@ -44,7 +44,8 @@ static koksma_tally tally_of(const koksma_integration_options *o, const double *
     return tally;
 }
 
-/* The squared error of an estimate; of an unknown integral the squared difference from the mean, times T / (T - 1). */
+/* The squared error of an estimate. If the integral is unknown, it is the squared difference from the mean of the
+   estimates, times T / (T - 1). */
 static double squared(double estimate, double value, const koksma_tally *tally)
 {
     const double error = estimate - (isnan(value) ? tally->mean : value);
@@ -71,7 +72,8 @@ static koksma_integration_row row_of(const koksma_integration_options *o, const 
     return row;
 }
 
-/* Below it errors are rounding: 2^-44 of what the integral, the function's values or the estimates are. */
+/* The threshold below which errors count as rounding: 2^-44 of the largest of the integral, the function's values and
+   the estimates. */
 static double rounding(const koksma_integration_options *o, const double *estimates, double value, double variance)
 {
     double scale = fmax(isnan(value) ? 0 : fabs(value), isnan(variance) ? 0 : sqrt(variance));
@@ -81,7 +83,7 @@ static double rounding(const koksma_integration_options *o, const double *estima
     return 0x1p-44 * scale;
 }
 
-/* Of the mean squared errors that are no rounding; others are NaN, which the line leaves out. */
+/* Fits the slope to the mean squared errors. Those within rounding are set to NaN, which the fit leaves out. */
 static void fit_slope(double value, const koksma_integration_options *o, const double *estimates, double least,
                       koksma_integration *out)
 {
@@ -137,7 +139,7 @@ typedef struct job {
     double *estimates;
 } job;
 
-/* Job `block`, the largest sets first. */
+/* Runs job `block`; the largest sets come first. */
 static koksma_status integrate_set(void *context, size_t block)
 {
     const job *j = context;
@@ -159,7 +161,7 @@ static bool estimates_are_equal(const koksma_integration_options *o, const doubl
     return equal;
 }
 
-/* Whether two seeds give one set: not every pattern of which that holds claims it. */
+/* Whether the pattern gives the same set for two seeds; not every pattern for which this holds claims it. */
 static koksma_status has_one_set(const job *j, bool *one)
 {
     koksma_points sets[2] = {{0}, {0}};
@@ -175,7 +177,7 @@ static koksma_status has_one_set(const job *j, bool *one)
     return status;
 }
 
-/* Within a set only whether to go on is asked; how far the work is, is counted in sets. */
+/* keep_going within a set: passes the question whether to stop, but no fraction, as progress is counted in sets. */
 static bool go_on(void *context, double fraction)
 {
     (void)fraction;

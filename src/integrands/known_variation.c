@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions of the line and the plane whose integral and variation are known: smooth ones, whose mixed derivative
- * integrates to Vitali's variation; boxes along the axes, with 1 for each corner inside the square and for each end of a
- * side at x = 1 or y = 1; and edges that are not along an axis. The checkerboard of 8 x 8 squares is
- * (1 - c(x) c(y)) / 2, c being 1 and -1 in turn, with 7 steps of 2. docs/findings/koksma-inequality.md shows them.
+ * Functions of the line and the plane whose integral and variation are known: smooth functions, whose mixed
+ * derivative integrates to Vitali's variation; boxes along the axes, whose variation counts 1 for each corner inside
+ * the square and 1 for each end of a side at x = 1 or y = 1; and regions with edges that are not along an axis. The
+ * checkerboard of 8 x 8 squares is (1 - c(x) c(y)) / 2, c being 1 and -1 in turn, with 7 steps of 2.
+ * docs/findings/koksma-inequality.md uses these functions.
  *
- * E(f | x) of the regions: of the disk 2 sqrt(r^2 - (x - 1/2)^2), whose square integrates to 16 r^3 / 3; below the line
- * .2 + x/2, or 1 - max(0, 2 y - .4) up to y = .7; of the turned checkerboard |1 - 2 a| with a the fraction of 4 x.
+ * E(f | x) is 2 sqrt(r^2 - (x - 1/2)^2) for the disk, whose square integrates to 16 r^3 / 3; .2 + x/2 for the region
+ * below the line, where E(f | y) is 1 - max(0, 2 y - .4) up to y = .7; and |1 - 2 a| for the turned checkerboard,
+ * with a the fractional part of 4 x.
  */
 #include <math.h>
 
@@ -104,7 +106,7 @@ static double turned_checkerboard(const koksma_integral *f, const double *x)
     return (int)(floor(4 * (x[0] + x[1])) + floor(4 * (x[0] - x[1])) + 8) % 2;
 }
 
-/* The factors of the products: (x, y) -> g(x) h(y). */
+/* The factors g and h of the products g(x) h(y). */
 static double identity(double x)
 {
     return x;

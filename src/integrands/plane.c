@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Functions of the plane that are no products: regions whose edges are not along an axis. Of those any grid's rectangles
-   see more the finer it is, so that the variation of Hardy and Krause is infinite. */
+/* Functions of the plane that are not products: regions whose edges are not along an axis. The finer a grid, the more
+   variation its rectangles see along such an edge, so that the variation in the sense of Hardy and Krause is
+   infinite. */
 #include "integrands/plane.h"
 
 #include <math.h>

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is known of a function of the plane that is no product. */
+/* The constants of a function of the plane that is not a product. */
 #ifndef KOKSMA_INTEGRANDS_PLANE_H
 #define KOKSMA_INTEGRANDS_PLANE_H
 
 #include "integrands/product.h"
 
-/* square: the integral of f^2; of_x, of_y: of E(f | x)^2 and E(f | y)^2. Its range is [0,1], its variation infinite. */
+/* square: the integral of f^2; of_x, of_y: the integrals of E(f | x)^2 and E(f | y)^2. The function's range is [0,1],
+   its variation is infinite. */
 typedef struct koksma__plane {
     double value, square, of_x, of_y;
 } koksma__plane;
 
-/* prepare() of members whose constants are a koksma__plane. */
+/* prepare() of integrands whose constants are a koksma__plane. */
 koksma_status koksma__integral_of_plane(koksma_integral *f);
 
-/* Defines a member of so many axes; then comes what is known: ROWS of factors, PLANE, or initialisers. */
+/* Defines an integrand of n_axes axes. The remaining arguments give what is known of it: ROWS of factors, PLANE, or
+   initialisers. */
 #define KOKSMA__CLOSED_MEMBER(id, text, says, source, n_axes, function, ...)                                         \
     const koksma_integrand koksma__integrand_##id = {                                                                \
         .name = text,                                                                                                \

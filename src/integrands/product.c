@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions offset + scale g_1(x_1) .. g_d(x_d): with m the mean of a factor, q that of its square, V its variation,
+ * Functions offset + scale g_1(x_1) .. g_d(x_d): with m the mean of a factor, q the mean of its square, V its
+ * variation,
  *
  *     integral             offset + scale prod m
  *     Var(E(f | x_u))      scale^2 (prod_{i in u} q_i prod_{i not in u} m_i^2 - prod m_i^2)
  *     Hardy and Krause     |scale| (prod (V_i + |g_i(1)|) - prod |g_i(1)|)
  *
- * The last, anchored at 1, is the sum over all u of Vitali's variations of f(x_u, 1), each a product.
+ * The variation in the sense of Hardy and Krause, anchored at 1, is the sum over all u of Vitali's variations of
+ * f(x_u, 1), each a product.
  */
 #include "integrands/product.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The functions over which Christensen et al. (2018) compare sequences, and others after them: a quarter of a disk, a
- * triangle, a step, a quarter of a Gaussian and a bilinear function.
+ * The functions with which Christensen et al. (2018), and papers since then, compare sequences: a quarter of a disk,
+ * a triangle, a step, a quarter of a Gaussian and a bilinear function.
  *
- * E(f | x) of the quarter disk of radius r is sqrt(r^2 - x^2) up to r, whose square integrates to 2 r^3 / 3; r^2 = 2/pi
- * makes the integral 1/2. That of the triangle is 1 - x, and E(f | y) = y.
+ * E(f | x) of the quarter disk of radius r is sqrt(r^2 - x^2) up to r, whose square integrates to 2 r^3 / 3; r^2 =
+ * 2/pi makes the integral 1/2. The triangle has E(f | x) = 1 - x and E(f | y) = y.
  */
 #include <math.h>
 
@@ -51,7 +51,7 @@ static double below(double x)
     return x < M_1_PI ? 1 : 0;
 }
 
-/* exp(-x^2): its mean is sqrt(pi) erf(1) / 2, that of its square sqrt(pi / 2) erf(sqrt 2) / 2. */
+/* exp(-x^2) has the mean sqrt(pi) erf(1) / 2; its square has the mean sqrt(pi / 2) erf(sqrt 2) / 2. */
 static koksma_status prepare_gaussian(koksma_integral *f)
 {
     const koksma_status status = koksma__integral_factors(f);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of integrands (integrands.def): member i, and the member of a name. */
+/* The table of integrands (integrands.def), with lookup by index and by name. */
 #include "core/lookup.h"
 #include "integrands/integrands.h"
 

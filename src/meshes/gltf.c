@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lists and members of a glTF file's JSON, for the other gltf_*.c files. A list that is not there is empty. */
+/* Access to lists and members of a glTF file's JSON, for the other gltf_*.c files. A missing list counts as empty. */
 #include "meshes/gltf.h"
 
 typedef koksma__json_node field;
@@ -14,7 +14,7 @@ koksma_status koksma__gltf_list(const field *object, const char *key, field *lis
     return status ? status : koksma__json_length(list, KOKSMA__GLTF_ITEMS, n);
 }
 
-/* Follows keys into objects; false: one is not there. */
+/* Follows the path `keys` into nested objects; false: a key is missing. */
 bool koksma__gltf_find(const field *from, const char *const keys[], field *out)
 {
     field at = *from;

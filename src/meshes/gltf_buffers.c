@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The bytes of a glTF file: buffers from files beside the model, from base64 in it, or from the second piece of a
- * binary file; buffer views; accessors, whose elements lie one after the other or `byteStride` apart (glTF 2.0,
- * sections 3.6.1 and 4.4). Numbers are little-endian whatever the machine is. A buffer that isn't there is an error
- * only where something that is read lies in it.
+ * The bytes of a glTF file: buffers from files beside the model, from base64 in it, or from the second chunk of a
+ * binary file; buffer views; and accessors, whose elements are contiguous or `byteStride` apart (glTF 2.0, sections
+ * 3.6.1 and 4.4). Numbers are little-endian on every machine. A missing buffer is an error only if something that is
+ * read lies in it.
  */
 #include "meshes/gltf_buffers.h"
 
@@ -25,7 +25,7 @@ static int base64_value(char c)
     return at ? (int)(at - digits) : -1;
 }
 
-/* The file frees the bytes at its end. */
+/* Hands the bytes over to the mesh file, which frees them when it is closed. */
 static koksma_status keep(koksma__gltf *g, unsigned char *bytes, size_t size, koksma__gltf_bytes *out)
 {
     unsigned char **kept = koksma__list_add(&g->out->owned, 1, sizeof *kept);
@@ -176,7 +176,8 @@ size_t koksma__gltf_whole(const koksma__gltf_elements *e, size_t i)
     return e->component == 5121 ? *at : bits_at(at, e->component == 5123 ? 2 : 4);
 }
 
-/* glTF 2.0, section 3.6.2.2: c / 255 and the like, of signed ones max(c / 127, -1). */
+/* Normalised integers (glTF 2.0, section 3.6.2.2): unsigned ones are c / 255 or c / 65535, signed ones max(c / 127,
+   -1) or max(c / 32767, -1). */
 float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k)
 {
     const unsigned char *at = e->first + i * e->stride;

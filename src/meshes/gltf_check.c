@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Whether the parts of a glTF file fit together, before anything is made of them: every number that names another
- * thing is in range, every piece lies within what holds it, and nodes are trees. So the other gltf_*.c files take
- * items and bytes without looking again; what is in the buffers they check themselves. Linear in the size of the
- * JSON. Specification: Khronos, "glTF 2.0" (2021).
+ * Checks that the parts of a glTF file fit together, before anything is built from them: every index of another item
+ * is in range, every buffer view and accessor lies within its buffer or view, and nodes form trees. So the other
+ * gltf_*.c files read items and bytes without further checks; they check only the contents of the buffers. Time is
+ * linear in the size of the JSON. Specification: Khronos, "glTF 2.0" (2021).
  */
 #include "meshes/gltf_check.h"
 
@@ -16,7 +16,7 @@ typedef koksma__json_node field;
 
 #define MAX_BYTES ((long long)1 << 30)
 
-/* Calls f for every item of the list. */
+/* Calls f for every item of the list, until one fails. */
 static koksma_status each(const koksma__gltf *g, const field *object, const char *key,
                           koksma_status (*f)(const koksma__gltf *g, const field *item))
 {
@@ -30,7 +30,7 @@ static koksma_status each(const koksma__gltf *g, const field *object, const char
     return status;
 }
 
-/* The number of a thing of which there are n, where the object has one. */
+/* Checks that the member `key`, if the object has it, is an index below n of a `thing`. */
 static koksma_status names(const field *object, const char *key, const char *thing, size_t n)
 {
     long long number = 0;
@@ -72,7 +72,7 @@ static koksma_status check_view(const koksma__gltf *g, const field *f)
     return status;
 }
 
-/* Bytes of one element; 0: unknown. */
+/* Size of one element in bytes; 0: unknown type. */
 static long long element_size(const char *type, long long component)
 {
     static const struct {
@@ -142,7 +142,7 @@ static koksma_status check_texture(const koksma__gltf *g, const field *f)
     return status ? status : names(f, "sampler", "sampler", g->n[KOKSMA__GLTF_SAMPLERS]);
 }
 
-/* The texture of that member of a material, or of a part of it. */
+/* Checks the texture that the member `key` of a material, or of a part of a material, names. */
 static koksma_status check_texture_of(const koksma__gltf *g, const field *f, const char *key)
 {
     field info;
@@ -179,7 +179,8 @@ static koksma_status check_node(const koksma__gltf *g, const field *f)
     return status ? status : names(f, "skin", "skin", g->n[KOKSMA__GLTF_SKINS]);
 }
 
-/* Every node has one parent at most, and the roots of scenes have none: then no way leads round. */
+/* Checks that every node has at most one parent and that the roots of scenes have none, so that there are no
+   cycles. */
 static koksma_status check_tree(const koksma__gltf *g, unsigned char *has_parent)
 {
     field nodes, scenes, list;
@@ -215,7 +216,8 @@ bool koksma__gltf_reads(const char *extension)
     return false;
 }
 
-/* A reader that lacks one of these must not show the file (glTF 2.0, section 3.12). */
+/* Checks one of the extensions that the file requires: a reader that lacks it must not show the file (glTF 2.0,
+   section 3.12). */
 static koksma_status check_extension(const koksma__gltf *g, const field *item)
 {
     const char *name;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The materials of a glTF file: factors of colour, metal and roughness, normals, emission and alpha, each with its
- * texture, which lies as KHR_texture_transform says; emissive strength and index of refraction. Occlusion is not read,
- * because the renderer finds it itself. A mesh has one set of texture coordinates: that of the first texture of its
- * material; textures of others are counted. Specification: Khronos, "glTF 2.0" (2021), section 3.9, and the
- * extensions' own.
+ * texture and its texture's transform (KHR_texture_transform); emissive strength and index of refraction. Occlusion
+ * is not read, because the renderer computes it. A mesh keeps only the set of texture coordinates that the first
+ * texture of its material uses; textures with another set are counted for a warning. Specification: Khronos, "glTF
+ * 2.0" (2021), section 3.9, and the specifications of the extensions.
  */
 #include "meshes/gltf_materials.h"
 
@@ -18,11 +18,11 @@
 
 typedef koksma__json_node field;
 
-#define WIDEST 1e30 /* of a material's numbers; they are clamped later */
+#define WIDEST 1e30 /* bound of a material's numbers, which are clamped later */
 
 /* ---- Textures ----------------------------------------------------------------------------------------------- */
 
-/* The image of a texture: a file's name, or bytes of the model. */
+/* The image of a texture: the name of a file, or bytes within the model. */
 static koksma_status take_image(koksma__gltf *g, size_t number, koksma__file_texture *out)
 {
     const field f = koksma__gltf_item(g, KOKSMA__GLTF_IMAGES, number);
@@ -55,7 +55,8 @@ static koksma_status take_image(koksma__gltf *g, size_t number, koksma__file_tex
     return out->name ? KOKSMA_OK : koksma__fail_memory(sizeof name);
 }
 
-/* KHR_texture_transform: u' = c sx u + s sy v + ox, v' = -s sx u + c sy v + oy, with v downwards; ours is 1 - v. */
+/* KHR_texture_transform: u' = c sx u + s sy v + ox, v' = -s sx u + c sy v + oy, with v downwards; here v is upwards,
+   1 - v. */
 static koksma_status take_transform(const field *info, koksma__file_texture *out)
 {
     static const char *const transform[] = {"extensions", "KHR_texture_transform", NULL};
@@ -94,7 +95,7 @@ static koksma_status take_sampler(const koksma__gltf *g, const field *texture, k
     return KOKSMA_OK;
 }
 
-/* Which texture coordinates a texture has. */
+/* The number of the set of texture coordinates that a texture uses. */
 static koksma_status take_set(const field *info, long long *set)
 {
     static const char *const transform[] = {"extensions", "KHR_texture_transform", NULL};
@@ -106,7 +107,7 @@ static koksma_status take_set(const field *info, long long *set)
                : KOKSMA_OK;
 }
 
-/* The texture `key` of a part of a material, if there is one, and if that has an image. */
+/* Reads the texture `key` of a part of a material, if the texture exists and has an image. */
 static koksma_status take_texture(koksma__gltf *g, size_t material, const field *f, const char *key,
                                   koksma__file_texture *out)
 {
@@ -120,7 +121,7 @@ static koksma_status take_texture(koksma__gltf *g, size_t material, const field 
     const field texture = koksma__gltf_item(g, KOKSMA__GLTF_TEXTURES, (size_t)number);
     KOKSMA__TRY(koksma__json_get_whole(&texture, "source", false, 0, KOKSMA__GLTF_ITEMS, &image));
     if (!koksma__json_has(&texture, "source")) {
-        return KOKSMA_OK; /* of an extension, which is named */
+        return KOKSMA_OK; /* its image comes from an unsupported extension, which a warning names */
     }
     KOKSMA__TRY(take_set(&info, &set));
     g->out->unread.second_uvs += set != koksma__gltf_uv_set(g, material);
@@ -148,7 +149,7 @@ int koksma__gltf_uv_set(const koksma__gltf *g, size_t material)
 
 /* ---- Materials ---------------------------------------------------------------------------------------------- */
 
-/* Factors and textures of colour, metal and roughness. */
+/* Reads factors and textures of colour, metal and roughness. */
 static koksma_status take_surface(koksma__gltf *g, size_t i, const field *f, koksma__file_material *m)
 {
     static const char *const metal[] = {"pbrMetallicRoughness", NULL};
@@ -212,7 +213,7 @@ static koksma_status take_material(koksma__gltf *g, size_t i, koksma__file_mater
     return KOKSMA_OK;
 }
 
-/* The last is for primitives that name none. */
+/* Reads all materials in use; the last one stands for primitives without a material. */
 koksma_status koksma__gltf_read_materials(koksma__gltf *g)
 {
     const size_t n = g->n[KOKSMA__GLTF_MATERIALS];

@@ -5,10 +5,10 @@
 
 #include "meshes/gltf.h"
 
-/* Reads the materials that g->material_used has; they keep the numbers of the file. Errors: MALFORMED, MEMORY. */
+/* Reads the materials that g->material_used marks; they keep the file's indices. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_read_materials(koksma__gltf *g);
 
-/* Which texture coordinates, 0 or 1, meshes of a material have: those of its first texture. */
+/* The set of texture coordinates, 0 or 1, for meshes of a material: that of the material's first texture. */
 int koksma__gltf_uv_set(const koksma__gltf *g, size_t material);
 
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The meshes of a glTF file: each primitive of triangles, strips or fans becomes one. POSITION, NORMAL, COLOR_0, one
- * set of texture coordinates and the indices are read; texture coordinates have their origin at the upper left in glTF and at the lower left
- * here, so v becomes 1 - v. All meshes are checked: attributes have as many elements as there are positions, and
- * every index names one (glTF 2.0, section 3.7.2). Only meshes that a node of the scene shows are kept.
+ * The meshes of a glTF file: each primitive of triangles, strips or fans becomes a mesh. POSITION, NORMAL, COLOR_0,
+ * one set of texture coordinates and the indices are read; the origin of texture coordinates is the upper left in
+ * glTF and the lower left here, so v becomes 1 - v. All meshes are checked: attributes have as many elements as there
+ * are positions, and every index names a position (glTF 2.0, section 3.7.2). Only meshes that a node of the scene
+ * shows are kept.
  */
 #include "meshes/gltf_meshes.h"
 
@@ -18,11 +19,12 @@ typedef koksma__json_node field;
 enum { TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
 typedef struct primitive {
-    koksma__gltf_elements positions, normals, uvs, colours, indices; /* n is 0: there are none */
-    long long mode, material;                                        /* of it, or the number behind the last */
+    koksma__gltf_elements positions, normals, uvs, colours, indices; /* n is 0 for an attribute that is missing */
+    long long mode, material;                                        /* material: its index, or n for no material */
 } primitive;
 
-/* Attribute `key`: nothing, or `width` components for each of n vertices. `wide`: it may have one more. */
+/* Reads attribute `key`, which is missing or has `width` components for each of n vertices. `wide`: one component
+   more is allowed. */
 static koksma_status take_attribute(const koksma__gltf *g, const field *list, const char *key, int width, bool floats,
                                     bool wide, const primitive *p, koksma__gltf_elements *out)
 {
@@ -65,7 +67,7 @@ static koksma_status take_indices(const koksma__gltf *g, const field *f, const f
                                           "SCALAR of 5121, 5123 or 5125",
                                           number, type, e->component);
     }
-    if (!status && !g->beyond[number]) { /* once an accessor, however many primitives name it */
+    if (!status && !g->beyond[number]) { /* computed once for each accessor, as many primitives may share it */
         for (size_t i = 0; i < e->n; i++) {
             const size_t after = koksma__gltf_whole(e, i) + 1;
             g->beyond[number] = after > g->beyond[number] ? after : g->beyond[number];
@@ -85,7 +87,7 @@ static koksma_status take_indices(const koksma__gltf *g, const field *f, const f
     return status;
 }
 
-/* A primitive without positions has none (n is 0), and shows nothing. */
+/* Reads a primitive. One without positions has n = 0 and shows nothing. */
 static koksma_status take_primitive(const koksma__gltf *g, const field *f, primitive *p)
 {
     field list;
@@ -104,7 +106,8 @@ static koksma_status take_primitive(const koksma__gltf *g, const field *f, primi
     return status ? status : take_indices(g, f, &list, p);
 }
 
-/* Corner k of triangle t; every second one of a strip runs the other way round (glTF 2.0, section 3.7.2.1). */
+/* The vertex at corner k of triangle t; every second triangle of a strip has the opposite order (glTF 2.0, section
+   3.7.2.1). */
 static uint32_t corner(const primitive *p, size_t t, size_t k)
 {
     size_t at = p->mode == TRIANGLES ? 3 * t + k : t + k;
@@ -138,7 +141,7 @@ static void fill(const primitive *p, koksma__mesh *mesh)
     }
 }
 
-/* Whether the primitive has colours other than white, which changes nothing. */
+/* Whether the primitive has a vertex colour other than white; white ones change nothing. */
 static bool is_coloured(const primitive *p)
 {
     for (size_t i = 0; i < p->colours.n; i++) {
@@ -181,7 +184,8 @@ koksma_status koksma__gltf_read_meshes(koksma__gltf *g)
 {
     const size_t n_meshes = g->n[KOKSMA__GLTF_MESHES];
     size_t n_primitives = 0;
-    size_t *first = calloc(n_meshes + 1, sizeof *first); /* of the file's meshes, those made of mesh i */
+    /* the file's mesh i became the meshes first[i] .. first[i + 1] - 1 */
+    size_t *first = calloc(n_meshes + 1, sizeof *first);
     koksma_status status = first ? KOKSMA_OK : koksma__fail_memory((n_meshes + 1) * sizeof *first);
     for (size_t i = 0; !status && i < n_meshes; i++) {
         const field mesh = koksma__gltf_item(g, KOKSMA__GLTF_MESHES, i);

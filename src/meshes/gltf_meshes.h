@@ -5,8 +5,7 @@
 
 #include "meshes/gltf.h"
 
-/* Checks all meshes and reads those that are shown, with their placements. Errors: MALFORMED, MEMORY.
- */
+/* Checks all meshes, and reads those that the scene shows, with their placements. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_read_meshes(koksma__gltf *g);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The nodes of a glTF file's scene: where they place meshes, lights (KHR_lights_punctual) and the camera. A node
- * stands where the product of the matrices from its root down to it puts it; all are in double precision.
- * gltf_check.c saw that nodes are trees.
+ * The nodes of a glTF file's scene: where they place meshes, lights (KHR_lights_punctual) and the camera. A node's
+ * matrix is the product of the matrices from its root down to the node, in double precision. gltf_check.c has checked
+ * that nodes form trees.
  */
 #include "meshes/gltf_nodes.h"
 
@@ -15,7 +15,7 @@
 typedef koksma__json_node field;
 
 enum { MAX_DEPTH = 512 /* of nodes */ };
-#define WIDEST 1e30 /* of a node's numbers; where things end up is checked later */
+#define WIDEST 1e30 /* bound of a node's numbers; resulting positions are checked later */
 
 static const char *const punctual[] = {"extensions", "KHR_lights_punctual", NULL};
 
@@ -23,13 +23,14 @@ typedef struct graph {
     koksma__gltf *g;
     field lights;
     size_t n_lights;
-    double (*matrices)[12]; /* of nodes that are shown */
-    bool *shown;            /* whether the scene has the node */
+    double (*matrices)[12]; /* world matrices of the nodes shown */
+    bool *shown;            /* whether the node is in the scene */
 } graph;
 
-/* ---- Where nodes stand -------------------------------------------------------------------------------------- */
+/* ---- Matrices of nodes -------------------------------------------------------------------------------------- */
 
-/* A matrix by columns, or x -> translation + rotation (scale x), the rotation a quaternion (glTF 2.0, 3.5.3). */
+/* A node's own transform: a matrix stored by columns, or x -> translation + rotation (scale x) with the rotation as a
+   quaternion (glTF 2.0, 3.5.3). */
 static koksma_status own_matrix(const field *node, double out[12])
 {
     double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
@@ -53,7 +54,8 @@ static koksma_status own_matrix(const field *node, double out[12])
     return KOKSMA_OK;
 }
 
-/* The node and all below it: their matrices, then their meshes, a node's own before its children's. */
+/* Visits a node and its descendants: sets their matrices and adds the placements of their meshes, a node's own before
+   its children's. */
 static koksma_status walk(graph *s, size_t i, const double parent[12], int depth)
 {
     koksma__gltf *g = s->g;
@@ -84,7 +86,7 @@ static koksma_status walk(graph *s, size_t i, const double parent[12], int depth
     return status;
 }
 
-/* The scene that the file names, or its first one. */
+/* Visits the scene that the file names as its default, or else its first scene. */
 static koksma_status walk_scene(graph *s)
 {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -122,7 +124,7 @@ static koksma_status take_cone(const field *from, koksma__file_light *light)
     return KOKSMA_OK;
 }
 
-/* The node's light, if it has one (KHR_lights_punctual). */
+/* Reads the node's light, if it has one (KHR_lights_punctual). */
 static koksma_status take_light(const graph *s, size_t i, const field *node)
 {
     field found;
@@ -156,7 +158,7 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
     return status;
 }
 
-/* The first of the cameras with perspective that stand somewhere, where it first does. */
+/* Takes the first perspective camera that some node places, at the first such node. */
 static koksma_status take_camera(const graph *s)
 {
     static const char *const perspective[] = {"perspective", NULL};

@@ -5,7 +5,8 @@
 
 #include "meshes/gltf.h"
 
-/* Puts the placements of meshes in g->shown, lights and camera into the file. Errors: MALFORMED, MEMORY. */
+/* Adds the placements of meshes to g->shown, and the lights and the camera to the mesh file. Errors: MALFORMED,
+   MEMORY. */
 koksma_status koksma__gltf_read_nodes(koksma__gltf *g);
 
 #endif

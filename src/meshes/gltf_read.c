@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reads a glTF 2.0 file, as JSON (.gltf) or binary (.glb): checks it, loads its buffers, finds what its scene shows,
- * and reads the meshes and the materials that these use. What the file has that is not read is counted or named, for
- * the warnings. Specification: Khronos, "glTF 2.0" (2021), and the extensions that gltf_check.c knows.
+ * Reads a glTF 2.0 file, as JSON (.gltf) or binary (.glb): checks it, loads its buffers, finds the nodes of its
+ * scene, and reads the meshes and materials that they use. Parts of the file that are not supported are counted or
+ * named, for warnings. Specification: Khronos, "glTF 2.0" (2021), and the extensions that gltf_check.c knows.
  */
 #include "meshes/gltf_read.h"
 
@@ -27,7 +27,8 @@ static size_t number_at(const unsigned char *at)
     return at[0] | (size_t)at[1] << 8 | (size_t)at[2] << 16 | (size_t)at[3] << 24;
 }
 
-/* A binary file: a head, then pieces with their length and kind. The JSON's text; and the binary piece, if any. */
+/* Splits a binary file, a header followed by chunks with length and kind, into the JSON's text and the binary chunk,
+   if there is one. */
 static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__gltf_bytes *binary)
 {
     const unsigned char *file = text->bytes;
@@ -37,14 +38,14 @@ static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__g
     }
     KOKSMA__FAIL_IF(size < 20 || number_at(file + 4) != 2 || memcmp(file + 16, "JSON", 4) != 0 ||
                         number_at(file + 12) > size - 20,
-                    KOKSMA_MALFORMED, "%s: no glTF 2 in its binary form, or cut short", path);
+                    KOKSMA_MALFORMED, "%s: not a glTF 2 file in binary form, or cut short", path);
     *text = (koksma__gltf_bytes){file + 20, number_at(file + 12)};
     const size_t next = 20 + text->size;
     KOKSMA__FAIL_IF(number_at(file + 8) != size ||
                         (next < size && (size - next < 8 || number_at(file + next) > size - next - 8)),
-                    KOKSMA_MALFORMED, "%s: its pieces are not as long as the file", path);
+                    KOKSMA_MALFORMED, "%s: its chunks are not as long as the file", path);
     if (next < size && text->size % 4) { /* glTF 2.0, section 4.4.3.1 */
-        return koksma__fail(KOKSMA_MALFORMED, "%s: its first piece has %zu bytes, no multiple of 4", path,
+        return koksma__fail(KOKSMA_MALFORMED, "%s: its first chunk has %zu bytes, which is not a multiple of 4", path,
                             text->size);
     }
     if (next < size && !memcmp(file + next + 4, "BIN", 4)) {
@@ -53,7 +54,7 @@ static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__g
     return KOKSMA_OK;
 }
 
-/* Room by the lengths of the lists, all zero. */
+/* Allocates the arrays, zeroed, for the lengths of the lists. */
 static koksma_status make_arrays(koksma__gltf *g)
 {
     g->buffers = calloc(g->n[KOKSMA__GLTF_BUFFERS] + 1, sizeof *g->buffers);
@@ -66,7 +67,7 @@ static koksma_status make_arrays(koksma__gltf *g)
     return all ? KOKSMA_OK : koksma__fail_memory(g->n[KOKSMA__GLTF_ACCESSORS] * sizeof *g->beyond);
 }
 
-/* Extensions that the file uses and that are not read: what is lost has their names. */
+/* Records the names of unsupported extensions that the file uses, for a warning. */
 static koksma_status note_extensions(koksma__gltf *g)
 {
     koksma__unread *unread = &g->out->unread;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Triangle meshes: memory, what is checked of them, smooth normals, hashes; and the matrices of their placements.
- * Smooth normals sum the areas of the triangles around a place, which a hash table of the places finds in linear
- * time.
+ * Triangle meshes: allocation, checks, smooth normals and hashes; and the matrices of placements. A vertex's smooth
+ * normal is the sum of the vector areas of the triangles around its position; a hash table of positions finds them in
+ * linear time.
  */
 #include "meshes/mesh.h"
 
@@ -39,7 +39,7 @@ void koksma__mesh_fini(koksma__mesh *mesh)
     *mesh = (koksma__mesh){0};
 }
 
-/* Twice the area of triangle t, along its normal. */
+/* Twice the vector area of triangle t: its length is twice the area, its direction the normal. */
 static void twice_area(const koksma__mesh *m, size_t t, double out[3])
 {
     double corners[3][3], a[3], b[3];
@@ -58,7 +58,8 @@ static koksma_status check_vertices(koksma__mesh *m)
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < m->n_vertices; i++) {
         for (size_t k = 0; k < 3; k++) {
-            const float x = m->vertices[3 * i + k] += 0.0f; /* -0 and 0 are one place */
+            /* turns -0 into 0, so that equal positions have equal bits */
+            const float x = m->vertices[3 * i + k] += 0.0f;
             KOKSMA__FAIL_IF(!(fabsf(x) <= (float)FAR), KOKSMA_MALFORMED,
                             "vertex %zu has a coordinate of %g: it takes -1e6 to 1e6", i, (double)x);
             low[k] = x < low[k] ? x : low[k];
@@ -81,7 +82,7 @@ static koksma_status check_vertices(koksma__mesh *m)
         double v[3] = {(double)n[0], (double)n[1], (double)n[2]};
         const bool whole = isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) && koksma__normalise(v);
         for (size_t k = 0; k < 3; k++) {
-            n[k] = whole ? (float)v[k] + 0.0f : 0; /* none: the triangle's own is taken */
+            n[k] = whole ? (float)v[k] + 0.0f : 0; /* a normal of 0 means that the triangle's normal is used */
         }
     }
     return KOKSMA_OK;
@@ -105,8 +106,8 @@ koksma_status koksma__mesh_check(koksma__mesh *m)
     return status;
 }
 
-/* For each vertex the first one at the same place: files repeat vertices where textures have seams. NULL when memory
-   runs out; the caller frees it. */
+/* For each vertex the first vertex at the same position: files repeat vertices where textures have seams. Returns
+   NULL when memory runs out; the caller frees the result. */
 static uint32_t *first_alike(const koksma__mesh *m)
 {
     size_t room = 16;
@@ -118,7 +119,7 @@ static uint32_t *first_alike(const koksma__mesh *m)
         const float *v = m->vertices + 3 * i;
         const float place[3] = {v[0] + 0.0f, v[1] + 0.0f, v[2] + 0.0f}; /* -0 is 0 */
         size_t at = koksma__hash(place, sizeof place) & (room - 1);
-        while (table[at]) { /* 1 + the number of a vertex */
+        while (table[at]) { /* an entry is 1 + the index of a vertex; 0: free */
             const float *w = m->vertices + 3 * (size_t)(table[at] - 1);
             if (w[0] == v[0] && w[1] == v[1] && w[2] == v[2]) {
                 break;
@@ -236,8 +237,8 @@ bool koksma__matrix_mirrors(const double m[12])
            0;
 }
 
-/* The determinant over the columns' lengths: the volume of the parallelepiped over that of a box with its edges. Its
-   entries may have been rounded to 24 bits. */
+/* Compares the determinant with the product of the columns' lengths: the ratio is the volume of the parallelepiped
+   over that of a box with the same edges. The matrix's entries may have been rounded to 24 bits. */
 bool koksma__matrix_flattens(const double m[12])
 {
     double columns[3][3], cross[3], box = 1;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the readers of mesh files share: lists that grow, the limits of a file, fans of triangles, and how the files
- * are found that a model names. The readers' time is linear in the file's size. They take at most 36 bytes of memory
- * for a byte of text (an OBJ file whose corners are all "1 "), and all meshes of a file together have at most 64 Mi
- * vertices and triangles, whatever the file says.
+ * What the readers of mesh files share: lists that grow, the limits of a file, fans of triangles, and the search for
+ * files that a model names. Reading takes time linear in the file's size, and at most 36 bytes of memory for each
+ * byte of text (an OBJ file whose corners are all "1 "). All meshes of a file together have at most 64 Mi vertices
+ * and triangles.
  */
 #include "meshes/mesh_file.h"
 
@@ -25,7 +25,7 @@ bool koksma__is_file(const char *path)
     return !stat(path, &about) && !S_ISDIR(about.st_mode);
 }
 
-/* Decodes what is encoded; false: that is nothing, or a zero. */
+/* Decodes %20 and other URI escapes in place; false: there are none, or one encodes a zero byte. */
 static bool decode(char *text)
 {
     char *to = text;
@@ -44,7 +44,7 @@ static bool decode(char *text)
     return any;
 }
 
-/* Writes \ as /; false: there is none. */
+/* Replaces \ by /; false: there is none. */
 static bool use_slashes(char *text)
 {
     bool any = false;

@@ -1,82 +1,85 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a mesh file holds, as plain data: meshes, materials, where nodes place the meshes, lights and a camera. The
+/* The contents of a mesh file as plain data: meshes, materials, their placements by nodes, lights and a camera. The
    readers (mesh_obj.c, mesh_mtl.c, mesh_off.c, mesh_ply.c, gltf_*.c) fill it in one pass over the file;
-   scene/model_build.c makes a scene of it, koksma__mesh_read() one mesh. */
+   scene/model_build.c builds a scene from it, koksma__mesh_read() a single mesh. */
 #ifndef KOKSMA_MESHES_MESH_FILE_H
 #define KOKSMA_MESHES_MESH_FILE_H
 
 #include "core/read_file.h"
 #include "meshes/mesh.h"
 
-/* An array that grows to twice its capacity. */
+/* An array whose capacity doubles when it is full. */
 typedef struct koksma__list {
     void *items;
     size_t n, capacity;
 } koksma__list;
 
-/* The first of `more` new items at the list's end, zeroed, until the next call; NULL when memory runs out, which is
-   the error's text then. */
+/* Adds `more` zeroed items at the list's end and returns the first; the pointer is valid until the next call. When
+   memory runs out it returns NULL and sets the error's text. */
 void *koksma__list_add(koksma__list *list, size_t more, size_t item_size);
 
-/* Makes room for `more` items behind the list's end; false when memory runs out, which is the error's text then. */
+/* Reserves capacity for `more` items after the list's end. When memory runs out it returns false and sets the error's
+   text. */
 bool koksma__list_reserve(koksma__list *list, size_t more, size_t item_size);
 
-/* A texture that a material names: a file beside the model, or, `within`, bytes that the model holds. */
+/* A texture that a material names: a file beside the model, or, if `within`, bytes inside the model. */
 typedef struct koksma__file_texture {
     char *name; /* owned; NULL: there is no texture */
     bool within;
-    const unsigned char *bytes; /* NULL: the model holds it in a way that is not read */
+    const unsigned char *bytes; /* NULL: the model stores it in a way that is not supported */
     size_t size;
-    bool moved, nearest; /* of texture coordinates with v upwards: at matrix (u, v, 1) */
+    bool moved, nearest; /* moved: the texture coordinates, with v upwards, are transformed to matrix (u, v, 1) */
     float matrix[6], scale;
-    int wrap[2]; /* of glTF: 10497 repeated, 33071 held at the edge, 33648 mirrored; 0: repeated */
+    int wrap[2]; /* glTF's numbers: 10497 repeated, 33071 clamped to the edge, 33648 mirrored; 0: repeated */
 } koksma__file_texture;
 
-/* Textures are multiplied by colour and glow. */
+/* A material as its file gives it. The values of textures are multiplied by colour and glow. */
 typedef struct koksma__file_material {
     float colour[3], metallic, roughness;
     double glow[3];
     koksma__file_texture colour_map, glow_map;
-    bool see_through; /* it has a transparency that is not read */
-    /* of glTF: metal and roughness mix, and there are more textures */
-    bool principled, blends, tinted; /* blends: by alpha and the transparency of colour_map; tinted: by vertices */
-    double ior, alpha, cutoff;       /* cutoff 0: a share of the rays */
+    bool see_through; /* the material has a transparency that is not supported */
+    /* for glTF: metallic and roughness values, and further textures */
+    /* blends: by alpha and the transparency of colour_map; tinted: by vertex colours */
+    bool principled, blends, tinted;
+    double ior, alpha, cutoff; /* cutoff 0: alpha is the fraction of the rays that meet the surface */
     koksma__file_texture surface_map, normal_map;
 } koksma__file_material;
 
-/* A mesh in its file's coordinates, not yet checked, and the number of its material. */
+/* A mesh in its file's coordinates, not checked yet, and the index of its material. */
 typedef struct koksma__file_mesh {
     koksma__mesh mesh;
     size_t material;
 } koksma__file_mesh;
 
-/* Mesh number `mesh` at matrix. */
+/* A placement of mesh number `mesh` by matrix. */
 typedef struct koksma__file_placement {
     size_t mesh;
     double matrix[12];
 } koksma__file_placement;
 
-/* A light at a node: a point at its origin, or a spot, which shines down its -z; or, far_away, parallel light down its -z. */
+/* A light at a node: a point at the node's origin; or, if is_spot, a spot that shines along the node's -z; or, if
+   far_away, parallel light along the node's -z. */
 typedef struct koksma__file_light {
     bool far_away, is_spot;
-    double outer, inner;          /* angles of a spot's cone, in radians */
-    double colour[3], matrix[12]; /* colour times intensity; the node's matrix */
+    double outer, inner;          /* half-angles of a spot's cone, in radians */
+    double colour[3], matrix[12]; /* colour times intensity; the node's world matrix */
 } koksma__file_light;
 
 typedef struct koksma__mesh_file {
     const char *path;
-    uint64_t hash; /* the sum of the hashes of all files that were read, as often as stored studies count them */
+    uint64_t hash; /* sum of the hashes of all files read, each as many times as stored studies count it */
     koksma__list meshes, materials, placements, lights;
-    size_t n_vertices, n_triangles; /* of all meshes */
-    double yfov_rad, camera[12];    /* of the camera; yfov_rad 0: there is none */
+    size_t n_vertices, n_triangles; /* totals of all meshes */
+    double yfov_rad, camera[12];    /* the camera; yfov_rad 0: there is none */
     koksma__unread unread;
-    koksma__list owned; /* blocks of memory that textures' bytes lie in */
+    koksma__list owned; /* blocks of memory that hold textures' bytes */
 } koksma__mesh_file;
 
 /* Frees all that the file owns. */
 void koksma__mesh_file_fini(koksma__mesh_file *file);
 
-/* Items by number. */
+/* Return the item with index i. */
 static inline koksma__file_mesh *koksma__file_mesh_at(const koksma__mesh_file *f, size_t i)
 {
     return (koksma__file_mesh *)f->meshes.items + i;
@@ -90,30 +93,31 @@ static inline koksma__file_placement *koksma__file_placement_at(const koksma__me
     return (koksma__file_placement *)f->placements.items + i;
 }
 
-/* Appends a mesh; the file owns it from now on, even after a failure. The vertices and triangles of a file's meshes
-   together are at most as many as a mesh may have, so that a small file that names one mesh many times can't fill
-   the memory. Errors: MALFORMED, MEMORY. */
+/* Appends a mesh; the file owns it from now on, even after a failure. The vertices and triangles of all meshes of a
+   file together are limited to those allowed for one mesh, so that a small file that names one mesh many times can't
+   fill the memory. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, size_t material);
 
-/* One more placement; matrix: NULL for the identity. Errors: MALFORMED (over 2^20), MEMORY. */
+/* Adds a placement; matrix: NULL for the identity. Errors: MALFORMED (over 2^20), MEMORY. */
 koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, const double *matrix);
 
-/* One more material: Lambert of this grey. *out holds until the next call. Errors: MEMORY. */
+/* Adds a Lambert material of this grey. *out is valid until the next call. Errors: MEMORY. */
 koksma_status koksma__file_add_material(koksma__mesh_file *f, float grey, koksma__file_material **out);
 
-/* Adds a fan of triangles around the polygon's first corner to a list of 3 indices a triangle: exact for convex
-   polygons; of a concave one some triangles may reach outside of it or overlap. Errors, which name path: MALFORMED
-   (too many triangles), MEMORY. */
+/* Adds a fan of triangles around the polygon's first corner to a list of 3 indices a triangle: this is exact for
+   convex polygons; for a concave polygon some triangles may reach outside of the polygon or overlap. Errors, which
+   name path: MALFORMED (too many triangles), MEMORY. */
 koksma_status koksma__fan_add(const char *path, koksma__list *indices, const uint32_t *corners, size_t n);
 
-/* Hands the list's indices over to a mesh without triangles. */
+/* Moves the list's indices into a mesh that has no triangles yet. */
 void koksma__fan_finish(koksma__list *indices, koksma__mesh *mesh);
 
-/* Whether there is something that is no folder; koksma__read_file refuses what is no plain file. */
+/* Whether the path exists and is not a folder; koksma__read_file rejects everything but plain files. */
 bool koksma__is_file(const char *path);
 
-/* The file beside the model that a model names: as it stands there, or with its %20 and the like decoded (names
-   in glTF are URIs: RFC 3986, section 2.1), or with \ taken for / (OBJ files of Windows). false: there is none. */
+/* Finds the file beside the model that a model names: by the exact name, or with %20 and other escapes decoded (names
+   in glTF are URIs: RFC 3986, section 2.1), or with \ replaced by / (OBJ files from Windows). Returns false if there
+   is no such file. */
 bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MAX_PATH]);
 
 #endif

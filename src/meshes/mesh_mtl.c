@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins a material, or goes on with one that
- * has the name. Read are Kd (colour), Ke (emission), d and Tr (opaque or not), Pm and Pr (metallic, roughness),
- * map_Kd and map_Ke or map_emissive (textures, whose options are passed over); other keywords say nothing about what
- * is rendered here. A colour is one to three numbers; the missing ones are as the first. Format: Wavefront's
- * "Advanced Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
+ * OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins a material, or continues the one
+ * that has this name. The reader uses Kd (colour), Ke (emission), d and Tr (opaque or not), Pm and Pr (metallic,
+ * roughness), map_Kd and map_Ke or map_emissive (textures, whose options are skipped), and ignores all other
+ * keywords. A colour is one to three numbers; missing numbers are equal to the first. Format: Wavefront's "Advanced
+ * Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
  */
 #include "meshes/mesh_mtl.h"
 
@@ -24,7 +24,7 @@ static koksma__mtl_name *name_at(const koksma__mtl_names *names, size_t i)
     return (koksma__mtl_name *)names->names.items + i;
 }
 
-/* The slot of the name, or the free one that it would have. */
+/* The hash table's slot that holds the name, or the free slot for it. */
 static uint32_t *slot_of(const koksma__mtl_names *names, const char *name, size_t length)
 {
     size_t at = koksma__hash(name, length) & (names->n_slots - 1);
@@ -95,7 +95,7 @@ void koksma__mtl_names_fini(koksma__mtl_names *names)
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */
 
-/* A word that is a number below 1e38; false leaves the line's rest as it was. */
+/* Reads a word that is a number below 1e38; false: there is none, and nothing was consumed. */
 static bool take_number(koksma__text *t, float *out)
 {
     koksma__text after = *t;
@@ -129,7 +129,8 @@ static koksma_status take_colour(koksma__text *t, float out[3])
     return KOKSMA_OK;
 }
 
-/* "-s 2 1 image.png": the name behind the options. Of these -o, -s and -t have one to three numbers. */
+/* The file's name after the options, as in "-s 2 1 image.png". The options -o, -s and -t have one to three
+   numbers. */
 static koksma_status take_texture(koksma__text *t, koksma__file_texture *out)
 {
     static const struct {
@@ -173,7 +174,7 @@ static koksma_status take_one(koksma__text *t, float *out)
     return take_number(t, out) ? KOKSMA_OK : koksma__text_wrong(t, "a number below 1e38 is due");
 }
 
-/* What a line says of material m. */
+/* Reads one line's property of material m. */
 static koksma_status take_property(koksma__text *t, const char *word, size_t length, koksma__file_material *m)
 {
     float value = 1, glow[3];

@@ -7,18 +7,20 @@
 
 typedef struct koksma__mtl_name {
     char *name;      /* owned */
-    size_t material; /* its number in the mesh file */
-    bool made;       /* by a material file; else only used */
+    size_t material; /* index of the material in the mesh file */
+    bool made;       /* whether a material file defines it; else it is only used */
 } koksma__mtl_name;
 
-/* An open hash table of the names: 1 + a name's number, or 0; at most half of the slots are taken. */
+/* A hash table of names with open addressing: a slot is 1 + the index of a name, or 0 if free; at most half are in
+   use. */
 typedef struct koksma__mtl_names {
     koksma__list names;
     uint32_t *slots;
     size_t n_slots;
 } koksma__mtl_names;
 
-/* The name, added with a grey material if it is new; NULL when memory runs out. It holds until the next call. */
+/* The entry of the name, added with a grey material if the name is new; NULL when memory runs out. The pointer is
+   valid until the next call. */
 koksma__mtl_name *koksma__mtl_find(koksma__mtl_names *names, koksma__mesh_file *f, const char *name, size_t length);
 void koksma__mtl_names_fini(koksma__mtl_names *names);
 

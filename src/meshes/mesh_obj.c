@@ -3,12 +3,12 @@
  * OBJ files: polygons with their texture coordinates, normals and materials. Lines and points, curves and surfaces,
  * and smoothing groups are not read.
  *
- * A corner names a vertex and maybe a texture vertex and a normal, by numbers that count from 1, or from the last one
- * backwards if they are negative. Numbers may point forward in the file, so the corners are kept until its end and
- * become vertices then, each its own: what OBJ shares are positions, not vertices. Polygons are fans of triangles. A
- * new mesh begins where o or g name another object or group and where usemtl names another material; polygons before
- * the first usemtl are grey. A mesh has normals or texture coordinates if any of its corners names one; the others'
- * are 0.
+ * A corner names a position and perhaps a texture vertex and a normal, by numbers that count from 1, or backwards
+ * from the last one if they are negative. Numbers may refer to later lines, so the corners are stored until the end
+ * of the file; then each corner becomes a vertex of its own, because OBJ files share positions, not vertices.
+ * Polygons are fans of triangles. A new mesh begins where o or g name another object or group and where usemtl names
+ * another material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of
+ * its corners names one; those of its other corners are 0.
  *
  * Format: Wavefront's "Advanced Visualizer Manual", appendix B1.
  */
@@ -24,38 +24,38 @@
 
 enum { MAX_LINE = 1 << 15, MAX_LIBRARIES = 64 };
 
-/* Kinds of things that corners name, in their order there. */
+/* The kinds of items that a corner names, in their order within a corner. */
 enum { PLACE, TEXTURE, NORMAL, KINDS };
 
-/* Floats of a thing. */
+/* Number of floats of an item of each kind. */
 static const size_t widths[KINDS] = {[PLACE] = 4, [TEXTURE] = 2, [NORMAL] = 3};
 
-/* Numbers from 1 on; 0: none. */
+/* A corner's numbers of items, from 1 on; 0: none. */
 typedef struct corner {
     uint32_t names[KINDS];
 } corner;
 
-/* Corners and indices of one mesh: from these on, up to the next mesh's. */
+/* Start of one mesh's corners and indices, which end where the next mesh's begin. */
 typedef struct part {
     size_t first_corner, first_index, material;
-    int kinds; /* that its corners name, as bits */
+    int kinds; /* kinds of items that its corners name, as bits */
 } part;
 
 typedef struct obj {
     koksma__text text;
     koksma__mesh_file *out;
-    koksma__list vertices[KINDS]; /* floats: x y z, and 1 for one whose colour isn't white; u v; x y z */
+    koksma__list vertices[KINDS]; /* floats: x y z, and 1 if the colour is not white; u v; x y z */
     koksma__list corners, indices, parts;
-    size_t highest[KINDS]; /* that was named */
-    size_t line_of[KINDS]; /* that names it first */
+    size_t highest[KINDS]; /* largest number that a corner names */
+    size_t line_of[KINDS]; /* line that names it first */
     koksma__mtl_names names;
-    koksma__list used;                 /* numbers of names in the order of their first use, a size_t each */
-    size_t material;                   /* of the polygons to come */
-    bool split;                        /* the next polygon begins a mesh */
-    uint64_t group, object;            /* hashes of their names */
-    uint64_t libraries[MAX_LIBRARIES]; /* hashes of what followed mtllib */
+    koksma__list used;                 /* size_t indices of names in the order of their first use */
+    size_t material;                   /* of the following polygons */
+    bool split;                        /* the next polygon begins a new mesh */
+    uint64_t group, object;            /* hashes of the current names */
+    uint64_t libraries[MAX_LIBRARIES]; /* hashes of the mtllib lines' names */
     size_t n_libraries;
-    bool own_library; /* the material file of the model's own name was read */
+    bool own_library; /* the material file with the model's own name was read */
     char joined[MAX_LINE + 1];
 } obj;
 
@@ -66,7 +66,7 @@ static koksma_status wrong(const obj *o, const char *reason)
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */
 
-/* Appends lines to the current one as long as it ends in a backslash. */
+/* Appends the next line to the current one for as long as it ends in a backslash. */
 static koksma_status join_lines(obj *o)
 {
     koksma__text *t = &o->text;
@@ -92,7 +92,7 @@ static koksma_status join_lines(obj *o)
     return KOKSMA_OK;
 }
 
-/* Cuts a comment at the line's end off. */
+/* Removes a comment at the line's end. */
 static void cut_comment(koksma__text *t)
 {
     const char *comment = memchr(t->at, '#', (size_t)(t->stop - t->at));
@@ -101,7 +101,8 @@ static void cut_comment(koksma__text *t)
 
 /* ---- Vertices ----------------------------------------------------------------------------------------------- */
 
-/* Numbers up to the line's end; how many, or -1 where one is none, is not below 1e38 or there are more than most. */
+/* Reads the numbers up to the line's end and returns their count; -1 if a word is not a number or not below 1e38, or
+   if there are more than `most`. */
 static int take_numbers(obj *o, int most, float *out)
 {
     koksma__text *t = &o->text;
@@ -144,13 +145,13 @@ static koksma_status take_vertex(obj *o, int kind)
 
 /* ---- Polygons ----------------------------------------------------------------------------------------------- */
 
-/* How many of a kind there are so far. */
+/* The number of items of a kind read so far. */
 static size_t count_of(const obj *o, int kind)
 {
     return o->vertices[kind].n / widths[kind];
 }
 
-/* One number of a corner. */
+/* Reads one number of a corner. */
 static bool take_index(obj *o, int kind, const char **at, const char *end, uint32_t *out)
 {
     const bool back = *at < end && **at == '-';
@@ -169,7 +170,8 @@ static bool take_index(obj *o, int kind, const char **at, const char *end, uint3
     return true;
 }
 
-/* v, v/t, v//n or v/t/n, some write v/ or v//; the kinds that it names as bits, or 0 where it is none. */
+/* Reads a corner: v, v/t, v//n or v/t/n; some writers also use v/ or v//. Returns the kinds of items that the corner
+   names, as bits, or 0 if it is not a corner. */
 static int take_corner(obj *o, const char *at, const char *end, corner *out)
 {
     int kinds = 0;
@@ -187,7 +189,7 @@ static int take_corner(obj *o, const char *at, const char *end, corner *out)
     return at == end ? kinds : 0;
 }
 
-/* The mesh that the next polygon belongs to; NULL when memory runs out. */
+/* The mesh to which the next polygon belongs; NULL when memory runs out. */
 static part *find_part(obj *o)
 {
     part *last = o->parts.n ? (part *)o->parts.items + o->parts.n - 1 : NULL;
@@ -202,7 +204,8 @@ static part *find_part(obj *o)
     return new;
 }
 
-/* Corners of a face, line or point, all alike; of a face they become triangles. */
+/* Reads the corners of a face, line or point, which must all name the same kinds of items; a face becomes
+   triangles. */
 static koksma_status take_corners(obj *o, bool face)
 {
     koksma__text *t = &o->text;
@@ -256,7 +259,7 @@ static koksma_status use_material(obj *o, const char *name, size_t length)
     const koksma__mtl_name *found = koksma__mtl_find(&o->names, o->out, name, length);
     KOKSMA__TRY(found ? KOKSMA_OK : KOKSMA_MEMORY);
     o->material = found->material;
-    if (o->names.names.n > known) { /* the first use of a name that no material file makes so far */
+    if (o->names.names.n > known) { /* a new name: no material file read so far defines it */
         size_t *to = koksma__list_add(&o->used, 1, sizeof *to);
         KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
         *to = known;
@@ -264,7 +267,7 @@ static koksma_status use_material(obj *o, const char *name, size_t length)
     return KOKSMA_OK;
 }
 
-/* Where a material file isn't there the one of the model's own name is read. */
+/* If a material file is missing, reads the one that has the model's own name. */
 static koksma_status note_missing(obj *o, const char *name)
 {
     char own[KOKSMA__MAX_PATH];
@@ -281,7 +284,7 @@ static koksma_status note_missing(obj *o, const char *name)
     return koksma__is_file(own) ? koksma__mtl_read(own, &o->names, o->out) : KOKSMA_OK;
 }
 
-/* What follows mtllib: one name with blanks, or several. */
+/* Reads the names after mtllib: one name that contains blanks, or several names. */
 static koksma_status take_libraries(obj *o, const char *rest, size_t length)
 {
     char name[KOKSMA__MAX_PATH], path[KOKSMA__MAX_PATH];
@@ -311,7 +314,7 @@ static koksma_status take_libraries(obj *o, const char *rest, size_t length)
     return status;
 }
 
-/* A group or object of another name than the last begins a mesh. */
+/* Begins a new mesh if the group's or object's name differs from the last one. */
 static void take_group(obj *o, uint64_t *last, const char *name, size_t length)
 {
     const uint64_t hash = koksma__hash(name, length);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * OFF files in their plain text form: "OFF", a line with the numbers of vertices and faces, then one of either a
- * line. Comments go from # to the line's end; what follows a vertex's or face's numbers (colours) is not read. A face
- * is the number of its corners and their vertices, from 0 on; it becomes a fan of triangles. The variants with a
- * prefix (COFF, NOFF, STOFF, 4OFF, nOFF) and the binary form are refused by their first line.
- * Format: http://www.geomview.org/docs/html/OFF.html.
+ * OFF files in their plain text form: "OFF", a line with the numbers of vertices and faces, then one line for each
+ * vertex and each face. Comments go from # to the line's end; anything after a vertex's or face's numbers, such as
+ * colours, is ignored. A face is given by the number of its corners and the indices of their vertices, from 0 on; it
+ * becomes a fan of triangles. The variants with a prefix (COFF, NOFF, STOFF, 4OFF, nOFF) and the binary form are
+ * recognised by their first line and rejected. Format: http://www.geomview.org/docs/html/OFF.html.
  */
 #include "meshes/mesh_off.h"
 
@@ -18,7 +18,7 @@ typedef struct off {
     koksma__list positions, corners, indices; /* corners: of one face */
 } off;
 
-/* Goes to the next line that has something beside a comment. */
+/* Goes to the next line that has more than a comment. */
 static koksma_status next_line(off *o)
 {
     return koksma__text_full_line(&o->text, '#');
@@ -67,7 +67,7 @@ static koksma_status take_face(off *o)
     if (!take_whole(&o->text, &corners) || corners < 1) {
         return koksma__text_wrong(&o->text, "a face is the number of its corners, and their vertices");
     }
-    for (long long i = 0; i < corners; i++) { /* ends with the line, whatever is claimed */
+    for (long long i = 0; i < corners; i++) { /* stops at the line's end, even if more corners are claimed */
         if (!take_whole(&o->text, &vertex) || vertex >= o->vertices) {
             return koksma__text_wrong(
                 &o->text, "a face is the number of its corners, and their vertices, each below the number of these");
@@ -85,7 +85,7 @@ static koksma_status finish(off *o, koksma__mesh_file *out)
     koksma__file_material *grey;
     koksma_status status = koksma__mesh_init(o->positions.n / 3, 0, false, false, &mesh);
     if (!status) {
-        if (o->positions.n) { /* else there are no items to copy from */
+        if (o->positions.n) { /* without positions there is nothing to copy */
             memcpy(mesh.vertices, o->positions.items, o->positions.n * sizeof *mesh.vertices);
         }
         koksma__fan_finish(&o->indices, &mesh);
@@ -100,7 +100,8 @@ koksma_status koksma__off_read(const unsigned char *bytes, size_t size, koksma__
 {
     off o = {.text = koksma__text_open(out->path, bytes, size)};
     koksma_status status = take_header(&o);
-    for (long long i = 0; !status && i < o.vertices; i++) { /* ends with the file, whatever is claimed */
+    /* stops at the file's end, even if more vertices are claimed */
+    for (long long i = 0; !status && i < o.vertices; i++) {
         status = next_line(&o);
         status = status ? status : take_vertex(&o);
     }

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * PLY files, as text and binary in either byte order. The header names elements, how many of each there are, and
- * their properties: numbers, or lists of numbers. Elements follow in that order, as text one a line.
+ * PLY files, as text and binary in either byte order. The header lists the kinds of elements, the number of each, and
+ * their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one line.
  *
  * Of "vertex" the properties x y z, nx ny nz, texture coordinates (u v, s t, tx ty, texture_u texture_v) and colours
  * (only whether there are any) are read; of "face" the list vertex_indices or vertex_index, a fan of triangles, and
- * the list texcoord, u and v for each corner, which become those of the vertices: where faces differ in them at a
- * vertex that they share, the last one's stay. A comment "TextureFile NAME" names the texture. Everything else is
- * passed over, but checked: a file that is cut short or has another number where one was due is an error.
+ * the list texcoord, u and v for each corner, which become the texture coordinates of the vertices: if faces that
+ * share a vertex disagree, the last face wins. A comment "TextureFile NAME" names the texture. Everything else is
+ * skipped, but still checked: a file that is cut short, or that lacks a number where the header requires one, is an
+ * error.
  *
  * Format: G. Turk, "The PLY Polygon File Format" (1994); texcoord and TextureFile are MeshLab's.
  */
@@ -21,26 +22,27 @@
 
 enum { MAX_ELEMENTS = 64, MAX_PROPERTIES = 1024, NAME = 64 };
 
-/* What a property of the file means: before N_NUMBERS a number of each vertex, after it a list of each face. */
+/* The meaning of a property: values before N_NUMBERS are numbers of each vertex, those after are lists of each
+   face. */
 typedef enum slot { X, Y, Z, NX, NY, NZ, U, V, RED, GREEN, BLUE, N_NUMBERS, CORNERS, WEDGES, UNUSED } slot;
 
 typedef struct type {
     const char *names[2];
     size_t bytes;
     enum { WHOLE, NATURAL, REAL } kind;
-    double full; /* the value of a full colour */
+    double full; /* the value that means full intensity of a colour */
 } type;
 
 typedef struct property {
-    const type *count, *item; /* count: of a list; else NULL */
+    const type *count, *item; /* count: the type of a list's length; NULL: not a list */
     slot slot;
 } property;
 
 typedef struct element {
     char name[NAME];
     size_t count;
-    int first, n; /* of its properties */
-    size_t bytes; /* that one takes at least */
+    int first, n; /* range of its properties */
+    size_t bytes; /* least size of one element */
 } element;
 
 typedef struct ply {
@@ -73,7 +75,7 @@ static const type *find_type(const char *name)
     return NULL;
 }
 
-/* By the names that properties of these purposes have, each between blanks. */
+/* Finds a property's meaning by its name; the tables list the names of each meaning, separated by blanks. */
 static slot find_slot(const char *of, const char *name, bool list)
 {
     static const char *const names[] = {[X] = " x ",
@@ -124,7 +126,8 @@ static koksma_status take_property(ply *p, const char *line)
     if (!to->item || (to->slot == CORNERS && to->item->kind == REAL)) {
         return koksma__text_wrong(&p->text, "no property of a known type");
     }
-    e->bytes += p->is_text ? 2 : to->count ? to->count->bytes : to->item->bytes; /* as text a digit and a blank */
+    /* as text at least a digit and a blank */
+    e->bytes += p->is_text ? 2 : to->count ? to->count->bytes : to->item->bytes;
     p->n_properties++;
     e->n++;
     return KOKSMA_OK;
@@ -152,7 +155,7 @@ static koksma_status take_element(ply *p, const char *line)
     return KOKSMA_OK;
 }
 
-/* The next line of the header into `line`. */
+/* Reads the next line of the header into `line`. */
 static koksma_status next_header_line(ply *p, char line[1024])
 {
     if (!koksma__text_line(&p->text)) {
@@ -199,7 +202,7 @@ static koksma_status take_header(ply *p)
     return status;
 }
 
-/* Whether the file can be as long as its counts say: before memory and time are spent on it. */
+/* Checks that the file can be as long as its counts claim, before memory and time are spent on it. */
 static koksma_status check_length(const ply *p)
 {
     const koksma__text *t = &p->text;
@@ -219,7 +222,7 @@ static koksma_status check_length(const ply *p)
 
 /* ---- Numbers ------------------------------------------------------------------------------------------------ */
 
-/* As text: the next number of the line; a whole one into both. */
+/* Reads the next number of a text line; a whole number is stored in both results. */
 static koksma_status take_text(ply *p, const type *of, double *real, long long *whole)
 {
     const char *word;
@@ -240,7 +243,8 @@ static koksma_status take_text(ply *p, const type *of, double *real, long long *
         return KOKSMA_OK;
     }
     if (length == 3u + sign && (!memcmp(word + sign, "nan", 3) || !memcmp(word + sign, "inf", 3))) {
-        *real = NAN; /* some properties are; where a vertex is, koksma__mesh_check() says it */
+        /* some files have "nan" for unused properties; koksma__mesh_check() rejects positions that are NaN */
+        *real = NAN;
         return KOKSMA_OK;
     }
     if (!koksma__text_float(&at, end, &value) || at != end) {
@@ -279,7 +283,7 @@ static double real_at(const ply *p, const type *of, const unsigned char *at)
     return of->bytes == 8 ? wide : (double)narrow;
 }
 
-/* The next number of an element; binary ones are there, which the caller saw. */
+/* Reads the next number of an element. For a binary file the caller has checked that enough bytes remain. */
 static inline koksma_status take_number(ply *p, const type *of, bool as_whole, double *real, long long *whole)
 {
     if (p->is_text) {
@@ -297,7 +301,7 @@ static inline koksma_status take_number(ply *p, const type *of, bool as_whole, d
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* Number i of element e names this vertex. */
+/* Checks that number i of element e is the index of a vertex. */
 static koksma_status check_corner(const ply *p, const element *e, size_t i, long long vertex)
 {
     char where[40] = "";
@@ -311,7 +315,8 @@ static koksma_status check_corner(const ply *p, const element *e, size_t i, long
                         where, e->name, i, vertex, p->n_vertices);
 }
 
-/* Where the mesh has these numbers of its vertices, *step apart. NULL: it has none such (colours). */
+/* The mesh's array for a property of its vertices, with entries *step numbers apart. NULL: the property is not stored
+   (colours). */
 static float *numbers_of(const ply *p, slot to, size_t *step)
 {
     const koksma__mesh *m = &p->mesh;
@@ -330,7 +335,7 @@ static void put_vertex(ply *p, size_t i, slot to, const type *of, double value)
     }
 }
 
-/* Stores item j of a face's list: the index of a corner, or a texture coordinate of one. */
+/* Stores item j of a face's list: the index of a corner, or a corner's texture coordinate. */
 static koksma_status put_listed(ply *p, const element *e, size_t i, const property *of, long long n, long long j)
 {
     const bool wedge = of->slot == WEDGES;
@@ -387,7 +392,8 @@ static koksma_status take_list(ply *p, const element *e, size_t i, const propert
         p->mesh.uvs = calloc(2 * p->n_vertices + 1, sizeof *p->mesh.uvs);
         status = p->mesh.uvs ? KOKSMA_OK : koksma__fail_memory(2 * p->n_vertices * sizeof *p->mesh.uvs);
     }
-    for (long long j = 0; !status && j < n; j++) { /* as text it ends with the line, whatever is claimed */
+    /* as text it stops at the line's end, even if more items are claimed */
+    for (long long j = 0; !status && j < n; j++) {
         status = put_listed(p, e, i, of, n, j);
     }
     return status;
@@ -423,7 +429,8 @@ static koksma_status take_item(ply *p, const element *e, size_t i, bool vertices
     return koksma__fan_add(p->text.path, &p->indices, p->corners.items, p->corners.n);
 }
 
-/* Property `of` of binary vertices first .. first + n - 1, of which the first is at `at`, each stride bytes long. */
+/* Reads property `of` of the binary vertices first .. first + n - 1; the first one is at `at`, and each takes stride
+   bytes. */
 static void take_column(ply *p, const property *of, const unsigned char *at, size_t stride, size_t first, size_t n)
 {
     size_t step;
@@ -440,8 +447,8 @@ static void take_column(ply *p, const property *of, const unsigned char *at, siz
     }
 }
 
-/* Binary vertices without lists, in blocks that stay in the cache, one property after the other, so that its type is
-   looked up once a block. Returns how many: all that the file has in full. */
+/* Reads binary vertices without lists, in blocks that fit the cache, one property after the other, so that a
+   property's type is looked up once a block. Returns the number of vertices that the file holds in full. */
 static size_t take_vertices(ply *p, const element *e)
 {
     enum { BLOCK = 512 };
@@ -452,7 +459,8 @@ static size_t take_vertices(ply *p, const element *e)
         }
         stride += p->properties[k].item->bytes;
     }
-    const size_t there = (size_t)(p->text.end - p->text.next) / (stride ? stride : 1); /* 0: there are none */
+    /* stride 0: there are no vertices */
+    const size_t there = (size_t)(p->text.end - p->text.next) / (stride ? stride : 1);
     const size_t n = there < e->count ? there : e->count;
     for (size_t i = 0; i < n; i += BLOCK) {
         const size_t block = n - i < BLOCK ? n - i : BLOCK;
@@ -467,9 +475,9 @@ static size_t take_vertices(ply *p, const element *e)
     return n;
 }
 
-/* The triangles, at most 4096, that come next in a binary file whose faces are a count in a byte and corners of 4 bytes:
-   as most are. Sets how many; none where a face is of another kind or names a vertex that is not there, which
-   take_item() sees to. */
+/* Reads the next triangles, at most 4096, of a binary file in the most common form: a count of one byte, and corners
+   of 4 bytes. *taken is their number; it stops before a face in another form or with an index out of range, which
+   take_item() handles. */
 static koksma_status take_triangles(ply *p, const element *e, size_t most, size_t *taken)
 {
     enum { BYTES = 13, RUN = 4096 };
@@ -483,7 +491,7 @@ static koksma_status take_triangles(ply *p, const element *e, size_t most, size_
         before / 3 + RUN > KOKSMA__MAX_TRIANGLES) {
         return KOKSMA_OK;
     }
-    if (!before) { /* all faces may be triangles: their corners take less than the file does */
+    if (!before) { /* reserve for all faces as triangles: their corners take less memory than the file */
         KOKSMA__TRY(koksma__list_reserve(&p->indices, 3 * most, sizeof(uint32_t)) ? KOKSMA_OK : KOKSMA_MEMORY);
     }
     most = most < RUN ? most : RUN;
@@ -524,7 +532,7 @@ static koksma_status take_element_items(ply *p, const element *e)
     return status;
 }
 
-/* Room for the vertices, with what their properties are. */
+/* Allocates the vertices and the arrays for their properties. */
 static koksma_status make_mesh(ply *p)
 {
     bool normals = false, uvs = false;

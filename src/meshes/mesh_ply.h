@@ -5,9 +5,8 @@
 
 #include "meshes/mesh_file.h"
 
-/* Adds what the file holds to out.
-   The whole file is in memory, with a zero byte behind its end, and is not empty; out->path is set. Errors:
-   MALFORMED, MEMORY. */
+/* Adds the contents of the file to out. The whole file must be in memory, followed by a zero byte, and not empty;
+   out->path is set. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
 
 #endif

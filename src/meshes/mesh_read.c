@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Opens mesh files by the reader that the name's ending says, and joins what it reads to one mesh: the file's meshes
- * one after the other, each where its nodes place it. A file of one mesh that is placed once at the identity, as all
- * but glTF and OBJ files are, is handed over without a copy. The mesh has normals (texture coordinates) where all its
- * parts have them.
+ * Opens mesh files with the reader for the ending of their name, and joins the contents of a file into one mesh: the
+ * file's meshes one after the other, each transformed by its placement. A file with one mesh placed once at the
+ * identity, as all but glTF and OBJ files are, becomes the result without a copy. The result has normals (or texture
+ * coordinates) if all its parts have them.
  */
 #include "meshes/mesh_read.h"
 
@@ -19,9 +19,9 @@
 
 /* ---- Readers -------------------------------------------------------------------------------- */
 
-/* A reader by the ending of a file's name. The hash of a bare model's scene is the sum over its files, the model's
-   own so many `times`: stored studies find their scenes by it, and the reader that made them opened the file so
-   often. */
+/* The reader for an ending of a file's name. The hash of a model's scene is the sum of the hashes of its files, with
+   the model's own hash counted `times` times: stored studies find their scenes by this hash, and earlier versions
+   read the file that many times. */
 typedef struct reader {
     const char *ending;
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
@@ -50,14 +50,15 @@ bool koksma__is_mesh_file(const char *path)
     return find_reader(path) != NULL;
 }
 
-/* PLY and binary glTF begin with "ply" and "glTF"; all other files are text. */
+/* Checks a file's first bytes: PLY and binary glTF begin with "ply" and "glTF"; all other files must be text. */
 static koksma_status check_start(const unsigned char *bytes, size_t size)
 {
     const bool binary = size >= 4 && (!memcmp(bytes, "glTF", 4) || !memcmp(bytes, "ply", 3));
     return binary ? KOKSMA_OK : koksma__check_text(bytes, size);
 }
 
-/* hashed: else out->hash is unknown, which takes as long as reading a binary file. */
+/* Reads the file. hashed: also computes out->hash, which takes as long as reading a binary file; otherwise out->hash
+   is not set. */
 static koksma_status read_meshes(const char *path, koksma__named by, bool hashed, koksma__mesh_file *out)
 {
     unsigned char *bytes = NULL;
@@ -86,7 +87,8 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma_
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-/* x -> matrix x for a vertex, and for a normal by the inverse transposed; sign undoes the determinant's. */
+/* Appends vertices transformed by matrix, and normals transformed by its inverse transpose; `sign` cancels the sign
+   of the determinant. */
 static void append_vertices(const koksma__mesh *from, const double matrix[12], koksma__mesh *out)
 {
     const double sign = koksma__matrix_mirrors(matrix) ? -1 : 1;
@@ -107,7 +109,7 @@ static void append_vertices(const koksma__mesh *from, const double matrix[12], k
     }
 }
 
-/* Behind the vertices and triangles that out has; there is room. */
+/* Appends a mesh after the vertices and triangles of out, which has the capacity. */
 static void append(const koksma__mesh *from, const double matrix[12], koksma__mesh *out)
 {
     const bool swapped = koksma__matrix_mirrors(matrix);

@@ -2,10 +2,10 @@
 /*
  * Lines, words and numbers of text in memory, for the readers of OBJ, MTL, PLY and OFF.
  *
- * A decimal number w 10^e of up to 19 digits, w below 2^53 and |e| <= 18, is one correctly rounded operation of two
- * exact doubles (Clinger, "How to read floating point numbers accurately", 1990). Rounding that double to a float is
- * a second rounding, which goes wrong only when the double lies halfway between two floats. Those numbers, and all
- * others, go to strtof, which takes about ten times as long.
+ * A decimal number w 10^e of up to 19 digits, w below 2^53 and |e| <= 18, is computed by one correctly rounded
+ * operation on two exact doubles (Clinger, "How to read floating point numbers accurately", 1990). Rounding that
+ * double to a float is a second rounding, which can be wrong only when the double lies halfway between two floats.
+ * Such numbers, and all numbers outside these limits, are read by strtof, which takes about ten times as long.
  */
 #include "meshes/mesh_text.h"
 
@@ -91,8 +91,8 @@ size_t koksma__text_rest(koksma__text *t, const char **rest)
     return (size_t)(stop - *rest);
 }
 
-/* Digits into *w as long as it has fewer than 19; their number. *left counts those that were left out, and *lossy
-   says that one of these was not 0. */
+/* Reads digits into *w while it has fewer than 19, and returns their number. *left counts the digits after those, and
+   *lossy is set if one of these was not 0. */
 static size_t take_digits(const char **at, const char *end, uint64_t *w, int *left, bool *lossy)
 {
     const char *first = *at;
@@ -107,7 +107,7 @@ static size_t take_digits(const char **at, const char *end, uint64_t *w, int *le
     return (size_t)(*at - first);
 }
 
-/* 10 to the e-th power times w, where that is rounded once and safely; else false. */
+/* Computes w 10^e if one correct rounding is certain; else returns false. */
 static bool scale(uint64_t w, int e, float *out)
 {
     static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,

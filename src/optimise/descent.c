@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * L-BFGS (Nocedal 1980; Nocedal & Wright 2006, algorithm 7.4) with a backtracking line search. Coordinates move on the whole
- * axis for functions on the torus, and are taken back to [0,1); else they are projected to their intervals: [0,1], or those
- * of length 1/n.
+ * L-BFGS (Nocedal 1980; Nocedal & Wright 2006, algorithm 7.4) with a backtracking line search. For functions on the
+ * torus, coordinates move on the whole axis and are then reduced modulo 1 to [0,1); for others they are projected to
+ * their intervals, which are [0,1] or of length 1/n.
  *
- * Starts: half of them are the best set in which some points are drawn anew or all are moved a little; the others points
- * {i a + s}, a and s random vectors, or random points.
+ * Half of the starts are the best set with some points drawn anew or all moved a little; the others are the points {i
+ * a + s} (fractional parts) with random vectors a and s, or random points.
  */
 #include "optimise/descent.h"
 
@@ -38,7 +38,7 @@ static koksma_status value_at(koksma__descent *d, double *square)
     return d->function(d->context, &d->points, square, d->gradient);
 }
 
-/* direction = - H gradient, H the inverse Hessian that the last steps tell of (two-loop recursion). */
+/* direction = - H gradient, where H is the inverse Hessian estimated from the last steps (two-loop recursion). */
 static void find_direction(koksma__descent *d)
 {
     const size_t n = d->count, kept = d->kept < KOKSMA__MEMORY ? d->kept : KOKSMA__MEMORY;
@@ -69,7 +69,7 @@ static void find_direction(koksma__descent *d)
     }
 }
 
-/* x = before + t direction, in its intervals; what it is moved by is left in `steps`. */
+/* x = before + t direction, projected to its intervals; the actual displacement is stored in `step`. */
 static void move_by(koksma__descent *d, double t, double *step)
 {
     for (size_t c = 0; c < d->count; c++) {
@@ -82,7 +82,7 @@ static void move_by(koksma__descent *d, double t, double *step)
     }
 }
 
-/* Keeps a step if the curvature along it is positive. */
+/* Stores a step for the inverse Hessian if the curvature along it is positive. */
 static void keep_step(koksma__descent *d, const double *step)
 {
     const size_t n = d->count, at = d->kept % KOKSMA__MEMORY;
@@ -106,7 +106,7 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
     for (int k = 0; k < iterations && !status && d->work < d->budget; k++) {
         find_direction(d);
         double slope = dot(n, d->gradient, d->direction);
-        if (!(slope < 0)) { /* the curvature is not that of before */
+        if (!(slope < 0)) { /* not a descent direction: the stored steps no longer describe the curvature */
             d->kept = 0;
             find_direction(d);
             slope = dot(n, d->gradient, d->direction);
@@ -129,7 +129,8 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
         }
         bool ends = square - next <= 1e-12 * square;
         square = next;
-        if (k % STRETCH == STRETCH - 1) { /* the rest gains less than HOPE stretches like the last */
+        /* stop if HOPE more stretches with the gain of the last one would not reach the goal */
+        if (k % STRETCH == STRETCH - 1) {
             ends = ends || HOPE * (mark - square) < square - d->goal;
             mark = square;
         }
@@ -142,7 +143,7 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
     return status;
 }
 
-/* Some pairs of points, near along another axis, exchange a coordinate. */
+/* Exchanges a coordinate between some pairs of points that are near in another coordinate. */
 static void exchange(koksma__descent *d, koksma__stream *random, size_t pairs)
 {
     const size_t n = d->points.n, dim = (size_t)d->points.dim;
@@ -162,8 +163,8 @@ static void exchange(koksma__descent *d, koksma__stream *random, size_t pairs)
     }
 }
 
-/* The best set, in which one of these is changed: up to 16 points are drawn anew; pairs of points exchange a coordinate; points
-   in a window of up to four mean spacings are moved by up to a third of the mean spacing. */
+/* Changes the best set in one of these ways: up to 16 points are drawn anew; pairs of points exchange a coordinate;
+   the points in a window of up to four mean spacings are moved by up to a third of the mean spacing. */
 static void kick(koksma__descent *d, koksma__stream *random)
 {
     const size_t n = d->points.n, dim = (size_t)d->points.dim, kind = koksma__next_below(random, 3);
@@ -190,7 +191,8 @@ static void kick(koksma__descent *d, koksma__stream *random)
     }
 }
 
-/* {i a + s}: half of them with an axis i / n + s, of these half with multiples of 1/n as a, which are lattices of rank 1. */
+/* The points {i a + s} (fractional parts). In half of the cases one axis is i / n + s, and in half of those a has
+   multiples of 1/n, which makes the set a lattice of rank 1. */
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random)
 {
     const double n = (double)d->points.n;
@@ -234,9 +236,9 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
     d->direction = d->gradient + n;
     d->before = d->direction + n;
     d->gradient_before = d->before + n;
-    d->steps = d->gradient_before + 2 * n; /* the last step, not yet kept, lies before them */
+    d->steps = d->gradient_before + 2 * n; /* the current step is stored in the numbers before it */
     d->changes = d->steps + KOKSMA__MEMORY * n;
-    d->budget = fmax(1.5e7, KOKSMA__ITERATIONS * cost); /* some tenths of a second, or one descent */
+    d->budget = fmax(1.5e7, KOKSMA__ITERATIONS * cost); /* some tenths of a second, or at least one descent */
     d->length = keep == KOKSMA_KEEP_NET ? (1 - 2e-9) / (double)points->n : 1 - 0x1p-53;
     for (size_t c = 0; c < n; c++) {
         d->low[c] =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* L-BFGS of a function of the coordinates of points, and where searches that descend begin. */
+/* L-BFGS for functions of the coordinates of points, and the starting points of such descents. */
 #ifndef KOKSMA_OPTIMISE_DESCENT_H
 #define KOKSMA_OPTIMISE_DESCENT_H
 
@@ -7,7 +7,7 @@
 
 enum { KOKSMA__MEMORY = 10, KOKSMA__ITERATIONS = 300 };
 
-/* The value at the points, and its derivatives by their coordinates. */
+/* A function of points: its value, and its derivatives with respect to the coordinates. */
 typedef koksma_status (*koksma__function)(const void *context, const koksma_points *points, double *value,
                                           double *gradient);
 
@@ -17,28 +17,29 @@ typedef struct koksma__descent {
     const void *context;
     bool bounded;
     size_t count;                       /* of coordinates */
-    double *low, *gradient, *direction; /* low: of the intervals */
+    double *low, *gradient, *direction; /* low: lower ends of the coordinates' intervals */
     double *before, *gradient_before;
-    double *steps, *changes; /* KOKSMA__MEMORY of them: of x, of the gradient */
+    double *steps, *changes; /* the last KOKSMA__MEMORY differences of x and of the gradient */
     double length, products[KOKSMA__MEMORY], work, cost,
-        budget;  /* done, of one gradient, and allowed: in numbers looked at */
-    size_t kept; /* steps so far */
-    double goal; /* a descent that will hardly get there ends early */
+        budget;  /* in numbers read: work so far, cost of one gradient, most work */
+    size_t kept; /* number of steps so far */
+    double goal; /* a descent that is unlikely to reach this value ends early */
 } koksma__descent;
 
-/* Allocates for points like these, whose intervals are kept with keep=net; not bounded: coordinates are on the torus.
-   `cost` is what one call of the function counts. Errors: MEMORY. */
+/* Allocates for sets with the size of `points`; with keep=net each coordinate stays in its interval of length 1/n.
+   bounded false: coordinates are on the torus. `cost` is the work of one call of the function. Errors: MEMORY. */
 koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *points, koksma_keep keep, bool bounded,
                                    double cost);
 void koksma__descent_fini(koksma__descent *d);
 
-/* The points to begin with: the best set changed, or new ones. */
+/* Sets the points with which a descent starts: the best set changed, or new points. */
 void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep, koksma__stream *random);
 
-/* Points {i a + s}, a and s random vectors; of half of them one axis is i / n + s. */
+/* Sets the points {i a + s} (fractional parts) with random vectors a and s; in half of the cases one axis is i / n +
+   s. */
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random);
 
-/* Leaves the points at the least value found from where they are, in at most so many iterations. */
+/* Moves the points to the least value found from their position, in at most the given number of iterations. */
 koksma_status koksma__descend(koksma__descent *d, int iterations, double *least);
 
 #endif

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * digital: the generator matrices of a digital sequence in base 2, for any measure by its value. A walk adds in the matrix of
- * one coordinate a row to one below it, or a column to one on its right. Both leave the rank of the first k columns in the first k
- * rows, for all k, so that each coordinate of a (0,1)-sequence stays one: its first 2^k points have one in each interval of length
- * 2^-k. Rows added alone, Matousek's linear scrambling, leave all nets what they are; columns, which
- * change direction numbers, change how coordinates go together. Columns of coordinate 0 stay: adding them in all coordinates at
- * once changes no prefix of 2^k points. A move is kept if the value grows by no more than a threshold that falls to 0
- * (threshold accepting: Dueck & Scheuer 1990). A quarter of the walks start with 8 such moves for each column and coordinate.
+ * digital: the generator matrices of a digital sequence in base 2, for any measure, by its value alone. A move of the
+ * walk adds, in the matrix of one coordinate, a row to a row below it, or a column to a column on its right. For all
+ * k both preserve the rank of the first k columns in the first k rows, so that each coordinate remains a
+ * (0,1)-sequence: its first 2^k points include one in each interval of length 2^-k. Adding rows only, which is
+ * Matousek's linear scrambling, preserves all net parameters; adding columns changes direction numbers, and with them
+ * the joint distribution of the coordinates. Columns of coordinate 0 are not changed, because adding a column in all
+ * coordinates at once changes no prefix of 2^k points. A move is kept if the value grows by no more than a threshold
+ * that falls to 0 (threshold accepting: Dueck & Scheuer 1990). A quarter of the walks start with 8 random moves for
+ * each column and coordinate.
  *
  * Source: Matousek 1998 for the scrambling; Sobol' sequences with optimised direction numbers: Joe & Kuo 2008.
  */
@@ -21,7 +23,7 @@
 
 enum { MOVES = 200, LOWER = 10, DIGITS = KOKSMA__SEQUENCE_DIGITS };
 
-/* Points 2^c hold the columns; all others follow. Coordinate k only. */
+/* Computes coordinate k of all points from the points 2^c, which hold the columns of the matrix. */
 static void fill(koksma_points *points, size_t k)
 {
     const size_t dim = (size_t)points->dim;
@@ -52,7 +54,8 @@ static void add_column(koksma_points *points, size_t k, unsigned from, unsigned 
     *x = (double)((uint64_t)(*x * 0x1p53) ^ y) * 0x1p-53;
 }
 
-/* One move. Rows down to LOWER below those that tell 2^m points apart change places by too little to matter. */
+/* One move. Only rows down to LOWER below those that distinguish 2^m points are changed: lower ones move points too
+   little to matter. */
 static size_t move(koksma_points *points, unsigned m, koksma__stream *random)
 {
     const size_t k = koksma__next_below(random, (size_t)points->dim);

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * exchange: the L2 discrepancies of boxes by swaps of one coordinate of two points, which keep a Latin hypercube one, with
- * the change of the value in O(n d) instead of O(n^2 d) (Jin, Chen & Sudjianto 2005).
+ * exchange: minimises the L2 discrepancies of boxes. A move swaps one coordinate of two points, which preserves a
+ * Latin hypercube, and the change of the value is computed in O(n d) instead of O(n^2 d) (Jin, Chen & Sudjianto
+ * 2005).
  *
- * Let K = prod_k K_k be the kernel, a = prod_k a_k its integral, and R_ij and B_i these products without coordinate k. After
- * points p and q have swapped coordinate k, n^2 times the square has changed by
+ * Let K = prod_k K_k be the kernel, a = prod_k a_k its integral, and let R_ij and B_i be the products for K and a
+ * without factor k. When points p and q swap coordinate k, n^2 times the squared discrepancy changes by
  *
  *     2 sum_(j != p, q) (R_pj - R_qj) (K_k(q, j) - K_k(p, j)) + (R_pp - R_qq) (K_k(q, q) - K_k(p, p))
  *     - 2 n (B_p - B_q) (a_k(q) - a_k(p)),
  *
- * with the coordinates before the swap. Threshold accepting (Dueck & Scheuer 1990): a swap is kept if the square grows by
- * less than a threshold that falls to 0.
+ * with the coordinates before the swap. Threshold accepting (Dueck & Scheuer 1990): a swap is accepted if the squared
+ * discrepancy grows by less than a threshold that falls to 0.
  */
 #include <math.h>
 
 #include "measures/l2_boxes.h"
 #include "optimise/methods.h"
 
-/* Coordinates looked at in one search: some tenths of a second. */
+/* The number of coordinates read in one search, which takes some tenths of a second. */
 static const double WORK = 3e7;
 
 static double kernel(const koksma__l2_row *row, double u, double v)
@@ -26,7 +27,7 @@ static double kernel(const koksma__l2_row *row, double u, double v)
     return koksma__l2_polynomial(row->g, u) + koksma__l2_polynomial(row->g, v) + t * (row->q + row->r * t);
 }
 
-/* The kernel of two points without coordinate k. */
+/* The kernel of two points without the factor of coordinate k. */
 static double others(const koksma__l2_row *row, size_t dim, size_t k, const double *x, const double *y)
 {
     double product = 1;
@@ -36,7 +37,7 @@ static double others(const koksma__l2_row *row, size_t dim, size_t k, const doub
     return product;
 }
 
-/* n^2 times the change of the square when points p and q swap coordinate k. */
+/* The change of n^2 times the squared discrepancy when points p and q swap coordinate k. */
 static double change(const koksma__l2_row *row, const koksma_points *points, size_t k, size_t p, size_t q)
 {
     const size_t n = points->n, dim = (size_t)points->dim;

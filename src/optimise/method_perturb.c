@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * perturb: for any measure, by its value alone. A walk moves one point at a time, by a step whose length is drawn anew
- * from 1 down to 10^-4 of the mean spacing n^(-1/d) (log-uniform), on the torus; with keep=net within its intervals of
- * length 1/n; with keep=latin it swaps a coordinate of two points instead. A move is kept if the value gets no larger than
- * the walk's plus a threshold that falls to 0 (threshold accepting: Dueck & Scheuer 1990).
+ * perturb: for any measure, by its value alone. A walk moves one point at a time on the torus, by a step whose length
+ * is drawn log-uniformly between 10^-4 and 1 times the mean spacing n^(-1/d). With keep=net the point stays within
+ * its intervals of length 1/n; with keep=latin two points swap a coordinate instead. A move is accepted if the new
+ * value is at most the walk's current value plus a threshold that falls to 0 (threshold accepting: Dueck & Scheuer
+ * 1990).
  */
 #include <math.h>
 #include <string.h>
@@ -19,7 +20,7 @@ static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
     return o->keep != KOKSMA_KEEP_SEQUENCE;
 }
 
-/* One coordinate of a point, moved by up to `reach`. */
+/* Returns one coordinate of a point, moved by up to `reach`. */
 static double moved(double x, double reach, size_t n, koksma_keep keep, koksma__stream *random)
 {
     const double cell = 1 / (double)n, by = reach * (2 * koksma__next_unit(random) - 1);

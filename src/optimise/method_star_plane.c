@@ -1,27 +1,31 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * star-plane: the star discrepancy of the plane, by a search over permutations with exact coordinates.
- * Long because the solver of constraints and the search, which share all state, are one.
+ * star-plane: minimises the star discrepancy in the plane, by a search over permutations; the best coordinates for
+ * each permutation are computed exactly. The file is long because the constraint solver and the search share all
+ * their state.
  *
- * Let point i by x have rank p(i) by y, c(i,j) be the number of points of ranks up to i by x and j by y, and F = n f. Then
- * coordinates with D* <= f exist if and only if
+ * Let point i by x have rank p(i) by y, c(i,j) be the number of points of ranks up to i by x and j by y, and F = n f.
+ * Then coordinates with D* <= f exist if and only if
  *
  *     X_i Y_j >= c(i,j) - F,   X_i Y_j <= c(i-1,j-1) + F,   X_i <= X_i+1,   Y_j <= Y_j+1,   X_n+1 Y_n+1 = n,
  *
- * i, j = 1 .. n + 1; the side of the square is X_n+1, Y_n+1. In logarithms these are difference constraints: they have a
- * solution if no cycle of them is violated, and then any start leads to one, by raising X and lowering Y where a
- * constraint is violated, one node after the other (Bellman & Ford with a queue). A violated cycle, found by following the
- * causes of changes, closes at the F that makes the product of its counts - F equal to that of its counts + F: F is set to
- * it, and the work goes on. When nothing is violated, F is the least for p, and the cycle that set it is the critical one.
+ * i, j = 1 .. n + 1; X_n+1 and Y_n+1 stand for the sides of the square. In logarithms these are difference
+ * constraints. They have a solution if no cycle of constraints is violated; then any start leads to a solution by
+ * raising X and lowering Y where a constraint is violated, one node after the other (Bellman & Ford with a queue). A
+ * violated cycle, found by following the causes of changes, becomes satisfiable at the F for which the product of its
+ * terms (count - F) equals the product of its terms (count + F): F is raised to this value, and the search for
+ * violations goes on. When no constraint is violated, F is the least for p, and the cycle that set F is called
+ * critical.
  *
- * Starts: the order of the points (i, {i a + s}) for a with small partial quotients and random s; or the best set, in
- * a share of the searches (width_of). A walk keeps to permutations whose F is below a limit, up to a threshold above the
- * walk's least, its target (Dueck 1993: record-to-record travel). Moves: two points swap their ranks by y, such that a
- * box of a cycle that is violated at the target and holds too many points loses one, or one that holds too few gains one: no other swap can help. The last CYCLES cycles
- * that were violated anywhere are kept, and a walk descends the number of those that are violated at the target: a move that
- * adds to it, or violates one at the limit, is refused before any constraint is looked at. Only where none is left the least
- * F is computed, which gives a new target or a new cycle (min-conflicts with constraints generated on demand). Work is
- * counted in corners looked at.
+ * Starts are the order of the points (i, {i a + s}) for a with small partial quotients and random s, or, in a share
+ * of the searches (width_of), the best set. The least F of a walk is its target; the walk accepts permutations whose
+ * F is below a limit, a threshold above the target (Dueck 1993: record-to-record travel). Moves: two points swap
+ * their ranks by y, such that a box of a cycle that is violated at the target and holds too many points loses one, or
+ * one that holds too few gains one: no other swap can help. The last CYCLES cycles found violated are stored, and a
+ * walk reduces the number of stored cycles that are violated at the target: a move that increases this number, or
+ * violates a stored cycle at the limit, is rejected before any constraint is checked. Only when no stored cycle is
+ * violated the least F is computed, which gives a new target or a new cycle (min-conflicts with constraints generated
+ * on demand). Work is counted in corners visited.
  *
  * Source: the constraints as in Clement, Doerr, Klamroth & Paquete 2023, who solve them as integer programs.
  */
@@ -37,11 +41,12 @@
 
 enum { MAX_N = 4096, PATIENCE = 2000, CYCLES = 256, GUIDES = 16, MAX_EDGES = 16, NONE = UINT32_MAX };
 
-/* What searches among few points look for widely, as lattices are far from the best there, and among many near the best. */
+/* Parameters of a search for n points. Among few points searches look widely, because lattices are far from the best
+   sets; among many points they look near the best set. */
 typedef struct width {
-    double threshold; /* how far a walk may get above its least F, at most */
-    double accepted;  /* and a start above the best */
-    double again;     /* the share of searches that begin at the best set */
+    double threshold; /* how far a walk may rise above its least F, at most */
+    double accepted;  /* how far the F of a start may be above the best F, at most */
+    double again;     /* the share of searches that start from the best set */
 } width;
 
 static width width_of(size_t n)
@@ -50,17 +55,18 @@ static width width_of(size_t n)
                    : (width){.threshold = 0.02, .accepted = 0.05, .again = 0.25};
 }
 
-/* Corners looked at in one search: some tenths of a second. */
+/* The number of corners visited in one search, which takes some tenths of a second. */
 static double budget_of(size_t n)
 {
     return 2e7 + 3e5 * (double)n;
 }
 
-/* Violations below this many points are rounding. */
+/* Violations by less than this many points count as rounding. */
 static const double TOLERANCE = 1e-10;
 
-/* The count of corner (i, j) at which a cycle goes from Y_j to X_i (an excess; sign = 1) or, of corner (i, j) = (i' - 1,
-   j' - 1), from X_i' to Y_j' (a deficit; -1). */
+/* An edge of a cycle of constraints: the count of the corner (i, j), at which the cycle goes from Y_j to X_i (too
+   many points; sign = 1); or the count of the corner (i, j) = (i' - 1, j' - 1), at which it goes from X_i' to Y_j'
+   (too few points; sign = -1). */
 typedef struct edge {
     uint16_t i, j;
     int8_t sign;
@@ -71,7 +77,7 @@ typedef struct cycle {
     edge edges[MAX_EDGES];
 } cycle;
 
-/* Two points, first by x, that swap their ranks. */
+/* A swap of the ranks by y of two points, which are given by their ranks by x. */
 typedef struct swap {
     size_t a, b;
 } swap;
@@ -79,17 +85,17 @@ typedef struct swap {
 typedef struct plane {
     size_t n, side, stride;   /* side: n + 1 nodes for each axis */
     uint32_t *rank, *at;      /* p and its inverse, 1 .. n */
-    int16_t *counts, *turned; /* c(i,j) at i stride + j, and at j stride + i, 0 .. n + 1 */
+    int16_t *counts, *turned; /* c(i,j) at index i stride + j, and at j stride + i, for i, j = 0 .. n + 1 */
     double *v, *saved;        /* X_1 .. X_n+1, Y_1 .. Y_n+1 */
-    float *rounded;           /* the same in floats */
+    float *rounded;           /* v as floats */
     uint32_t *cause, *queue, *found, *stamps;
     uint8_t *queued;
-    size_t first, waiting; /* of the queue, a ring of 2 side nodes */
+    size_t first, waiting; /* the queue's first entry and length; a ring of 2 side nodes */
     uint32_t stamp;
-    cycle cycles[CYCLES];     /* those that were violated last in front */
-    cycle guides[GUIDES];     /* of them, some that are violated at a walk's target */
-    size_t guided, conflicts; /* how many guides, and how many are violated at it */
-    edge *traced, *critical;  /* up to 2 side edges */
+    cycle cycles[CYCLES];     /* the stored cycles, those violated last in front */
+    cycle guides[GUIDES];     /* some of the stored cycles that are violated at a walk's target */
+    size_t guided, conflicts; /* number of guides, and number of stored cycles violated at the target */
+    edge *traced, *critical;  /* capacity 2 side edges each */
     size_t n_traced, n_critical;
     double work, budget;
     koksma__stream random;
@@ -125,7 +131,7 @@ static koksma_status plane_init(plane *s, size_t n, uint64_t seed)
     return KOKSMA_OK;
 }
 
-/* The counts of s->rank; its inverse. */
+/* Computes the counts for s->rank, and the inverse permutation. */
 static void count_all(plane *s)
 {
     const size_t n = s->n, stride = s->stride;
@@ -147,7 +153,7 @@ static void count_all(plane *s)
     s->work += 2.0 * (double)(n * n);
 }
 
-/* How a swap changes c(i,j). */
+/* The change of c(i,j) by a swap. */
 static int change(const plane *s, swap w, size_t i, size_t j)
 {
     const size_t a = s->rank[w.a], b = s->rank[w.b];
@@ -175,7 +181,7 @@ static void apply(plane *s, swap w)
     s->work += 2.0 * (double)(w.b - w.a) * (high - low);
 }
 
-/* Whether a cycle is violated at F, after a swap (NULL: none). */
+/* Whether a cycle is violated at F, after a swap (NULL: no swap). */
 static bool violated(const plane *s, const edge *edges, size_t n, double F, const swap *w)
 {
     double more = 1, less = 1;
@@ -198,7 +204,7 @@ static bool violated(const plane *s, const edge *edges, size_t n, double F, cons
     return more > less;
 }
 
-/* The F at which a cycle that is violated at F closes, rounded up. */
+/* The F at which a cycle that is violated at F becomes satisfiable, rounded up. */
 static double closing(const plane *s, const edge *edges, size_t n, double F)
 {
     double low = F, high = (double)s->n;
@@ -218,7 +224,7 @@ static void push(plane *s, uint32_t node)
     }
 }
 
-/* Nothing is waiting, nothing has a cause. */
+/* Empties the queue and forgets all causes. */
 static void clear(plane *s)
 {
     memset(s->queued, 0, 2 * s->side);
@@ -226,7 +232,8 @@ static void clear(plane *s)
     s->first = s->waiting = 0;
 }
 
-/* The corner of the constraint by which one node moves another; false for neighbours, whose order alone does. */
+/* The corner of the constraint through which one node moves another; false if the nodes are neighbours on one axis,
+   which only their order constrains. */
 static bool corner_of(const plane *s, uint32_t from, uint32_t to, edge *out)
 {
     const uint32_t side = (uint32_t)s->side;
@@ -239,7 +246,7 @@ static bool corner_of(const plane *s, uint32_t from, uint32_t to, edge *out)
     return true;
 }
 
-/* Traces the cycle that closes when `from` moves `to`, which is among the causes of `from`. */
+/* Traces the cycle that closes when `from` moves `to`, where `to` is among the causes of `from`. */
 static void trace(plane *s, uint32_t from, uint32_t to)
 {
     s->n_traced = 0;
@@ -251,7 +258,7 @@ static void trace(plane *s, uint32_t from, uint32_t to)
     }
 }
 
-/* Moves a cycle to the front of those that are kept. */
+/* Moves a cycle to the front of the stored cycles. */
 static void keep_cycle(plane *s, const cycle *c, size_t from)
 {
     const cycle copy = *c;
@@ -259,7 +266,7 @@ static void keep_cycle(plane *s, const cycle *c, size_t from)
     s->cycles[0] = copy;
 }
 
-/* The traced cycle raises F, becomes the critical one and is kept. */
+/* Raises F by the traced cycle, which becomes the critical cycle and is stored. */
 static void raise(plane *s, double *F)
 {
     *F = fmax(closing(s, s->traced, s->n_traced, *F), *F * (1 + 1e-14));
@@ -272,7 +279,7 @@ static void raise(plane *s, double *F)
     }
 }
 
-/* Moves `to` because of `from`; false if `to` is among the causes of `from`. */
+/* Moves node `to` because of node `from`; false if `to` is among the causes of `from`. */
 static bool set(plane *s, uint32_t from, uint32_t to, double value)
 {
     if (s->stamps[to] == s->stamp) {
@@ -286,7 +293,7 @@ static bool set(plane *s, uint32_t from, uint32_t to, double value)
     return true;
 }
 
-/* Corners of a node and the nodes from `others` on, `count` of them, that may be violated at F. */
+/* Finds the corners of a node and `count` nodes from `others` on whose constraints may be violated at F. */
 static size_t far(const plane *s, size_t count, const int16_t *counts, size_t others, uint32_t node, double F)
 {
     const float sign = node < s->side ? -1 : 1, rounding = (float)s->n * 0x1p-21F;
@@ -294,7 +301,7 @@ static size_t far(const plane *s, size_t count, const int16_t *counts, size_t ot
                                           (float)F - rounding, s->found);
 }
 
-/* Moves what a node violates; false when a cycle closes. */
+/* Moves the nodes whose constraints with this node are violated; false when a cycle closes. */
 static bool relax(plane *s, uint32_t node, double F)
 {
     const size_t side = s->side;
@@ -330,7 +337,7 @@ static bool relax(plane *s, uint32_t node, double F)
     return true;
 }
 
-/* Works on until nothing is violated. A cycle raises F; false if above limit. */
+/* Processes the queue until no constraint is violated. A cycle raises F; false if F rises above limit. */
 static bool settle(plane *s, double *F, double limit)
 {
     const size_t nodes = 2 * s->side;
@@ -351,7 +358,7 @@ static bool settle(plane *s, double *F, double limit)
     return true;
 }
 
-/* Settles all constraints at F; a cycle raises it. False if above limit. */
+/* Satisfies all constraints at F; a cycle raises F. Returns false if F rises above limit. */
 static bool settle_all(plane *s, double *F, double limit)
 {
     clear(s);
@@ -361,7 +368,8 @@ static bool settle_all(plane *s, double *F, double limit)
     return settle(s, F, limit);
 }
 
-/* The largest F at which a kept cycle closes, at most that of the permutation; the cycle becomes the critical one. */
+/* A lower bound of the permutation's F: the largest F at which a stored cycle becomes satisfiable; that cycle becomes
+   the critical one. */
 static double estimate(plane *s)
 {
     double F = 0;
@@ -376,7 +384,7 @@ static double estimate(plane *s)
     return F;
 }
 
-/* The least F of the permutation, looked for from guess on; false if above limit. */
+/* Computes the least F of the permutation, starting from guess; false if it is above limit. */
 static bool solve(plane *s, double *F, double guess, double limit)
 {
     for (;; guess *= 0.985) {
@@ -393,13 +401,13 @@ static bool solve(plane *s, double *F, double guess, double limit)
     }
 }
 
-/* Whether a rank is within reach of a corner's, above it or up to it. */
+/* Whether a rank is within `reach` of the corner's rank j, above it or up to it. */
 static bool beside(size_t rank, size_t j, size_t reach, bool above)
 {
     return above ? rank > j && rank <= j + reach : rank <= j && rank + reach > j;
 }
 
-/* A whole number from 1 to most, about log-uniform. */
+/* A random integer from 1 to most, about log-uniform. */
 static size_t log_uniform(koksma__stream *random, size_t most)
 {
     int bits = 0;
@@ -410,8 +418,8 @@ static size_t log_uniform(koksma__stream *random, size_t most)
     return d < most ? d : most;
 }
 
-/* A swap that lowers the count of a corner with too many points of a guide, or raises one with too few; where there is no
-   guide, of the critical cycle. */
+/* Draws a swap that lowers the count of a corner with too many points, or raises the count of a corner with too few,
+   in one of the guides; if there is no guide, in the critical cycle. */
 static bool draw_swap(plane *s, swap *w)
 {
     const cycle *guide = s->guided ? &s->guides[koksma__next_below(&s->random, s->guided)] : NULL;
@@ -422,7 +430,7 @@ static bool draw_swap(plane *s, swap *w)
         return false;
     }
     const bool many = e.sign > 0;
-    /* Half of the swaps are of points within about sqrt(n) ranks of the corner, the others of any. */
+    /* half of the swaps are of points within about sqrt(n) ranks of the corner, the others of any points */
     const size_t reach = koksma__next(&s->random) % 2 ? (size_t)sqrt((double)n) : n;
     const size_t before = log_uniform(&s->random, i < reach ? i : reach),
                  after = log_uniform(&s->random, n - i < reach ? n - i : reach);
@@ -437,7 +445,8 @@ static bool draw_swap(plane *s, swap *w)
     return a > 0 && b <= n && beside(s->rank[a], j, reach, !many) && beside(s->rank[b], j, reach, many);
 }
 
-/* Whether a swap leaves more kept cycles violated at target than are now (but 1 may be), or one at limit. */
+/* Whether a swap leaves more stored cycles violated at target than now (one may always be violated), or any violated
+   at limit. */
 static bool refused(plane *s, double target, double limit, const swap *w)
 {
     size_t count = 0;
@@ -453,7 +462,7 @@ static bool refused(plane *s, double target, double limit, const swap *w)
     return false;
 }
 
-/* Counts the kept cycles that are violated at target, and draws the guides among them (reservoir sampling). */
+/* Counts the stored cycles that are violated at target, and draws the guides among them (reservoir sampling). */
 static void find_conflicts(plane *s, double target)
 {
     s->guided = s->conflicts = 0;
@@ -475,11 +484,11 @@ static void round_all(plane *s)
     }
 }
 
-/* Queues the nodes of what a swap that was applied violates at F. */
+/* Queues the nodes of the constraints that an applied swap violates at F. */
 static void push_violated(plane *s, swap w, double F)
 {
     const size_t side = s->side, stride = s->stride, a = s->rank[w.a], b = s->rank[w.b];
-    const bool fewer = a > b; /* after the swap */
+    const bool fewer = a > b; /* the swap has lowered the counts */
     const size_t low = fewer ? b : a, high = fewer ? a : b;
     for (size_t k = fewer ? w.a : low; k < (fewer ? w.b : high); k++) {
         const int16_t *counts = fewer ? s->counts + k * stride + low : s->turned + k * stride + w.a;
@@ -490,8 +499,8 @@ static void push_violated(plane *s, swap w, double F)
     }
 }
 
-/* One or two swaps, if F does not get above limit and no more cycles are violated at target; the coordinates then are for
-   limit, as they were before. */
+/* Makes one or two swaps, if F stays up to limit and no more stored cycles are violated at target. The coordinates
+   satisfy the constraints at limit before and after. */
 static bool move(plane *s, double target, double limit)
 {
     swap w[2];
@@ -526,7 +535,7 @@ static bool move(plane *s, double target, double limit)
     return false;
 }
 
-/* Coordinates at F are kept as points, those of the square's side at 1. */
+/* Writes the coordinates at F to points, scaled such that the square's side is 1. */
 static void write_points(const plane *s, koksma_points *points)
 {
     for (size_t i = 0; i < s->n; i++) {
@@ -536,7 +545,7 @@ static void write_points(const plane *s, koksma_points *points)
     }
 }
 
-/* A walk from a permutation whose F is known; what is below *best is written to points. */
+/* A walk from a permutation whose F is known; a set with a value below *best is written to points. */
 static void walk(plane *s, double F, double *best, koksma_points *points)
 {
     const double threshold = F * width_of(s->n).threshold * koksma__next_unit(&s->random), below = 1 - 1e-7;
@@ -554,7 +563,7 @@ static void walk(plane *s, double F, double *best, koksma_points *points)
         }
         double to;
         if (!solve(s, &to, target, limit)) {
-            break; /* within rounding of the limit */
+            break; /* equal to the limit up to rounding */
         }
         if (to < target) {
             m = 0;
@@ -569,7 +578,7 @@ static void walk(plane *s, double F, double *best, koksma_points *points)
     s->guided = 0;
 }
 
-/* Order and coordinates of given points; those of the square's side are 1. */
+/* Takes order and coordinates from given points; the coordinates of the square's side are 1. */
 static koksma_status take_points(plane *s, const double *xs, uint32_t *order)
 {
     const koksma_run run = {.threads = 1};
@@ -598,12 +607,12 @@ static koksma_status take_points(plane *s, const double *xs, uint32_t *order)
     return KOKSMA_OK;
 }
 
-/* The points (i, {i a + s}), a of random small partial quotients. */
+/* Draws the points (i, {i a + s}), where a has random small partial quotients. */
 static void draw_start(plane *s, double *xs)
 {
     koksma__stream *random = &s->random;
     double a = koksma__next_unit(random);
-    const double ones = 0.6 + 0.35 * koksma__next_unit(random); /* the share of quotients of 1 */
+    const double ones = 0.6 + 0.35 * koksma__next_unit(random); /* the share of partial quotients that are 1 */
     for (int k = 0; k < 24; k++) {
         double quotient = 1;
         while (quotient < 20 && koksma__next_unit(random) > ones) {
@@ -632,7 +641,8 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         status = koksma__fail_memory(3 * n * sizeof *xs);
     }
     const width wide = width_of(n);
-    const double accepted = 1.01 + wide.accepted * koksma__next_unit(&s.random) + 1 / (double)n; /* of the best */
+    /* limit for the F of a start, as a multiple of the best F */
+    const double accepted = 1.01 + wide.accepted * koksma__next_unit(&s.random) + 1 / (double)n;
     const bool again = koksma__next_unit(&s.random) < wide.again;
     double best = value * (double)n * (1 + 1e-9), F;
     while (!status && s.work < s.budget) {

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * star-space: the star discrepancy in three dimensions, by descent of the excesses over a target f,
+ * star-space: minimises the star discrepancy in three dimensions, by descent on the sum of squared excesses over a
+ * target f,
  *
  *     E = sum over corners (X_i, Y_j, Z_k) of max(0, c - n X_i Y_j Z_k - n f)^2 + max(0, n X_i Y_j Z_k - o - n f)^2,
  *
- * c and o the numbers of points in the closed and in the open box of the corner, X, Y, Z the coordinates of the points and 1
- * in order. For fixed ranks the counts are fixed, and in log X, log Y, log Z the sets with E = 0 are convex: a target that
- * is reached is an exact answer, and one a little below the value is tried until none is.
+ * where c and o are the numbers of points in the closed and in the open box of the corner, and X, Y, Z the sorted
+ * coordinates of the points, and 1. For fixed ranks the counts are fixed, and the coordinates with E = 0 form a
+ * convex set in log X, log Y, log Z. Reaching E = 0 proves the target f; then a target a little below the new value
+ * is tried, until one is not reached.
  *
- * A pass over all corners, in lanes of whole numbers and floats (far_corners), gives the value and a list of the corners
- * that are near it; L-BFGS looks at the list alone, some hundredth part, as if ranks did not change, and the next pass
- * decides. Three of four searches walk from the best set, the others from the best of DRAWS sets {i a + s}, anew after
- * STALE kicks without a gain. Kicks exchange a coordinate of two points, such that a listed box with too many points loses
- * one, or one with too few gains one, as no other exchange can help; one in five draws points anew. The walk goes on from
- * what a descent finds if its value is not more than a threshold above.
+ * A vectorised pass over all corners (far_corners) gives the value and a list of the corners whose excess is near it.
+ * L-BFGS uses only the listed corners, about a hundredth of all, as if ranks did not change; the next pass checks the
+ * result. Three of four searches walk from the best set, the others from the best of DRAWS sets {i a + s}, and start
+ * again after STALE kicks without a gain. Kicks exchange a coordinate of two points such that a listed box with too
+ * many points loses one, or a box with too few gains one, as no other exchange can help; one kick in five draws
+ * points anew. The walk accepts the result of a descent if its value is at most a threshold above the walk's value.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -27,21 +29,21 @@
 
 enum { MAX_N = 1024, ITERATIONS = 20, DRAWS = 16, STALE = 60, CAPACITY = 1 << 18, LANES = 32 };
 
-/* A corner: the points that have its coordinates (n: the side, at 1), the points in its box, and whether they are too many
-   (the closed box; 1) or too few (the open one; -1). */
+/* A corner: the points that give its coordinates (n: the side, at 1), the number of points in its box, and whether
+   these are too many (closed box; sign 1) or too few (open box; sign -1). */
 typedef struct corner {
     uint16_t at[3];
     int16_t count, sign;
 } corner;
 
 typedef struct job {
-    size_t n, stride; /* of rows of counts */
+    size_t n, stride; /* stride: of the rows of counts */
     double target;
-    uint32_t *order, *found; /* order: of each axis, then ranks by each axis */
-    double *low, *x;         /* coordinates in order of each axis, then 1 */
-    float *z;                /* those of the third axis, then 0 */
-    int16_t *open, *closed;  /* points before x_i, and up to it, with ranks below (j, k) */
-    corner *corners, *kept;  /* kept: those of the walk's set */
+    uint32_t *order, *found; /* order: the points sorted along each axis, followed by their ranks along each axis */
+    double *low, *x;         /* the sorted coordinates along each axis, followed by 1 */
+    float *z;                /* the sorted coordinates of the third axis, followed by 0 */
+    int16_t *open, *closed;  /* the numbers of points before x_i, and up to x_i, with ranks below (j, k) */
+    corner *corners, *kept;  /* kept: the corners for the walk's set */
     size_t listed, n_kept;
     void *memory;
 } job;
@@ -67,7 +69,7 @@ static koksma_status job_init(job *j, size_t n)
     return KOKSMA_OK;
 }
 
-/* Counts the i-th point by x. */
+/* Adds the i-th point by x to the counts. */
 static void count(const job *j, size_t i, int16_t *counts)
 {
     const size_t n = j->n, point = j->order[i];
@@ -101,7 +103,8 @@ static koksma_status sort(job *j, const double *xs)
     return KOKSMA_OK;
 }
 
-/* Lists the corners (i, b, any) with a difference above `limit` points; false if there is no room. Raises the largest. */
+/* Lists the corners (i, b, any) with a difference above `limit` points, and raises *largest; false if the list is
+   full. */
 static bool list_row(job *j, size_t i, size_t b, int16_t sign, double limit, double *largest)
 {
     const size_t n = j->n, columns = (n + 1 + LANES - 1) / LANES * LANES;
@@ -126,8 +129,8 @@ static bool list_row(job *j, size_t i, size_t b, int16_t sign, double limit, dou
     return true;
 }
 
-/* Lists the corners with a difference above `limit`; *value is the largest difference. Where they are too many, the limit
-   is raised, and where there are none, lowered. */
+/* Lists the corners with a difference above `limit`; *value is the largest difference. The limit is raised if there
+   are too many corners, and lowered if there are none. */
 static koksma_status list(job *j, koksma__descent *d, double limit, double *value)
 {
     const size_t n = j->n;
@@ -156,7 +159,7 @@ static koksma_status list(job *j, koksma__descent *d, double limit, double *valu
     return status;
 }
 
-/* Whether a corner's box has a point inside along the axes but `but`. */
+/* Whether a point is inside a corner's box along all axes except `but`. */
 static bool inside(const job *j, const corner *at, const double *xs, size_t point, size_t but)
 {
     bool in = true;
@@ -167,7 +170,7 @@ static bool inside(const job *j, const corner *at, const double *xs, size_t poin
     return in;
 }
 
-/* E of the listed corners. */
+/* E over the listed corners, with its derivatives. */
 static koksma_status excesses(const void *context, const koksma_points *points, double *value, double *gradient)
 {
     const job *j = context;
@@ -193,8 +196,8 @@ static koksma_status excesses(const void *context, const koksma_points *points, 
     return KOKSMA_OK;
 }
 
-/* Exchanges a coordinate of a point that a corner's box begins or ends with and of a near one, which is on the other side
-   of that border but not in the box. */
+/* Exchanges a coordinate of a point on the border of a corner's box with that of a near point, which is on the other
+   side of that border but not in the box. */
 static void exchange(const job *j, double *xs, koksma__stream *random)
 {
     const corner *at = &j->kept[koksma__next_below(random, j->n_kept)];
@@ -232,7 +235,7 @@ static void kick(const job *j, koksma__descent *d, koksma_keep keep, koksma__str
     }
 }
 
-/* Leaves in d->points, of some starts, the one with the least value. */
+/* Draws some starts, and leaves the one with the least value in d->points. */
 static koksma_status start(job *j, koksma__descent *d, const koksma_points *points, koksma_keep keep, double *best,
                            double value, koksma__stream *random)
 {
@@ -254,8 +257,9 @@ static koksma_status start(job *j, koksma__descent *d, const koksma_points *poin
     return status;
 }
 
-/* A descent in which no coordinate moves by more than the target is below the value: corners that are not listed, which are
-   twice as far below it, rise above the target only if all three of their coordinates do so and more. */
+/* A descent in which no coordinate moves by more than the difference between the value and the target. A corner that
+   is not listed is twice as far below the value, and so rises above the target only if all three of its coordinates
+   move by that much. */
 static koksma_status descend_near(job *j, koksma__descent *d, double value)
 {
     const double length = d->length, reach = fmin(value - j->target, length / 2);
@@ -271,8 +275,9 @@ static koksma_status descend_near(job *j, koksma__descent *d, double value)
     return status;
 }
 
-/* Descends at targets below the value, from far below it (cut is infinite: a start) or from a little (after a kick), as long as
-   that helps; `lowest` and best have what was least. Ends early where that stays above cut. */
+/* Descends at targets below the value as long as that helps: first far below it if cut is infinite (a start),
+   otherwise a little below it (after a kick). `lowest` and `best` get the least value and its set. Ends early if the
+   value stays above cut. */
 static koksma_status follow(job *j, koksma__descent *d, double cut, double *best, double *lowest)
 {
     static const double shares[] = {0.7, 0.85, 0.95, 0.98, 0.99, 0.995, 0.998};
@@ -298,7 +303,7 @@ static koksma_status follow(job *j, koksma__descent *d, double cut, double *best
     return status;
 }
 
-/* The corners near the value of the walk's set, for kicks. */
+/* Lists the corners near the value of the walk's set, for kicks. */
 static koksma_status keep_corners(job *j, koksma__descent *d, const double *at, double value)
 {
     double found;
@@ -309,7 +314,7 @@ static koksma_status keep_corners(job *j, koksma__descent *d, const double *at, 
     return status;
 }
 
-/* The walk; points has the best set, and then what is better. */
+/* The walk; points has the best set, and is replaced by better ones. */
 static koksma_status wander(koksma_keep keep, koksma__descent *d, job *j, koksma__stream *random, double value,
                             double *best, koksma_points *points)
 {
@@ -353,7 +358,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     job j;
     const size_t n = points->n, bytes = 6 * n * sizeof(double);
     koksma_status status = job_init(&j, n);
-    double *best = status ? NULL : malloc(bytes); /* of a descent; then the walk's set */
+    double *best = status ? NULL : malloc(bytes); /* the best set of a descent, followed by the walk's set */
     if (!status && !best) {
         status = koksma__fail_memory(bytes);
     }

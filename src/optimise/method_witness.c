@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * witness: for suprema over boxes, half-planes or disks, by the region where the supremum is reached. Its border touches
- * points: to move them out of a closed region with too many points, or into an open one with too few, is a descent direction
- * of that region, a subgradient of the supremum. A walk moves each touching point with probability 1/2, by a step whose length is
- * drawn from 10^-4 to 1 of the mean spacing (log-uniform); every fourth move is one of a random point, as other regions are
- * nearly as bad. A move is kept if the value grows by less than a threshold that falls to 0 (threshold accepting: Dueck & Scheuer
+ * witness: minimises suprema over boxes, half-planes or disks, by the region where the supremum is reached, the
+ * witness. Its border touches points. Moving these points out of a closed region with too many points, or into an
+ * open region with too few, reduces that region's discrepancy: it follows a subgradient of the supremum. A walk moves
+ * each touching point with probability 1/2, by a step whose length is drawn log-uniformly between 10^-4 and 1 times
+ * the mean spacing; every fourth move is of a random point, because other regions have nearly the same discrepancy. A
+ * move is accepted if the value grows by less than a threshold that falls to 0 (threshold accepting: Dueck & Scheuer
  * 1990).
  */
 #include <math.h>
@@ -14,7 +15,7 @@
 
 enum { MOVES = 200 };
 
-/* What counts as on the border. */
+/* The distance up to which a point counts as on the border. */
 #define NEAR 1e-9
 
 static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
@@ -26,7 +27,8 @@ static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
                : 0;
 }
 
-/* The direction in which a point leaves the region through the border that it is on, in out; false: it is on none. */
+/* Sets out to the direction in which a point leaves the region through the border that it touches; false: it touches
+   none. */
 static bool outward(const koksma_witness *w, const double *x, double *out)
 {
     double distance = w->kind == KOKSMA_WITNESS_HALF_PLANE ? -w->hi[0] : 0, length = 0;
@@ -68,7 +70,7 @@ static void move_point(double *x, const double *direction, double by, int dim)
     }
 }
 
-/* Moves half of the points that touch the witness, or any point. */
+/* Moves each point that touches the witness with probability 1/2, or moves a random point. */
 static void move(koksma_points *points, const koksma_witness *w, koksma__stream *random)
 {
     const double reach = pow((double)points->n, -1.0 / points->dim) * pow(10, -4 * koksma__next_unit(random));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of methods (methods.def): member i, and the member of a name. */
+/* The table of search methods (methods.def), with lookup by index and by name. */
 #include "optimise/methods.h"
 #include "core/lookup.h"
 

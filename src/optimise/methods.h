@@ -10,7 +10,7 @@
 #include "optimise/methods.def"
 #undef METHOD
 
-/* Random numbers of one search, in order. All zero but the seed is the start. */
+/* The random numbers of one search, in sequence. Its initial state is all zero but for the seed. */
 typedef struct koksma__stream {
     uint64_t seed, used;
     koksma__words words;
@@ -24,7 +24,7 @@ static inline uint32_t koksma__next(koksma__stream *s)
     return s->words.w[s->used++ % 4];
 }
 
-/* A double in [0,1) of 32 random bits; a whole number below n. */
+/* A double in [0,1) from 32 random bits; a random integer below n. */
 static inline double koksma__next_unit(koksma__stream *s)
 {
     return koksma__next(s) * 0x1p-32;

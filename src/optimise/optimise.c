@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * koksma_optimise: steps of a fixed amount of work. A step hands the best set to SEARCHES searches of the method, with
- * a seed each, which know nothing of each other and run on any number of threads; the best of their results, the first
- * of equals, is the new best if it is better. Every result is measured by koksma_evaluate: a method's own opinion of a
- * set decides nothing. Processes that share a search make every size-th search each and give the others its points and
- * value, so that all go on from the same best set.
+ * koksma_optimise: steps of a fixed amount of work. A step gives the best set to SEARCHES independent searches of the
+ * method, each with its own seed, which run on any number of threads. The best of their results (the first of equal
+ * ones) becomes the new best set if it is better. Every result is measured by koksma_evaluate; values that a method
+ * computes are not used. Processes that share a run each make every size-th search, where size is their number, and
+ * send the results to the others, so that all continue from the same best set.
  */
 #include <koksma/optimise.h>
 
@@ -30,12 +30,12 @@ typedef struct step {
     const koksma_method *method;
     const koksma_optimum *best;
     double *found; /* SEARCHES pieces */
-    size_t piece;  /* numbers of one */
+    size_t piece;  /* size: doubles in the result of one search */
     const koksma_run *run;
     double start_s;
 } step;
 
-/* The smaller the better. */
+/* The value of a set; smaller is better. */
 static koksma_status evaluate(const koksma_spec *measure, const koksma_optimise_options *o,
                               const koksma_points *points, double *value)
 {
@@ -44,7 +44,7 @@ static koksma_status evaluate(const koksma_spec *measure, const koksma_optimise_
     return status;
 }
 
-/* What search i gives: its value and points, one behind the other. */
+/* The result of search i: its value, followed by its points. */
 static double *piece(const step *s, size_t i)
 {
     return s->found + i * s->piece;
@@ -63,7 +63,7 @@ static koksma_status search(void *context, size_t block)
     return status ? status : evaluate(s->measure, s->options, &points, piece(s, i));
 }
 
-/* The share of the whole search: of its steps, or of its time. */
+/* Reports the fraction done of the whole run: of its steps, or of its time. */
 static bool keep_going(void *context, double fraction)
 {
     const step *s = context;
@@ -75,7 +75,7 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(s->run, fmin(done, 1));
 }
 
-/* Searches 0 .. SEARCHES - 1 of which this process makes every size-th. */
+/* Runs those of the searches 0 .. SEARCHES - 1 that belong to this process. */
 static koksma_status take_step(step *s, koksma_optimum *best)
 {
     const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = keep_going, .context = s};
@@ -100,7 +100,7 @@ static koksma_status take_step(step *s, koksma_optimum *best)
     return KOKSMA_OK;
 }
 
-/* Whether every process of a shared search goes on. */
+/* Whether every process of a shared run continues. */
 static koksma_status agree(const koksma_processes *others, bool *going)
 {
     double wishes[MOST_PROCESSES];
@@ -115,7 +115,8 @@ static koksma_status agree(const koksma_processes *others, bool *going)
     return KOKSMA_OK;
 }
 
-/* A coordinate of n points on the line alone forces 1/2n of the star discrepancy and 1/n of the extreme one. */
+/* A lower bound: n points in one dimension have a star discrepancy of at least 1/(2n) and an extreme discrepancy of
+   at least 1/n, and so have their projections on an axis. */
 static double lower_bound(const koksma_spec *measure, const koksma_optimise_options *o)
 {
     return o->keep == KOKSMA_KEEP_SEQUENCE || o->n_projections ? (double)NAN

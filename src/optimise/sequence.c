@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Digital sequences in base 2. Points are the first 2^m of one exactly if point 0 is the origin and, for 0 < r < 2^c, point
- * 2^c + r has the digits of points 2^c and r added modulo 2: point 2^c is column c of the generator matrices (Niederreiter
- * 1992). So a search may pass points from hand to hand, and the matrices can be read off them.
+ * Digital sequences in base 2. Points are the first 2^m of a digital sequence if and only if point 0 is the origin
+ * and, for 0 < r < 2^c, the digits of point 2^c + r are the sums modulo 2 of the digits of points 2^c and r: point
+ * 2^c is column c of the generator matrices (Niederreiter 1992). So searches need to exchange only points, and the
+ * matrices can be recovered from them.
  */
 #include "optimise/sequence.h"
 

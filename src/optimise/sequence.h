@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Digital sequences in base 2 by their first points: what KOKSMA_KEEP_SEQUENCE keeps. */
+/* Digital sequences in base 2, given by their first points, as KOKSMA_KEEP_SEQUENCE preserves them. */
 #ifndef KOKSMA_OPTIMISE_SEQUENCE_H
 #define KOKSMA_OPTIMISE_SEQUENCE_H
 
 #include <koksma/optimise.h>
 
-/* Digits of a coordinate. */
+/* The number of binary digits of a coordinate. */
 enum { KOKSMA__SEQUENCE_DIGITS = 53 };
 
-/* Errors: N (not 2^m points, m >= 1), ARGUMENT (they are not the first ones of a digital sequence). */
+/* Checks that the points begin a digital sequence. Errors: N (not 2^m points, m >= 1), ARGUMENT (they are not the
+   first points of a digital sequence). */
 koksma_status koksma__sequence_check(const koksma_points *points);
 
 #endif

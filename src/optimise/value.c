@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The value of a search. With projections u of weights w_u it is the root of
+ * The value that a search minimises. With projections u of weights w_u it is the square root of
  *
- *     sum_u w_u D_u^2 / sum_u w_u,   D_u the measure of the points in the coordinates u,
+ *     sum_u w_u D_u^2 / sum_u w_u,   where D_u is the measure of the points in the coordinates u:
  *
- * the weighted discrepancy of Sloan & Wozniakowski (1998) for the L2 family, so that its square has a gradient where the measure's has.
- * A sequence has the geometric mean instead, over its prefixes of 2, 4, ..., n points and the projections with their weights: a gain
- * of 1 % counts as much at 2 points as at n, although measures fall with n at their own rates.
+ * the weighted discrepancy of Sloan & Wozniakowski (1998) for the L2 family, so that its square has a gradient if the
+ * squared measure has one. For a sequence the value is the weighted geometric mean over its prefixes of 2, 4, ..., n
+ * points and over the projections: a gain of 1 % counts as much at 2 points as at n, although measures decrease with
+ * n at different rates.
  */
 #include "optimise/value.h"
 
@@ -40,7 +41,7 @@ static double weight(const koksma_optimise_options *o, size_t p)
     return o->weights ? o->weights[p] : 1;
 }
 
-/* Points in the coordinates of a projection. */
+/* The points in the coordinates of a projection. */
 static void project(const koksma_points *points, uint64_t u, koksma_points *out)
 {
     const size_t dim = (size_t)points->dim;
@@ -54,7 +55,7 @@ static void project(const koksma_points *points, uint64_t u, koksma_points *out)
     }
 }
 
-/* The mean of the logarithms of the values of all prefixes. */
+/* The mean of the logarithms of the measure over all prefixes. */
 static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_points *points, double *mean)
 {
     double count = 0;
@@ -72,7 +73,7 @@ static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_p
     return KOKSMA_OK;
 }
 
-/* The square of a value, or its logarithm: what is averaged over projections. */
+/* The term that is averaged over projections: the square of the measure, or for a sequence its logarithm. */
 static koksma_status term(const koksma_spec *measure, const koksma_optimise_options *o, const koksma_points *points,
                           double *out)
 {

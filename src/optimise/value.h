@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a search makes small: a measure, or its mean over prefixes of a sequence and over projections. */
+/* The value that a search minimises: a measure, or its mean over prefixes of a sequence and over projections. */
 #ifndef KOKSMA_OPTIMISE_VALUE_H
 #define KOKSMA_OPTIMISE_VALUE_H
 
 #include <koksma/optimise.h>
 
-/* Errors: DIM (projections of more than 64 coordinates), ARGUMENT (projections without a coordinate or with one that the
-   points have not; weights that are not above 0). */
+/* Checks the projections and weights. Errors: DIM (projections of more than 64 coordinates), ARGUMENT (a projection
+   without a coordinate or with a coordinate that the points do not have; a weight that is not above 0). */
 koksma_status koksma__search_check(const koksma_optimise_options *options);
 
-/* The value that koksma_optimum has. Errors: those of koksma_evaluate, ARGUMENT (a value of which a geometric mean is taken is
-   0). */
+/* The value as in koksma_optimum. Errors: those of koksma_evaluate, ARGUMENT (a value of 0 in a geometric mean). */
 koksma_status koksma__search_value(const koksma_spec *measure, const koksma_optimise_options *options,
                                    const koksma_points *points, double *value);
 
-/* Its square, for a measure with a gradient and no sequence, and the derivatives by the coordinates. Errors: MEMORY. */
+/* The square of the value and its derivatives with respect to the coordinates, for a measure with a gradient and not
+   for sequences. Errors: MEMORY. */
 koksma_status koksma__search_square(const koksma_spec *measure, const koksma_optimise_options *options,
                                     const koksma_points *points, double *square, double *gradient);
 

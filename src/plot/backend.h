@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What draws a canvas: the few strokes that plots are made of, by svg.c, or for PDF and PNG by the module
-   koksma-cairo.so (cairo.c), which the first such canvas loads. A backend knows no clips: canvas.c cuts shapes. */
+/* The interface of the backends that draw a canvas: the few strokes that plots are made of. svg.c implements it for
+   SVG, the module koksma-cairo.so (cairo.c), loaded with the first such canvas, for PDF and PNG. Backends do not
+   clip: canvas.c clips shapes. */
 #ifndef KOKSMA_PLOT_BACKEND_H
 #define KOKSMA_PLOT_BACKEND_H
 
@@ -10,7 +11,7 @@ typedef struct koksma__colour {
     double r, g, b, a;
 } koksma__colour;
 
-/* How lines are drawn; the last is for guides. */
+/* How a line is drawn; the last value is for guides. */
 typedef enum koksma__dash {
     KOKSMA__DASH_WHOLE,
     KOKSMA__DASH_LONG,
@@ -30,18 +31,20 @@ typedef struct koksma__box {
     double x, y, width, height;
 } koksma__box;
 
-/* A backend's canvas begins with this; dashes[dash] has lengths drawn and left out in turn, ended by 0. */
+/* The first member of every backend's canvas; dashes[dash] alternates the lengths of strokes and gaps, and ends with
+   0. */
 enum { KOKSMA__MAX_DASHES = 4 };
 typedef struct koksma__canvas {
     const struct koksma__canvas_functions *draw;
     const double (*dashes)[KOKSMA__MAX_DASHES + 1];
 } koksma__canvas;
 
-/* A backend. Texts are UTF-8 without control characters; units are points from the upper left corner. */
+/* The functions of a backend. Texts are UTF-8 without control characters; coordinates are in points from the upper
+   left corner. */
 typedef struct koksma__canvas_functions {
     koksma_status (*open)(koksma_plot_format format, double width, double height, const char *title,
                           koksma__canvas **out);
-    /* n positions (x, y), joined by lines; filled or closed as a polygon when the style is filled. */
+    /* Draws n positions (x, y) joined by lines; if the style is filled, as a filled polygon. */
     void (*path)(koksma__canvas *canvas, const double *xys, size_t n, koksma__style style);
     void (*box)(koksma__canvas *canvas, koksma__box box, koksma__style style);
     void (*circle)(koksma__canvas *canvas, double x, double y, double radius, koksma__style style);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The module koksma-cairo.so: the strokes of backend.h as PDF and PNG by cairo, into memory. */
+/* The module koksma-cairo.so: draws the strokes of backend.h as PDF and PNG by cairo, into memory. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,7 +50,7 @@ static koksma_status open_canvas(koksma_plot_format format, double width, double
     p->format = format;
     if (format == KOKSMA_PLOT_PDF) {
         p->surface = cairo_pdf_surface_create_for_stream(append, p, width, height);
-        /* The same bytes on every run. */
+        /* a fixed date, so that every run writes the same bytes */
         cairo_pdf_surface_set_metadata(p->surface, CAIRO_PDF_METADATA_CREATE_DATE, "1991-01-01T00:00:00Z");
         cairo_pdf_surface_set_metadata(p->surface, CAIRO_PDF_METADATA_TITLE, title);
     } else {
@@ -116,7 +116,7 @@ static koksma_status pixels(koksma__canvas *canvas, koksma__box b, int columns, 
     cairo_translate(p->cairo, b.x, b.y);
     cairo_scale(p->cairo, b.width / columns, b.height / rows);
     cairo_set_source_surface(p->cairo, image, 0, 0);
-    /* Enlarged squares keep sharp edges; where there are more squares than pixels, they are averaged. */
+    /* enlarged squares keep sharp edges; if there are more squares than pixels, they are averaged */
     const bool enlarged = p->format != KOKSMA_PLOT_PNG || b.width >= columns;
     cairo_pattern_set_filter(cairo_get_source(p->cairo), enlarged ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
     cairo_rectangle(p->cairo, 0, 0, columns, rows);

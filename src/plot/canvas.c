@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What all backends share: which of them draws a format, the cutting of shapes at a box (lines by Liang and Barsky,
- * polygons by Sutherland and Hodgman), and texts: their widths by an upper bound for each class of characters, so that
- * the layout is the same with any font, and their lines.
+ * The code that all backends share: the choice of the backend for a format; clipping of shapes at a box (lines by
+ * Liang and Barsky, polygons by Sutherland and Hodgman); and texts, whose widths are bounded by an upper bound for
+ * each class of characters, so that the layout and the line breaks are the same with any font.
  */
 #include "plot/canvas.h"
 
@@ -82,14 +82,14 @@ koksma_status koksma__canvas_pixels(koksma__canvas *canvas, koksma__box box, int
     return canvas->draw->pixels(canvas, box, columns, rows, rgb);
 }
 
-/* How far a position is inside of side 0 to 3 of a box. */
+/* Signed distance of a position to side 0 to 3 of a box, positive inside. */
 static double depth(const double *xy, koksma__box b, int side)
 {
     const double low = side % 2 ? b.y : b.x, high = low + (side % 2 ? b.height : b.width);
     return side < 2 ? xy[side % 2] - low : high - xy[side % 2];
 }
 
-/* Where the line from a to b crosses a side. */
+/* The point where the line from a to b crosses a side. */
 static void cross(const double *a, const double *b, double depth_a, double depth_b, double *out)
 {
     const double t = depth_a / (depth_a - depth_b);
@@ -97,7 +97,7 @@ static void cross(const double *a, const double *b, double depth_a, double depth
     out[1] = a[1] + t * (b[1] - a[1]);
 }
 
-/* Cuts a polygon at each side in turn; a convex window adds at most a corner a side. */
+/* Clips a polygon at each side in turn; each side of a convex window adds at most one corner. */
 static void polygon_inside(koksma__canvas *canvas, const double *xys, size_t n, koksma__box inside,
                            koksma__style style)
 {
@@ -160,10 +160,11 @@ double koksma__line_height(double height)
     return ceil(1.3 * height);
 }
 
-/* The widest of a class in DejaVu Sans, which is wider than Helvetica and Arial, in heights. */
+/* The largest width of a class of characters in DejaVu Sans, which is wider than Helvetica and Arial, as a multiple
+   of the height. */
 static double character_width(unsigned char c)
 {
-    return c >= 0x80 ? ((c & 0xc0) == 0x80 ? 0 : 0.9) /* the bytes after a character's first one are none */
+    return c >= 0x80 ? ((c & 0xc0) == 0x80 ? 0 : 0.9) /* continuation bytes of UTF-8 have no width */
            : strchr("iljI|.,:;'! `", c)  ? 0.41
            : strchr("fjrt()[]/-\"\\", c) ? 0.47
            : strchr("mwMW@%", c)         ? 1
@@ -190,7 +191,8 @@ void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double heig
     canvas->draw->text(canvas, x, y, height, anchor, shown, colour);
 }
 
-/* Whether a line may end before text[at]: after a sign inside of a word, or a blank that is not of "n = 16". */
+/* Whether a line may break before text[at]: after a sign inside a word, or at a blank other than those in "n =
+   16". */
 static bool may_break(const char *text, size_t at)
 {
     const char last = text[at - 1], before = at > 1 ? text[at - 2] : ' ';
@@ -198,7 +200,8 @@ static bool may_break(const char *text, size_t at)
                        : strchr(",:;@/_-=", last) && before != ' ' && text[at] != ' ';
 }
 
-/* The bytes of the first line: up to the last blank or sign that fits, or as many characters as do, one at least. */
+/* The number of bytes of the first line: up to the last blank or sign that fits; without one, as many characters as
+   fit, at least one. */
 static size_t line_length(const char *text, double width, double height)
 {
     size_t fits = 0, best = 0;

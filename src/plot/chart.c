@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Curves on a pair of axes. Ticks are at 1, 2 or 5 times powers of ten; on a logarithmic axis at powers of ten, at 2 and
- * 5 times these where it spans less than two decades, or at the few abscissas that marks have. From top to bottom:
- * title, label of y, axes, ticks and label of x, and the legend, where it hides nothing.
+ * Curves on a pair of axes. Ticks are at 1, 2 or 5 times powers of ten; on a logarithmic axis at powers of ten, also
+ * at 2 and 5 times these if the axis spans less than two decades, or at the abscissas of the marks if there are few.
+ * The layout from top to bottom: title, label of y, axes, ticks and label of x, and the legend, which thus hides
+ * nothing.
  */
 #include "plot/chart.h"
 
@@ -17,9 +18,9 @@
 enum { MARGIN = 8, TITLE = 13, TEXT = 11, SWATCH = 28, MAX_TICKS = 64, MAX_SIZES = 12, TICK = 32 };
 
 typedef struct axis {
-    double low, high; /* of the values, or of their logarithms to base 10 */
+    double low, high; /* range of the values, or of their logarithms to base 10 */
     bool log;
-    double from, to; /* on the canvas */
+    double from, to; /* range on the canvas */
 } axis;
 
 typedef struct axes {
@@ -71,7 +72,9 @@ static void find_ranges(const koksma_chart *c, axis *x, axis *y)
     }
 }
 
-/* A little room at the ends, none below 0 where 0 is the end; false when there is nothing. */
+/* Extends the range a little at both ends, but a linear axis with a small positive low end begins at
+   exactly 0. Returns false when there are no
+   values. */
 static bool settle(axis *a, double room)
 {
     if (!(a->high >= a->low)) {
@@ -115,7 +118,7 @@ static int linear_ticks(double low, double high, double most, double ticks[MAX_T
     return n;
 }
 
-/* most: labels that there is room for. */
+/* most: the number of labels for which there is space. */
 static int find_ticks(const axis *a, double most, double ticks[MAX_TICKS])
 {
     if (!a->log) {
@@ -135,7 +138,7 @@ static int find_ticks(const axis *a, double most, double ticks[MAX_TICKS])
     return n > 1 ? n : linear_ticks(pow(10, a->low), pow(10, a->high), fmin(most, 4), ticks);
 }
 
-/* The abscissas of marks, ascending; 0: there are too many for ticks. */
+/* The abscissas of the marks in ascending order, for ticks; returns 0 if there are too many. */
 static int marked_xs(const koksma_chart *c, const axis *x, double ticks[MAX_TICKS])
 {
     int n = 0;
@@ -158,7 +161,7 @@ static int marked_xs(const koksma_chart *c, const axis *x, double ticks[MAX_TICK
     return n > 1 ? n : 0;
 }
 
-/* As %g, without the zeros and the plus of an exponent. */
+/* Formats a value as %g does, without leading zeros and the plus of the exponent. */
 static const char *tick_text(double value, char text[TICK])
 {
     koksma__snprintf(text, TICK, "%.8g", value);
@@ -198,7 +201,7 @@ static void draw_ticks(const axes *a, const koksma_chart *c)
     }
 }
 
-/* The widest label of y, whose ticks depend on the height alone. */
+/* The width of the widest label of y. The ticks of y depend on the height alone. */
 static double label_width(const axis *y, double height)
 {
     double ticks[MAX_TICKS], widest = 0;
@@ -217,7 +220,7 @@ static koksma__style style_of(const koksma__theme *theme, const koksma_curve *k)
                      : koksma__curve_style(theme, k->colour, 1.5);
 }
 
-/* A disk, a square, a triangle or a diamond, by the dashes. */
+/* A mark, whose shape (disk, square, triangle or diamond) is given by the curve's dash. */
 static void draw_mark(koksma__canvas *canvas, double x, double y, koksma__style style)
 {
     static const double corners[][8] = {
@@ -234,7 +237,7 @@ static void draw_mark(koksma__canvas *canvas, double x, double y, koksma__style 
     koksma__canvas_path(canvas, at, style.dash == KOKSMA__DASH_DOTS ? 3 : 4, style);
 }
 
-/* Standard errors: bars at marks, else a band along a run of points from `first` on. */
+/* Standard errors: bars at marks, otherwise a band along a run of points that begins at `first`. */
 static void draw_errors(const axes *a, const koksma_curve *k, size_t first, size_t n, double *band)
 {
     koksma__style style = style_of(a->theme, k);
@@ -259,7 +262,8 @@ static void draw_errors(const axes *a, const koksma_curve *k, size_t first, size
     }
 }
 
-/* Runs of points that can be drawn are lines; a run of one has a mark. xys: room for 4 numbers a point. */
+/* Draws each run of drawable points as a line; a run of one point as a mark. xys: scratch of 4 numbers for each
+   point. */
 static void draw_curve(const axes *a, const koksma_curve *k, double *xys)
 {
     const koksma__style style = style_of(a->theme, k);
@@ -283,7 +287,7 @@ static void draw_curve(const axes *a, const koksma_curve *k, double *xys)
     }
 }
 
-/* Entries from left to right, a label that was there before is left out; with a NULL canvas nothing is drawn. The
+/* Draws the legend's entries from left to right, each label once; with a NULL canvas it draws nothing. Returns the
    height. */
 static double legend(koksma__canvas *canvas, const koksma__theme *theme, const koksma_chart *c, koksma__box box)
 {

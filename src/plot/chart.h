@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Curves on a pair of axes, as a part of a figure. */
+/* Charts: curves on a pair of axes, as a part of a figure. */
 #ifndef KOKSMA_PLOT_CHART_H
 #define KOKSMA_PLOT_CHART_H
 
 #include "plot/palette.h"
 
-/* Errors: ARGUMENT (arrays that can't be, nothing to draw). */
+/* Checks a chart. Errors: ARGUMENT (invalid arrays, or nothing to draw). */
 koksma_status koksma__chart_check(const koksma_chart *chart);
 
-/* The height of all that is above and below the axes, at a width. */
+/* The total height of the texts above and below the axes, for a given width. */
 double koksma__chart_texts(const koksma_chart *chart, double width);
 
 /* Errors: MEMORY. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Figures: panels and charts in rows, which become several lines where the width is too small for them, below a title.
- * All heights follow from the width: texts are measured, squares are as wide as their column, and axes have a fixed
- * aspect. A height that is asked for makes squares and axes smaller, or axes higher.
+ * Figures: panels and charts in rows below a title; a row is broken into several lines if the width is too small. All
+ * heights follow from the width: texts are measured, squares are as wide as their column, and axes have a fixed
+ * aspect ratio. If the caller requests a height, squares and axes shrink, or axes grow, to match it.
  */
 #include "plot/figure.h"
 
@@ -17,13 +17,13 @@
 
 enum { TITLE = 15, TOP = 6, CHART = 480, MIN_PANEL = 128, MIN_CHART = 300, LEAST_CHART = 112, WIDE = 960 };
 
-static const double aspect = 0.5; /* of a chart's axes: the height to the width of the chart */
+static const double aspect = 0.5; /* height of a chart's axes over the width of the chart */
 
-/* Cells that stand side by side. */
+/* Cells side by side. */
 typedef struct line {
     size_t first, n, columns;
     double title, texts, flexible; /* heights: of titles, of all texts, of the squares or axes */
-    bool charts;                   /* one at least: these can grow in height */
+    bool charts;                   /* has at least one chart; charts can grow in height */
 } line;
 
 typedef struct layout {
@@ -33,8 +33,8 @@ typedef struct layout {
     line *lines;
 } layout;
 
-/* The next line of a figure: the cells from `first` on that belong to its row and fit into the width. A line that goes on with
-   the row of the line `before` has that line's columns. */
+/* The next line of a figure: the cells from `first` on that belong to one row and fit into the width. A line that
+   continues the row of the line `before` has as many columns as that line. */
 static line find_line(const koksma_figure *f, size_t first, double width, const line *before)
 {
     line l = {.first = first};
@@ -68,7 +68,7 @@ static void measure_line(const koksma_figure *f, line *l, double width)
     }
 }
 
-/* Where all is at a width; lines has room for a cell each. */
+/* Computes all positions for a width; lines has capacity for one line for each cell. */
 static void lay_out(layout *a, const koksma_figure *f, double width)
 {
     *a = (layout){.figure = f, .width = width, .lines = a->lines};
@@ -85,7 +85,7 @@ static void lay_out(layout *a, const koksma_figure *f, double width)
     }
 }
 
-/* Squares and axes of a height that is asked for: what shrinks shrinks alike, and charts alone grow. */
+/* Fits squares and axes to a requested height: all shrink by the same factor, and only charts grow. */
 static koksma_status fit_height(layout *a, double asked)
 {
     const double room = asked - a->fixed, more = room - a->flexible;
@@ -152,7 +152,7 @@ koksma_status koksma__figure_size(koksma_plot_format format, double asked, doubl
                               KOKSMA_PLOT_MAX_SIZE);
 }
 
-/* Checks the cells, and finds the width that nobody asked for: that of the widest row. */
+/* Checks the cells, and sets the default width, that of the widest row. */
 static koksma_status check_cells(const koksma_figure *f, double *width)
 {
     koksma_status status = koksma__array_check("figure->cells", f->cells, f->n_cells, sizeof *f->cells);

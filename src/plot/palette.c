@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The colours of plots. A curve's number is colour + KOKSMA__COLOURS dash: palette.def gives a pattern its colour, and
- * specs of equal colour in a picture get its dashes in turn. What is no pattern gets the first number that is free.
+ * The colours of plots. The style number of a curve is colour + KOKSMA__COLOURS * dash: palette.def gives each
+ * pattern a colour, and specs of equal colour in a picture get different dashes. A curve that is not a pattern's gets
+ * the first free number.
  */
 #include "plot/palette.h"
 
@@ -48,7 +49,7 @@ koksma__style koksma__curve_style(const koksma__theme *theme, size_t number, dou
     return (koksma__style){thickness, colour, (koksma__dash)(number / KOKSMA__COLOURS % KOKSMA__DASH_GUIDE)};
 }
 
-/* The colour of the pattern that a text begins with the name of; KOKSMA__COLOURS: it is in no list. */
+/* The colour of the pattern with whose name the text begins; KOKSMA__COLOURS if no pattern's name matches. */
 static size_t colour_of(const char *spec)
 {
     const size_t length = strcspn(spec, ":@ ");
@@ -81,13 +82,13 @@ koksma_status koksma_plot_colours(const char *const *specs, size_t n, size_t *nu
     KOKSMA__REQUIRE(specs, numbers);
     const koksma_status status = koksma__array_check("specs", specs, n, sizeof *specs);
     bool taken[KOKSMA__CURVE_STYLES] = {false};
-    for (size_t pass = 0; pass < 2 && !status; pass++) { /* first those that have a colour */
+    for (size_t pass = 0; pass < 2 && !status; pass++) { /* the first pass assigns the specs that have a colour */
         for (size_t i = 0; i < n; i++) {
             KOKSMA__REQUIRE(specs[i]);
             if ((colour_of(specs[i]) < KOKSMA__COLOURS) == (pass == 0)) {
                 const size_t number = koksma__take_curve_number(specs[i], taken);
-                numbers[i] =
-                    number < KOKSMA__CURVE_STYLES ? number : i % KOKSMA__CURVE_STYLES; /* more than there are */
+                /* styles repeat when there are more curves than styles */
+                numbers[i] = number < KOKSMA__CURVE_STYLES ? number : i % KOKSMA__CURVE_STYLES;
             }
         }
     }

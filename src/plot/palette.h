@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Colours and dashes of plots, on light and on dark paper. */
+/* Colours and dashes of plots, for light and for dark paper. */
 #ifndef KOKSMA_PLOT_PALETTE_H
 #define KOKSMA_PLOT_PALETTE_H
 
@@ -21,11 +21,13 @@ enum {
     KOKSMA__CURVE_STYLES = KOKSMA__COLOURS * KOKSMA__DASH_GUIDE
 };
 
-/* The number of the curve of a pattern's spec or of another text in one picture, and takes it: colour + KOKSMA__COLOURS
-   dash. taken: KOKSMA__CURVE_STYLES flags. What is no pattern gets the first free number. KOKSMA__CURVE_STYLES: none is. */
+/* Chooses and marks as taken the style number, colour + KOKSMA__COLOURS * dash, of a curve in one picture, from a
+   pattern's spec or another text. taken: KOKSMA__CURVE_STYLES flags. A text that is not a pattern gets the first free
+   number. Returns KOKSMA__CURVE_STYLES if no number is free. */
 size_t koksma__take_curve_number(const char *spec, bool *taken);
 
-/* How curve `number` is drawn (koksma_curve): colours first, then dashes, and shapes of marks with them. */
+/* The style of curve `number` (koksma_curve): successive numbers vary the colour first, then the dash and the shape
+   of the marks. */
 koksma__style koksma__curve_style(const koksma__theme *theme, size_t number, double thickness);
 
 #endif

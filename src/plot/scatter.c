@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Point sets in the unit square, as in figures 5.13 to 5.27 of Shirley 1991, or through a map with the borders of its
- * cells, as in figure 5.34; points of more dimensions as their projections on all pairs of axes, the lower triangle of
- * a scatter matrix; and power spectra.
+ * Panels that show point sets in the unit square, as in figures 5.13 to 5.27 of Shirley 1991; points mapped by a
+ * warp, with the borders of the cells, as in figure 5.34; points of more dimensions by their projections on all pairs
+ * of axes, the lower triangle of a scatter matrix; and power spectra.
  */
 #include "plot/scatter.h"
 
@@ -18,7 +18,7 @@
 
 enum { MARGIN = 6, TITLE = 12, TEXT = 11, LABEL = 10, SWATCH = 12, FAR = 100, CURVE = 96, LOCAL = 256, NOTE = 128 };
 
-/* A square of the picture that shows coordinates axes[0] and axes[1] of points. */
+/* A square of the picture that shows coordinates axes[0] and axes[1] of the points. */
 typedef struct plot {
     koksma__canvas *canvas;
     const koksma__theme *theme;
@@ -46,14 +46,14 @@ static double at_y(const plot *p, double y)
     return p->top + (1 - y) * p->side;
 }
 
-/* Where a point of the square is in the picture: as it is, or through a map, whose domain fills the picture's square.
-   Hemispheres are seen from above. */
+/* The position in the picture of a point of the square, directly or through a warp whose domain fills the picture's
+   square. Hemispheres are seen from above. */
 static void position(const plot *p, const koksma_warp *warp, const double in[2], double out[2])
 {
     double at[3] = {in[0], in[1], 0};
     if (warp) {
         warp->map(in, at);
-        if (warp->domain != KOKSMA_DOMAIN_TRIANGLE) { /* the disk of radius 1 */
+        if (warp->domain != KOKSMA_DOMAIN_TRIANGLE) { /* disk of radius 1 */
             at[0] = 0.5 + 0.5 * at[0];
             at[1] = 0.5 + 0.5 * at[1];
         }
@@ -62,7 +62,7 @@ static void position(const plot *p, const koksma_warp *warp, const double in[2],
     out[1] = at_y(p, at[1]);
 }
 
-/* The line where coordinate `fixed` is `value`; through a map it is drawn in short pieces. */
+/* Draws the line where coordinate `fixed` equals `value`, in short pieces if it goes through a warp. */
 static void draw_guide(const plot *p, const koksma_warp *warp, int fixed, double value)
 {
     const int pieces = warp ? CURVE : 1;
@@ -75,8 +75,8 @@ static void draw_guide(const plot *p, const koksma_warp *warp, int fixed, double
     koksma__canvas_path(p->canvas, xys, (size_t)pieces + 1, line_of(p->theme->cell, 0.8));
 }
 
-/* The borders between cells. With a warp also the border of the square, which in a disk is the line where it is cut
-   open. */
+/* Draws the borders between cells. With a warp it also draws the border of the square; in a disk this includes the
+   line where the disk is cut open. */
 static void draw_guides(const plot *p, const koksma_scatter_options *o)
 {
     const size_t counts[2] = {o->columns, o->rows};
@@ -101,7 +101,7 @@ static void draw_frame(const plot *p, const koksma_warp *warp)
     }
 }
 
-/* A disk with its copies on the torus, as polygons cut at the square. */
+/* Draws a disk with its copies on the torus, as polygons clipped at the square. */
 static void draw_disk(const plot *p, const koksma_witness *w)
 {
     double xys[2 * (KOKSMA__MAX_CORNERS)];
@@ -120,7 +120,7 @@ static void draw_half_plane(const plot *p, const koksma_witness *w)
 {
     const double norm = hypot(w->lo[0], w->lo[1]), a = w->lo[0] / norm, b = w->lo[1] / norm, reach = 2;
     const double x = a * w->hi[0] / norm, y = b * w->hi[0] / norm;
-    /* the line, and a band as wide as `reach` inwards from it */
+    /* the line, and a band of width `reach` on its inner side */
     const double xys[] = {at_x(p, x - reach * b),       at_y(p, y + reach * a),       at_x(p, x + reach * b),
                           at_y(p, y - reach * a),       at_x(p, x + reach * (b - a)), at_y(p, y - reach * (a + b)),
                           at_x(p, x - reach * (a + b)), at_y(p, y + reach * (a - b))};
@@ -152,7 +152,7 @@ static void paint(double share, unsigned char rgb[3])
     }
 }
 
-/* Colours the square by the local discrepancy; *scale gets the largest value, which has full colour. */
+/* Colours the square by the local discrepancy; *scale is the largest absolute value, which has full colour. */
 static koksma_status draw_local(const plot *p, const koksma_points *points, double *scale)
 {
     const size_t n = (size_t)LOCAL * LOCAL;
@@ -198,7 +198,7 @@ static int dimensions(const koksma_panel *panel)
     return dim < KOKSMA_PLOT_MAX_DIM ? dim : KOKSMA_PLOT_MAX_DIM;
 }
 
-/* The lower triangle: coordinate j against i > j, named at the left and below. */
+/* Draws the lower triangle of the scatter matrix: coordinate j against i > j, labelled at the left and below. */
 static void draw_matrix(const plot *p, const koksma_panel *panel)
 {
     const int n = dimensions(panel) - 1, gap = 4;
@@ -231,7 +231,8 @@ static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, doub
     }
     for (int ky = -half; ky <= half; ky++) {
         for (int kx = -half; kx <= half; kx++) {
-            const double power = kx || ky ? koksma_spectrum_power(s, kx, ky) : 0; /* at 0 it is n for all points */
+            /* at frequency 0 it is n for every point set */
+            const double power = kx || ky ? koksma_spectrum_power(s, kx, ky) : 0;
             memset(rgb + 3 * ((size_t)(half - ky) * (size_t)side + (size_t)(kx + half)),
                    (unsigned char)(255 * fmin(power / white, 1) + 0.5), 3);
         }
@@ -242,7 +243,7 @@ static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, doub
     return status;
 }
 
-/* What the colours mean, or which dimensions there are; empty: there is nothing to say. */
+/* Writes a note on the meaning of the colours, or on the dimensions shown; empty if neither is needed. */
 static void put_note(const koksma_panel *panel, double largest, char text[NOTE])
 {
     *text = '\0';
@@ -269,7 +270,7 @@ static double lines_height(const char *text, double width, double height)
 
 double koksma__panel_side(const koksma_panel *panel)
 {
-    return fmax(320, 110 * (dimensions(panel) - 1.0)); /* of points that may still be refused */
+    return fmax(320, 110 * (dimensions(panel) - 1.0)); /* the panel is not checked yet */
 }
 
 double koksma__panel_title(const koksma_panel *panel, double width)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Subdivided squares, as in figures 5.35 and 5.36 of Shirley 1991: boxes filled with their values' greys, dots where
- * the samples are, and over them the splits: black where a split was needless, a circle where it was needed. Circles
- * are drawn last, so that a needed split inside a needless one is seen.
+ * Subdivided squares, as in figures 5.35 and 5.36 of Shirley 1991: boxes filled with the greys of their values, dots
+ * at the samples, and over them the splits: black where a split was needless, a circle where it was needed. Circles
+ * are drawn last, so that a needed split inside a needless one stays visible.
  */
 #include <math.h>
 
@@ -30,7 +30,8 @@ static void add_box(const square *q, double x, double y, double width, double he
     koksma__canvas_box(q->canvas, box, (koksma__style){.thickness = thickness, .colour = colour});
 }
 
-/* From black at 0 to white at 1; where black is a mark, the values' own range from mid-grey on. */
+/* Adds boxes in greys from black at 0 to white at 1; if black marks are drawn on them, in greys from MARKED_GREY on,
+   scaled to the range of the values. */
 static void add_values(const square *q, const koksma_strata_panel *panel)
 {
     const bool marked = panel->n_splits > 0;

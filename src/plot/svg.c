@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * SVG: shapes as elements of their own names, texts as <text>, which can be found and edited, and images as PNG.
- * Shapes of one style that follow each other are in one <g>. There are no ids, so that several pictures fit into one
- * page, and nothing is counted beyond a canvas: equal strokes are equal bytes.
+ * The SVG backend: shapes become elements such as <rect> and <circle>, texts become <text>, which can be searched and
+ * edited, and images become PNG. Successive shapes of one style share a <g>. There are no ids, so that several
+ * pictures fit into one page, and no counters outlive a canvas, so that equal strokes give equal bytes.
  */
 #include "plot/svg.h"
 
@@ -22,7 +22,7 @@ typedef struct svg {
     koksma__canvas base;
     char *text;
     size_t size, capacity;
-    char style[STYLE]; /* of the open <g>; "": none is open */
+    char style[STYLE]; /* style of the open <g>; "": none is open */
     bool failed;
 } svg;
 
@@ -48,7 +48,7 @@ static void put(svg *s, const char *text)
     put_bytes(s, text, strlen(text));
 }
 
-/* before="value", to a hundredth, without zeros at the end. */
+/* Writes before="value", rounded to a hundredth, without zeros at the end. */
 static void put_number(svg *s, const char *before, double value, const char *after)
 {
     char text[48];
@@ -70,7 +70,7 @@ static void put_escaped(svg *s, const char *text)
     }
 }
 
-/* The <g> of a style: that which is open, or another. */
+/* Begins the <g> of a style, unless it is open already. */
 static void begin_group(svg *s, const char *style)
 {
     if (strcmp(s->style, style) != 0) {
@@ -82,7 +82,7 @@ static void begin_group(svg *s, const char *style)
     }
 }
 
-/* fill="#rrggbb", and its opacity unless it is whole. */
+/* Writes fill="#rrggbb" (or another name), and the opacity if it is below 1. */
 static int colour_text(char *text, size_t size, const char *what, koksma__colour c)
 {
     const int n = snprintf(text, size, " %s=\"#%02x%02x%02x\"", what, (int)(255 * c.r + 0.5), (int)(255 * c.g + 0.5),
@@ -170,7 +170,8 @@ static void put_base64(svg *s, const unsigned char *bytes, size_t size)
     }
 }
 
-/* An image of sRGB's levels: what PNG makes of its linear values is the levels again. */
+/* Writes an image of sRGB levels: it converts them to linear values, which the PNG writer converts back to the same
+   levels. */
 static koksma_status pixels(koksma__canvas *canvas, koksma__box b, int columns, int rows, const unsigned char *rgb)
 {
     svg *s = (svg *)canvas;

@@ -4,7 +4,7 @@
 
 #include "plot/backend.h"
 
-/* The backend of SVG; it needs no library. */
+/* The backend for SVG; it needs no outside library. */
 extern const koksma__canvas_functions koksma__svg_functions;
 
 #endif

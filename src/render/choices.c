@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The words for the options of a render that are enumerations (pairing, scope, choice of lights), and the end of a
- * picture with its layers. Parsers of plans and of the command line compare with these words.
+ * The names of those options of a render that are enumerations (pairing, scope, selection of lights), for the parsers
+ * of plans and of the command line; and the release of an image with its layers.
  */
 #include <stddef.h>
 

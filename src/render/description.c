@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Builds the description of a scene: whoever reads a file (src/scene) or parses a kind's fields (src/render/lights
- * and shapes) appends here. koksma__scene_finish() derives what depends on all parts: whether pictures have one
- * channel, whether anything moves, and the part of the hash that comes from images in other files.
+ * Builds the description of a scene: the readers of files (src/scene) and the parsers of lights and shapes
+ * (src/render/lights and shapes) append to the description by these functions. koksma__scene_finish() derives what
+ * depends on all parts: whether pictures have one channel, whether anything moves, and the part of the hash that
+ * comes from images in other files.
  */
 #include <stdio.h>
 #include <string.h>
@@ -80,7 +81,7 @@ static uint64_t image_hash(const koksma_image *image)
     return koksma__hash(image->pixels, n * sizeof *image->pixels);
 }
 
-/* Images are files of their own, as meshes are: another picture is another scene. */
+/* Adds the pixels of images in other files to the scene's hash, as other pixels make another scene. */
 static void add_pixels(koksma_scene *scene)
 {
     for (size_t i = 0; i < scene->n_materials; i++) {
@@ -96,7 +97,7 @@ static void add_pixels(koksma_scene *scene)
     }
 }
 
-/* Sets the members of a scene that are computed from the others, such as whether it has colours. */
+/* Computes the members of a scene that follow from others, such as whether it has colours. */
 void koksma__scene_finish(koksma_scene *scene)
 {
     scene->grey = is_grey(scene->background) && is_grey(scene->ambient);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Elementary functions in floats for loops over lanes: sine and cosine, arc tangent and powers by polynomials, with
- * + - * /, comparisons and conversions only, so that compilers put them into lanes and every instruction set gives the
- * same bits. tests/render/test_polynomials.c holds the stated errors against long double.
+ * Elementary functions in floats for loops over lanes: sine and cosine, arc tangent and powers by polynomials, with +
+ * - * /, comparisons and conversions only, so that compilers vectorise them and every instruction set gives the same
+ * bits. tests/render/test_polynomials.c checks the stated errors against long double.
  *
- * Sine and cosine take turns (an angle over 2 pi): the nearest quarter is taken off without rounding, and minimax
- * polynomials on [-pi/4, pi/4] (Moshier's Cephes library) do the rest. The arc tangent is reduced to |x| <= tan(pi/8)
- * by atan x = pi/4 + atan((x - 1) / (x + 1)). Powers are 2^(e log2 x) in doubles, because e multiplies the error of
- * the logarithm: log2 by the series of the area tangent of (m - 1) / (m + 1), 2^f by Taylor's series.
+ * The argument of sine and cosine is in turns (an angle divided by 2 pi): the nearest quarter turn is subtracted
+ * without rounding, and minimax polynomials on [-pi/4, pi/4] (Moshier's Cephes library) give the result. The arc
+ * tangent is reduced to |x| <= tan(pi/8) by atan x = pi/4 + atan((x - 1) / (x + 1)). Powers are 2^(e log2 x) in
+ * doubles, because e multiplies the error of the logarithm: log2 by the series of the area tangent of (m - 1) / (m +
+ * 1), 2^f by Taylor's series.
  */
 #ifndef KOKSMA_RENDER_ELEMENTARY_H
 #define KOKSMA_RENDER_ELEMENTARY_H
@@ -17,18 +18,19 @@
 
 #define KOKSMA__INLINE static inline __attribute__((always_inline))
 
-/* The greatest errors: absolute of sine and cosine; of the arc tangent, in turns; relative of powers with a result
-   above 2^-126. */
+/* The largest errors: absolute for sine and cosine; absolute for the arc tangent, in turns; relative for powers with
+   a result above 2^-126. */
 #define KOKSMA__SINE_ERROR 1.3e-7
 #define KOKSMA__ARC_ERROR 6e-8
 #define KOKSMA__POWER_ERROR 7e-8
 
-/* 3 2^22 and 3 2^51: added to a number, they leave the nearest integer in the low bits of the sum. A conversion does the
-   same, but gcc leaves it behind a branch where its result may be unused, and the loop is not put into lanes then. */
+/* Constants 3 2^22 and 3 2^51 for rounding: added to a number, they leave the nearest integer in the low bits of the
+   sum. A conversion does this, too, but gcc puts it behind a branch if its result may be unused, and then does not
+   vectorise the loop. */
 #define KOKSMA__SHIFT 12582912.0f
 #define KOKSMA__SHIFT_2 6755399441055744.0
 
-/* |angle| <= pi/4, in radians. */
+/* Sine and cosine of |angle| <= pi/4, in radians. */
 KOKSMA__INLINE void koksma__sine_cosine(float angle, float *sine, float *cosine)
 {
     const float z = angle * angle;
@@ -37,7 +39,7 @@ KOKSMA__INLINE void koksma__sine_cosine(float angle, float *sine, float *cosine)
         1 - 0.5f * z + z * z * (4.166664568298827e-2f - z * (1.388731625493765e-3f - z * 2.443315711809948e-5f));
 }
 
-/* Of 2 pi turns, |turns| < 2^19. */
+/* Sine and cosine of 2 pi turns, |turns| < 2^19. */
 KOKSMA__INLINE void koksma__sine_cosine_turns(float turns, float *sine, float *cosine)
 {
     const float shifted = 4 * turns + KOKSMA__SHIFT;
@@ -66,7 +68,7 @@ KOKSMA__INLINE float koksma__arc_turns(float y, float x)
     return y < 0 ? -half : half;
 }
 
-/* base^exponent, 0 <= base <= 1, 0 <= exponent <= 1e7; 0 below 2^-126, and base 0 counts as 2^-127. */
+/* base^exponent, 0 <= base <= 1, 0 <= exponent <= 1e7. A result below 2^-126 is 0, and base 0 counts as 2^-127. */
 KOKSMA__INLINE float koksma__power(float base, float exponent)
 {
     const int32_t root = 0x3f3504f3; /* the bits of sqrt(1/2) */

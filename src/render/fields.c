@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reads the fields that kinds of materials, lights and shapes declare, and the few composite ones that several kinds
- * read themselves: directions, colours, the axes of flat shapes, images in other files. Every failure names file,
- * line and field (json/json.h).
+ * Reads the fields that kinds of materials, lights and shapes declare, and composite fields that several kinds share:
+ * directions, colours, the axes of flat shapes, images in other files. Every error message names file, line and field
+ * (json/json.h).
  */
 #include "render/fields.h"
 

@@ -1,33 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A pixel is the mean of its samples; each sample weighs what the filter says (filters.h), and 1 with the box.
+ * The value of a pixel is the weighted mean of its samples; the filter gives the weights (filters.h), which are 1 for
+ * the box.
  *
- * Drawn from a filter f with negative lobes, samples have the density |f| / c, c = integral of |f|, and weights
- * w = c sign(f) of mean 1. The mean of w y would turn a constant picture into noise, for the w of a few samples have
- * another mean, and the ratio sum w y / sum w can have 0 below the line. But E[w y] = E[y] + Cov(w, y), and so
+ * Drawn from a filter f with negative lobes, samples have the density |f| / c, c = integral of |f|, and weights w = c
+ * sign(f) of mean 1. The mean of w y would turn a constant picture into noise, because the w of a few samples have a
+ * mean other than 1, and the ratio sum w y / sum w can have a denominator of 0. But E[w y] = E[y] + Cov(w, y), and so
  *
  *     m = mean of y  +  sum (w_i - mean w) (y_i - mean y) / (n - 1)  =  mean of v_i y_i,
  *     v_i = 1 + (w_i - mean w) n / (n - 1),      whose mean is 1
  *
- * keeps constants exactly, whatever signs were drawn, and divides by nothing that is drawn. For independent samples
- * it has no bias; for stratified ones the mean of w errs less than n - 1 supposes, and the bias is at most
- * Cov(w, y) / (n - 1). A single sample has no covariance: it is drawn from the positive part of f. Deterministic
- * patterns of few samples may have none in a lobe and leave it out. If every w is 1, so is every v.
+ * preserves constants exactly for any signs drawn, and divides by no random number. For independent samples it has no
+ * bias; for stratified ones the mean of w varies less than the factor n - 1 assumes, and the bias is at most Cov(w,
+ * y) / (n - 1). A single sample has no covariance: it is drawn from the positive part of f. A deterministic pattern
+ * of few samples may have none in a lobe, which is then ignored. If every w is 1, so is every v.
  *
- * A splatted sample adds to several pixels. Each task keeps sums of its own, which are added in the order of the
- * tasks, so that the image does not depend on threads; a finished task waits only for those before it. A pixel of an
- * image-wide pattern, or of splatted samples, that got none takes its value from the pixels around it (below);
- * its count says 0.
+ * A splatted sample adds to several pixels. Each task has its own sums, which are added in the order of the tasks, so
+ * that the image does not depend on the number of threads; a finished task waits only for the tasks before it. With
+ * an image-wide pattern or splatting a pixel may get no sample: it takes its value from the pixels around it (below),
+ * and its sample count is 0.
  *
- * The layer `variance` is that of a pixel's luminance m, from its samples y_i of weight w_i as if independent. Drawn
- * from a filter of one sign, m is a mean of n samples, so it is their variance over n. Splatted, m = sum w y / W
- * with W = sum w is a ratio, whose variance is, to first order (Cochran 1977, chapter 6),
+ * The layer `variance` estimates the variance of a pixel's luminance m from its samples y_i of weight w_i as if they
+ * were independent. With samples drawn from a filter of one sign, m is a mean of n samples, and the estimate is their
+ * variance divided by n. With splatting, m = sum w y / W with W = sum w is a ratio, whose variance is, to first order
+ * (Cochran 1977, chapter 6),
  *
  *     sum w^2 (y - m)^2 / W^2   times   S2 / (S2 - 2 S3 / W + S2^2 / W^2),   Sk = sum w^k
  *
- * where the factor makes up for m coming from the same samples: exactly, whatever the weights, if all y have one
- * variance. For equal weights it is n / (n - 1); for a single sample 0 / 0, and the layer has 0 there as elsewhere.
- * The same with w = v and W = n is that of samples drawn from a filter with negative lobes.
+ * where the factor corrects for m being computed from these samples; for any weights the correction is exact if all y
+ * have the same variance. For equal weights it is n / (n - 1); for a single sample it is 0 / 0, and the layer is 0.
+ * With w = v and W = n this is also the estimate for samples drawn from a filter with negative lobes.
  */
 #include "render/film.h"
 
@@ -37,10 +39,10 @@
 #include "core/status.h"
 #include "render/vector3.h"
 
-/* What the variance of splatted samples takes beside W and the sum of w y, in this order. */
+/* The sums of a pixel, beside W and the sum of w y, that the variance of splatted samples needs, in this order. */
 enum { SUM_W2, SUM_W3, SUM_W2_Y, SUM_W2_Y2, N_MOMENTS };
 
-/* Numbers of a pixel in the layers beside the image. */
+/* Numbers for each pixel in the layers beside the image. */
 enum { SAMPLES = 1, OTHER_LAYERS = 3 + 3 + 1 + 1 };
 
 size_t koksma__film_numbers(int channels, bool all_layers)
@@ -99,7 +101,7 @@ koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *f
     }
     koksma__splat *splat = &film->splats[task];
     const size_t n = (size_t)(rows + 2 * film->reach) * (size_t)frame->options->width * film->numbers;
-    splat->first_row = first_row - film->reach; /* not `done`, which other tasks look at */
+    splat->first_row = first_row - film->reach; /* splat->done is not written, as other tasks read it */
     splat->rows = rows + 2 * film->reach;
     splat->sums = calloc(n, sizeof(double));
     return splat->sums ? KOKSMA_OK : koksma__fail_memory(n * sizeof(double));
@@ -190,22 +192,24 @@ static void splat_sample(const koksma__frame *frame, const koksma__film *film, c
     }
 }
 
-/* The variance of a pixel of value `mean` from the weights' sum and the moments. */
+/* The variance of a pixel of value `mean`, from the sum of the weights and the moments. */
 static double splat_variance(const double *moments, double weight, double mean)
 {
     const double w2 = moments[SUM_W2], ratio = w2 / weight;
     const double off = moments[SUM_W2_Y2] - mean * (2 * moments[SUM_W2_Y] - mean * w2);
     const double left = w2 - 2 * moments[SUM_W3] / weight + ratio * ratio;
-    /* One sample leaves rounding, as do others that weigh next to nothing beside it, and equal values. */
+    /* for one sample, samples of negligible weight beside one, or equal values only rounding is left: 0 */
     return off > 1e-14 * moments[SUM_W2_Y2] && left > 1e-12 * w2 ? off / (weight * weight) * (w2 / left) : 0;
 }
 
-/* The variance of the mean luminance of samples first .. end - 1, drawn from a filter with negative lobes. */
+/* The variance of the mean luminance of samples first .. end - 1 that were drawn from a filter with negative
+   lobes. */
 static double signed_variance(const float *rgb, const float *weights, size_t channels, size_t first, size_t end)
 {
     double moments[N_MOMENTS] = {0}, mean = 0;
     const double n = (double)(end - first), origin = luminance_of(rgb + channels * first, channels);
-    for (size_t i = first; i < end; i++) { /* less the first one, so that equal values have variance 0 */
+    /* relative to the first sample, so that equal values have variance exactly 0 */
+    for (size_t i = first; i < end; i++) {
         const double y = luminance_of(rgb + channels * i, channels) - origin;
         mean += (double)weights[i] * y / n;
         add_moments(moments, (double)weights[i], y);
@@ -213,7 +217,7 @@ static double signed_variance(const float *rgb, const float *weights, size_t cha
     return splat_variance(moments, n, mean);
 }
 
-/* weights: NULL where none is negative. Splatted pixels get their variance in the end. */
+/* weights: NULL unless the filter has negative lobes. The variance of splatted pixels is computed at the end. */
 static void add_layers(koksma_layers *layers, const koksma__values *v, const float *weights, size_t channels,
                        size_t pixel, size_t first, size_t end)
 {
@@ -269,7 +273,7 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
 
 /* ---- The end ---------------------------------------------------------------------------------------------- */
 
-/* Adds what the samples of a task came to, and forgets it. */
+/* Adds the sums of a finished task to the film, and releases them. */
 static void merge_splat(const koksma__frame *frame, koksma__film *film, koksma__splat *splat)
 {
     const size_t row = (size_t)frame->options->width * film->numbers;
@@ -296,8 +300,8 @@ void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, siz
     pthread_mutex_unlock(&film->lock);
 }
 
-/* The pixels' values, and the weights that they come from. After an interrupt some tasks are missing. A pixel that
-   was not rendered then has only small contributions, from the tails of its neighbours' filters, and stays 0. */
+/* Divides the sums by the weights. After an interruption some tasks are missing: a pixel that was not rendered then
+   has only small contributions, from the tails of its neighbours' filters, and stays 0. */
 static void finish_splats(const koksma__frame *frame, koksma__film *film, bool whole, float *weights)
 {
     const size_t pixels = (size_t)frame->options->width * (size_t)frame->options->height;
@@ -343,17 +347,18 @@ koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film
 
 /* ---- Pixels without samples ---------------------------------------------------------------------------- */
 
-/* Values for pixels without samples, by a breadth-first walk from those that have some: it looks at every pixel once,
+/* Fills pixels without samples by a breadth-first search from those that have samples, which visits every pixel once,
    however wide the gaps are. */
 
-/* Pixels by their distance from those that have something, in steps to any of the eight around; those are 0. */
+/* Each pixel's distance, in steps to any of its eight neighbours, from the nearest pixel with samples, whose distance
+   is 0. */
 typedef struct gaps {
-    int *steps; /* -1: not reached yet */
+    int *steps; /* -1: not visited yet */
     size_t *queue, n;
 } gaps;
 
 typedef struct around {
-    int x0, x1, y0, y1; /* a pixel and its neighbours, the last ones too */
+    int x0, x1, y0, y1; /* inclusive bounds of a pixel and its neighbours */
 } around;
 
 static around around_of(const koksma_image *image, size_t pixel)
@@ -363,7 +368,7 @@ static around around_of(const koksma_image *image, size_t pixel)
                     y + 1 < image->height ? y + 1 : y};
 }
 
-/* The mean of the neighbours that are one step nearer; and those that are reached from here queue up. */
+/* Sets a pixel to the mean of its neighbours that are one step nearer, and queues its neighbours not visited yet. */
 static void fill_pixel(koksma_image *image, gaps *g, size_t pixel)
 {
     const around a = around_of(image, pixel);

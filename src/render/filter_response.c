@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a filter lets through: its frequency response, and how much of what it lets through is beyond Nyquist's
- * frequency. With f even and zero from `radius` on,
+ * A filter's frequency response, and its leakage, the share of the filter's energy beyond the Nyquist frequency. With
+ * f even and zero from `radius` on,
  *
  *     H(w) = integral f(x) cos(2 pi w x) dx / integral f,        leakage = 1 - integral over |w| < 1/2 of H^2 /
  * integral H^2
  *
  * and by Parseval's theorem integral H^2 = integral f^2 / (integral f)^2. Integrals are by two-point Gauss rules over
- * cells of the half line, none of whose points is an edge of the filter.
+ * cells of the half line, whose points avoid the edges of the filter.
  */
 #include <math.h>
 
@@ -18,7 +18,7 @@ enum { CELLS = 4096, BANDS = 64 };
 
 static const double gauss = 0.28867513459481287; /* half of 1 / sqrt(3) */
 
-/* f, f cos(2 pi w x) and f^2 over the half line. */
+/* Integrals of f, f cos(2 pi w x) and f^2 over the half line. */
 typedef struct sums {
     double f, wave, square;
 } sums;
@@ -52,12 +52,12 @@ double koksma_filter_leakage(const koksma_filter *filter)
 {
     KOKSMA__REQUIRE_OR(NAN, filter);
     const sums s = integrate(filter, 0);
-    const double all = s.square / (2 * s.f * s.f); /* over both halves: 2 square / (2 f)^2 */
+    const double all = s.square / (2 * s.f * s.f); /* for both halves of the line: 2 square / (2 f)^2 */
     double passed = 0;
     for (int i = 0; i < BANDS; i++) {
         for (int side = -1; side <= 1; side += 2) {
             const double h = koksma_filter_response(filter, 0.5 / BANDS * (i + 0.5 + side * gauss));
-            passed += h * h * (0.5 / BANDS); /* of both halves of the line, two points a band */
+            passed += h * h * (0.5 / BANDS); /* for both halves of the line, two points for each band */
         }
     }
     return 1 - passed / all;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What is the same for all pixels of a picture, made once: materials and lights in floats, the camera as steps on the
- * film, the sampler, the filter's table and the geometry. The geometry (for meshes Embree's tree) is the same for all
- * pictures of a scene, so the scene keeps it (scene_cache) under a lock for as long as it lives.
+ * Data that all pixels of an image share, computed once: materials and lights in floats, the camera as steps on the
+ * film, the sampler, the filter's table and the geometry. The geometry (for meshes Embree's tree) is shared by all
+ * images of a scene: it is stored in the scene (scene_cache), under a lock, until the scene is released.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -59,7 +59,7 @@ static koksma_status make_materials(koksma__frame *f)
     return KOKSMA_OK;
 }
 
-/* The same in arrays for blocks. */
+/* Copies the materials to arrays for blocks of rays. */
 static koksma_status make_lane_materials(koksma__frame *f)
 {
     const size_t n = f->scene->n_materials + 1;
@@ -123,7 +123,7 @@ koksma_light_selection koksma__light_selection(const koksma_scene *scene, const 
 {
     const koksma__integrator_flags *flags = options->integrator->flags;
     const bool many = scene->n_lights > KOKSMA__FEW_LIGHTS && flags->followed & KOKSMA__LOBE_DIFFUSE;
-    if (flags->replace_scene) { /* its lights are none of the scene's */
+    if (flags->replace_scene) { /* the lights are those of the integrator's own scene */
         return KOKSMA_LIGHTS_ALL;
     }
     return options->lights != KOKSMA_LIGHTS_AUTO ? options->lights : many ? KOKSMA_LIGHTS_ONE : KOKSMA_LIGHTS_ALL;
@@ -163,7 +163,7 @@ static void release_geometry(void *made)
     free(geometry);
 }
 
-/* The scene's geometry, which all its pictures share: a study renders a mesh a thousand times. */
+/* The scene's geometry, which all its images share, because a study may render a mesh a thousand times. */
 static koksma_status find_geometry(const koksma_scene *scene, koksma__geometry *out)
 {
     koksma__scene_cache *cache = scene->cache;
@@ -234,7 +234,7 @@ static koksma_status check(const koksma_render_options *o)
     if (o->width < 1 || o->height < 1 || o->width > KOKSMA_MAX_IMAGE_SIDE || o->height > KOKSMA_MAX_IMAGE_SIDE ||
         (size_t)o->width * (size_t)o->height > KOKSMA_MAX_PIXELS) {
         koksma_image none;
-        return koksma_image_init(&none, o->width, o->height, 1); /* says what is wrong with them */
+        return koksma_image_init(&none, o->width, o->height, 1); /* fails with the message for the wrong size */
     }
     KOKSMA__FAIL_IF(o->spp < 1 || o->spp > KOKSMA_MAX_SPP, KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d",
                     o->spp, KOKSMA_MAX_SPP);

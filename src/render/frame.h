@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * One picture in the making. Pixels go in groups that fill KOKSMA__BLOCK lanes through one of the pipelines of
- * pipelines.def: lambert_lanes.c, all in lanes, for grey Lambert scenes under rectangles; wavefront.c, for
- * everything. A pipeline turns the samples of a group into values; film.c turns values into pixels.
+ * The rendering of one image. Pixels are processed in groups that fill KOKSMA__BLOCK lanes, by one of the pipelines
+ * of pipelines.def: lambert_lanes.c, fully vectorised, for grey Lambert scenes lit by rectangles; wavefront.c for all
+ * scenes. A pipeline turns the samples of a group into values; film.c turns values into pixels.
  */
 #ifndef KOKSMA_RENDER_FRAME_H
 #define KOKSMA_RENDER_FRAME_H
@@ -19,16 +19,16 @@
 typedef struct koksma__frame {
     const koksma_scene *scene;
     const koksma_render_options *options;
-    const koksma__integrator_flags *flags;  /* of the integrator */
+    const koksma__integrator_flags *flags;  /* the integrator's flags */
     koksma_light_selection light_selection; /* never AUTO */
-    int depth;                              /* bounces at most */
+    int depth;                              /* largest number of bounces */
     int channels;
     const koksma__batch_table *batch;
-    koksma__geometry geometry;          /* the scene's own */
-    koksma__frustum_cull *frustum_cull; /* NULL: all shapes are tried for every ray */
+    koksma__geometry geometry;          /* owned by the scene */
+    koksma__frustum_cull *frustum_cull; /* NULL: every ray is tested against all shapes */
     koksma__use_list uses;
     koksma__sampler sampler;
-    size_t together; /* samples of a group, unless one pixel has more: the pipeline's */
+    size_t together; /* the pipeline's number of samples for a group, unless one pixel has more */
     koksma__batch_camera camera;
     koksma__lights lights;
     koksma__batch_material *materials;
@@ -36,12 +36,12 @@ typedef struct koksma__frame {
     koksma__lane_materials lane_materials;
     float background[3];
     koksma__filter_table *filter; /* NULL: box */
-    void *cache;                  /* the integrator's own */
-    koksma_scene *replaced;       /* the integrator's own scene, which `scene` is then; or NULL */
+    void *cache;                  /* data of the integrator */
+    koksma_scene *replaced;       /* the scene that the integrator made, to which `scene` then points; or NULL */
 } koksma__frame;
 
-/* Pixels first .. first + count - 1, and their samples: pixel first + p has samples start[p] .. start[p + 1] - 1. The
-   pixels are of one row unless sampling is adaptive. */
+/* A group: pixels first .. first + count - 1, where pixel first + p has samples start[p] .. start[p + 1] - 1. The
+   pixels are in one row unless sampling is adaptive. */
 enum { KOKSMA__GROUP_PIXELS = 128 }; /* at most */
 
 typedef struct koksma__group {
@@ -49,11 +49,12 @@ typedef struct koksma__group {
     size_t start[KOKSMA__GROUP_PIXELS + 1];
 } koksma__group;
 
-/* What the samples of a group come to. capacity floats a channel; layers are NULL when no one wants them. */
+/* The values of the samples of a group. Each channel has capacity floats; unused layers are NULL. */
 typedef struct koksma__values {
-    float *film; /* positions on the film, in pixels: 2 a sample. In pixel 2^k they are multiples of 2^(k - 23) of a
-                       pixel (at 65,536 of 1/256), no coarser than the directions that are made of them */
-    float *weights; /* of the filter; NULL: all 1 */
+    /* positions on the film, in pixels: 2 for each sample. In pixel 2^k they are multiples of 2^(k - 23) of a pixel
+       (at 65,536 of 1/256), no coarser than the directions that are computed from them */
+    float *film;
+    float *weights; /* of the filter; NULL: all weights are 1 */
     float *rgb;     /* channels a sample */
     float *albedo, *normal, *depth;
     uint64_t rays;
@@ -61,45 +62,46 @@ typedef struct koksma__values {
 
 typedef struct koksma__pipeline {
     const char *name, *title;
-    int preference; /* among those that take a picture */
-    /* Whether it can render this picture. */
+    int preference; /* priority among the pipelines that can render the image */
+    /* Whether the pipeline can render this image. */
     bool (*takes)(const koksma__frame *frame);
-    bool culls;      /* it wants frame->frustum_cull */
-    size_t together; /* samples that it takes at once, if a pixel has fewer */
-    /* A task's scratch. Errors: MEMORY. */
+    bool culls;      /* it uses frame->frustum_cull */
+    size_t together; /* preferred number of samples in a group */
+    /* Allocates the scratch of a task. Errors: MEMORY. */
     koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **scratch);
     void (*close)(void *scratch);
-    /* Whether no ray of the group can meet anything, wherever in the pixels its samples are: then values has their
-       colours, and nothing needs to be drawn or traced. NULL: it is never known. */
+    /* Whether no ray of the group can hit anything, wherever its samples are within the pixels. If so, it sets the
+       colours in values, and no samples need to be drawn or traced. NULL: the pipeline has no such test. */
     bool (*is_empty)(const koksma__frame *frame, void *scratch, const koksma__group *group, koksma__values *values);
-    /* Fills values (film and weights are there). Errors: the sampler's, MEMORY. */
+    /* Fills values, where film and weights are set already. Errors: the sampler's, MEMORY. */
     koksma_status (*trace)(const koksma__frame *frame, void *scratch, const koksma__group *group,
                            koksma__values *values);
 } koksma__pipeline;
 
-/* All that is the same for every pixel; close also after a failure. Errors: ARGUMENT, the pattern's, MEMORY,
- * INTERRUPTED.
- */
+/* Computes all data that the pixels share; koksma__frame_close must be called, also after a failure. Errors:
+   ARGUMENT, the pattern's, MEMORY, INTERRUPTED. */
 koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_options *options,
                                  const koksma_run *run, koksma__frame *out);
 void koksma__frame_close(koksma__frame *frame);
 
-/* Which lights get shadow rays: for AUTO one where paths are followed among more than KOKSMA__FEW_LIGHTS, else all. */
+/* Which lights get shadow rays: AUTO becomes one light if paths are followed among more than KOKSMA__FEW_LIGHTS
+   lights, otherwise all. */
 enum { KOKSMA__FEW_LIGHTS = 8 };
 koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options);
 
-/* What samples will be spent on. */
+/* The sample dimensions that the render will use. */
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);
 
-/* As many pixels from `first` on as have frame->together samples, one at least, none from `end` on. */
+/* Makes a group of the pixels from `first` on that have frame->together samples in all, at least one pixel, none from
+   `end` on. */
 void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);
 
-/* The pairs of a use of all samples of a group, one pixel after the other; with on_film each pixel's own position is
-   added. The pairs are padded with copies to whole lanes. */
+/* Draws the sample pairs of one use for all samples of a group, one pixel after the other; with on_film each pixel's
+   position is added. The pairs are padded with copies to whole lanes. */
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
                                  koksma__sample_scratch *scratch, float *pairs);
 
-/* What a task needs to draw its samples and to know what they come to. */
+/* Scratch in which a task draws its samples and computes their values. */
 typedef struct koksma__task_scratch {
     const koksma__pipeline *pipeline;
     void *pipeline_scratch;
@@ -107,19 +109,19 @@ typedef struct koksma__task_scratch {
     koksma__values values;
 } koksma__task_scratch;
 
-/* For groups of `capacity` samples; all_layers: albedo, normal and depth too. fini also after a failure. Errors:
- * MEMORY. */
+/* Allocates for groups of `capacity` samples; all_layers: with albedo, normal and depth. Call fini also after a
+   failure. Errors: MEMORY. */
 koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
                                         bool all_layers, koksma__task_scratch *scratch);
 void koksma__task_scratch_fini(koksma__task_scratch *scratch);
 
-/* samples, rounded up to whole lanes */
+/* The number of samples, rounded up to whole lanes. */
 static inline size_t koksma__whole_lanes(size_t samples)
 {
     return (samples + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
 }
 
-/* The samples of the largest group, in whole lanes, if a pixel has `most`. */
+/* The number of samples in the largest group, in whole lanes, if a pixel has at most `most`. */
 static inline size_t koksma__group_capacity(const koksma__frame *frame, size_t most)
 {
     return koksma__whole_lanes(most < frame->together ? frame->together : most);

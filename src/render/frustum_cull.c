@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which shapes a part of the film can see. A ray from the eye o through film position (x, y) goes along
- * d = base + x step_x + y step_y, so
+ * Finds the shapes that rays through a part of the film can hit. A ray from the eye o through film position (x, y)
+ * goes along d = base + x step_x + y step_y, so
  *
  *   flat shape:  with e = o - c, s = -sign(n.e), N = s n.d: it is met in front of the eye where N > 0, at
  *                u = (e.u + |n.e| d.u / N); u > h there if and only if (e.u - h) N + |n.e| d.u > 0, and likewise for
- *                -u and v. N and these are linear in (x, y): a rectangle of the film sees nothing where N <= 0 in all
- *                of it, or one of the four is > 0 in all of it.
- *   others:      the line through the eye misses the sphere around the shape if and only if
+ *                -u and v. N and these four expressions are linear in (x, y): a
+ *                rectangle of the film cannot see the shape if N <= 0, or one of the four is > 0, in all of it.
+ *   other shapes: the line through the eye misses the sphere around the shape if and only if
  *                |e x d|^2 - r^2 d.d > 0, a quadratic form in (x, y), bounded from below by its value, slopes and
  *                curvatures at the middle.
  *
- * Bounds are in double precision, but batch_shapes.c finds hits in floats. Shapes are widened by more than its
- * rounding: a position at distance R from the eye is off by some 10 units in the last place of R across the ray, and
- * on a flat shape by that over the sine |n.e| / R along it; the film's rectangle is widened by what rounding d
- * amounts to.
+ * Bounds are in double precision, but batch_shapes.c computes hits in floats, so that shapes are widened by more than
+ * the rounding there: a position at distance R from the eye is off by about 10 units in the last place of R across
+ * the ray, and along a flat shape by this error divided by the sine |n.e| / R. The film's rectangle is widened by the
+ * effect of rounding d.
  */
 #include "render/frustum_cull.h"
 
@@ -24,8 +24,8 @@
 #include "core/status.h"
 #include "render/description.h"
 
-#define UNIT 0x1p-24 /* relative rounding of a float */
-#define SPARE 64     /* units of it that are allowed for */
+#define UNIT 0x1p-24 /* relative rounding error of a float */
+#define SPARE 64     /* how many such errors are allowed for */
 
 /* a + x b + y c */
 typedef struct linear {
@@ -33,14 +33,14 @@ typedef struct linear {
 } linear;
 
 typedef struct bound {
-    bool is_sphere, sees_all; /* sees_all: nothing can be said */
-    size_t n;                 /* of `out`: what is out of the bounds where one of them is > 0 */
+    bool is_sphere, sees_all; /* sees_all: no bound is known, so that the shape is never culled */
+    size_t n;                 /* number of entries in `out`; the shape is outside where one of them is > 0 */
     linear out[5];
-    double a, b, c, aa, ab, bb; /* of a sphere: a + b x + c y + aa x^2 + ab x y + bb y^2 */
+    double a, b, c, aa, ab, bb; /* for a sphere: a + b x + c y + aa x^2 + ab x y + bb y^2 */
 } bound;
 
 struct koksma__frustum_cull {
-    double widen; /* the film's rectangles, by this */
+    double widen; /* margin added to the film's rectangles */
     size_t n;
     bound bounds[];
 };
@@ -157,7 +157,7 @@ void koksma__frustum_cull_close(koksma__frustum_cull *cull)
     free(cull);
 }
 
-/* The rectangle of the film: its middle and half its sides. */
+/* A rectangle of the film: its middle and half sides. */
 typedef struct part {
     double x, y, half_x, half_y;
 } part;

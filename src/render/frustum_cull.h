@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which shapes a part of the film can see through a pinhole: never too few. */
+/* Finds the shapes that a part of the film can see through a pinhole; the result may include others, but misses
+   none. */
 #ifndef KOKSMA_RENDER_FRUSTUM_CULL_H
 #define KOKSMA_RENDER_FRUSTUM_CULL_H
 
@@ -7,13 +8,13 @@
 
 typedef struct koksma__frustum_cull koksma__frustum_cull;
 
-/* None of the shapes may move. width, height: of the film. Errors: MEMORY. */
+/* Prepares culling for shapes that do not move. width, height: of the film. Errors: MEMORY. */
 koksma_status koksma__frustum_cull_open(const koksma__batch_camera *camera, const koksma__batch_shapes *shapes,
                                         int width, int height, koksma__frustum_cull **out);
 void koksma__frustum_cull_close(koksma__frustum_cull *cull);
 
-/* The shapes that a ray through film positions in [x[0], x[1]] x [y[0], y[1]] may meet, as batch->closest may find
-   it: their numbers in ascending order, in seen, which has room for all. Their number. */
+/* Finds the shapes that a ray through film positions in [x[0], x[1]] x [y[0], y[1]] may hit in batch->closest. Writes
+   their indices in ascending order to `seen`, which has capacity for all shapes, and returns their number. */
 size_t koksma__frustum_cull_shapes(const koksma__frustum_cull *cull, const double x[2], const double y[2],
                                    size_t *seen);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Pixels in groups that fill the pipeline's lanes, their samples, and the scratch memory of a task. A group is as many
- * whole pixels as fit, one at least; the last pixel's samples are repeated to whole lanes, so that loops over lanes
- * have no remainder.
+ * Forms groups of pixels that fill the pipeline's lanes, draws their samples, and allocates the scratch of a task. A
+ * group is as many whole pixels as fit, at least one; the last pixel's samples are repeated to whole lanes, so that
+ * loops over lanes have no remainder.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,8 @@ void koksma__group_fill(const koksma__frame *f, size_t first, size_t end, koksma
     group->first = first;
     group->count = 0;
     group->start[0] = 0;
-    /* Uses draw the same pixels in turn, which must not push each other's sets out of the scratch. */
+    /* all uses draw the same pixels in turn: no more pixels than the scratch has slots for, so that their sets stay
+       there */
     const size_t kept = f->sampler.kept_dim ? f->sampler.kept_slots : KOKSMA__GROUP_PIXELS;
     const size_t most = kept < KOKSMA__GROUP_PIXELS ? kept : KOKSMA__GROUP_PIXELS;
     while (first + group->count < end && group->count < most) {

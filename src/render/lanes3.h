@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Vectors of three floats by value, for formulas that run ray by ray and in loops over lanes alike: compilers keep the
-   members in registers, where arrays would stop them. */
+/* Vectors of three floats, passed by value, for formulas that are used both for single rays and in loops over lanes:
+   compilers keep the members in registers, which arrays would prevent. */
 #ifndef KOKSMA_RENDER_LANES3_H
 #define KOKSMA_RENDER_LANES3_H
 
@@ -60,7 +60,7 @@ KOKSMA__INLINE koksma__v3 koksma__v3_mirror(koksma__v3 w, koksma__v3 n)
     return koksma__v3_subtract(koksma__v3_scale(n, 2 * koksma__v3_dot(w, n)), w);
 }
 
-/* x u + y v + z n, with u, v the axes that make an orthonormal frame with the unit vector n (Duff et al. 2017). */
+/* x u + y v + z n, where u, v and the unit vector n form an orthonormal frame (Duff et al. 2017). */
 KOKSMA__INLINE koksma__v3 koksma__v3_about(koksma__v3 n, float x, float y, float z)
 {
     const float sign = n.z < 0 ? -1.0f : 1.0f, a = -1 / (sign + n.z), b = n.x * n.y * a;
@@ -68,8 +68,8 @@ KOKSMA__INLINE koksma__v3 koksma__v3_about(koksma__v3 n, float x, float y, float
     return (koksma__v3){x * u.x + y * v.x + z * n.x, x * u.y + y * v.y + z * n.y, x * u.z + y * v.z + z * n.z};
 }
 
-/* Shirley & Chiu's concentric map of the unit square to the unit disk, which keeps areas: side a > |b| of [-1,1]^2 goes
-   to radius a, angle (pi/4) b/a. */
+/* Shirley & Chiu's concentric map of the unit square to the unit disk, which preserves area: a point of [-1,1]^2 with
+   side a > |b| is mapped to radius a, angle (pi/4) b/a. */
 KOKSMA__INLINE void koksma__concentric(float u, float v, float *x, float *y)
 {
     const float a = 2 * u - 1, b = 2 * v - 1, aa = a < 0 ? -a : a, bb = b < 0 ? -b : b;

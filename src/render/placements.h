@@ -5,12 +5,12 @@
 
 #include "render/description.h"
 
-/* One more mesh, zeroed; one more placement, zeroed but for material = light = -1. They may move the others.
-   Errors: MALFORMED (too many), MEMORY. */
+/* Add a mesh, zeroed; or a placement, zeroed but for material = light = -1. Either may move the existing ones in
+   memory. Errors: MALFORMED (too many), MEMORY. */
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
 
-/* Makes the placement a light. Errors: MALFORMED (too many, or it has no area where it stands). */
+/* Makes the placement a light. Errors: MALFORMED (too many lights, or the placed mesh has no area). */
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *placement, const double radiance[3]);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A render from its options to its picture: what is the same for all pixels is made once, the image is cut into tasks
- * of whole rows, whose number depends on the sizes only, and in a task pixels go in groups through the pipeline.
+ * Renders an image from its options: data that all pixels share are computed once; the image is split into tasks of
+ * whole rows, whose number depends only on the sizes; within a task the pipeline renders groups of pixels.
  */
 #include <pthread.h>
 #include <stdatomic.h>
@@ -21,12 +21,12 @@ typedef struct job {
     koksma__frame *frame;
     koksma__film film;
     const koksma__pipeline *pipeline;
-    int first_row, end_row; /* what is rendered of the image */
+    int first_row, end_row; /* the rows of the image to render */
     int rows_a_task;
-    size_t capacity; /* samples of a group */
+    size_t capacity; /* number of samples in a group */
     atomic_ullong rays;
     const koksma_run *run;
-    pthread_t caller; /* the one thread that may ask run->keep_going */
+    pthread_t caller; /* the only thread that may call run->keep_going */
     size_t tasks;
     atomic_size_t tasks_done;
     atomic_bool stop;
@@ -54,7 +54,7 @@ static koksma_status render_group(job *j, size_t task, const koksma__group *grou
 
 /* ---- Tasks --------------------------------------------------------------------------------------------- */
 
-/* A task is a row or more, which may take minutes of many samples: the caller is asked within it, too. */
+/* Calls keep_going also within a task, as a task of one or more rows may take minutes with many samples. */
 static koksma_status look(job *j)
 {
     if (pthread_equal(pthread_self(), j->caller) &&
@@ -64,7 +64,7 @@ static koksma_status look(job *j)
     return atomic_load(&j->stop) ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* The same for patterns, whose sets may take seconds each. */
+/* keep_going for patterns, whose sets may take seconds each. */
 static bool goes_on(void *context, double fraction)
 {
     (void)fraction;
@@ -78,7 +78,7 @@ static koksma_status render_rows(void *context, size_t task)
     const int first_row = j->first_row + (int)task * j->rows_a_task, left = j->end_row - first_row;
     const int rows = left < j->rows_a_task ? left : j->rows_a_task;
     const size_t width = (size_t)f->options->width;
-    size_t samples = 0; /* since the last look */
+    size_t samples = 0; /* since keep_going was last called */
     koksma__task_scratch r;
     koksma__group group;
     koksma_status status = koksma__task_scratch_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);
@@ -95,7 +95,7 @@ static koksma_status render_rows(void *context, size_t task)
             }
         }
     }
-    if (!status || status == KOKSMA_INTERRUPTED) { /* what is rendered of an interrupted task is shown */
+    if (!status || status == KOKSMA_INTERRUPTED) { /* an interrupted task's finished part is kept */
         koksma__film_close_task(f, &j->film, task);
     }
     atomic_fetch_add(&j->rays, r.values.rays);
@@ -231,7 +231,7 @@ koksma_status koksma__render_rows(const koksma_scene *scene, const koksma_render
 /* ---- Size of a picture --------------------------------------------------------------------------------- */
 
 /*
- * How many bytes a picture takes, before it is made: what the film and an image-wide pattern hold for all pixels.
+ * The number of bytes that an image will take: of the film and of an image-wide pattern for all pixels.
  */
 
 koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma_render_options *options,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What is odd in a scene that can be rendered all the same: materials that nothing uses, lights without light, parts
- * of a model file that are not read. Warnings have no storage: warning i is found by counting down from i through all
- * checks, in one fixed order.
+ * Warnings about a scene that can be rendered, but is odd: materials that are not used, lights that emit nothing,
+ * parts of a model file that are not supported. Warnings are not stored: warning i is found by counting down from i
+ * through all checks, in a fixed order.
  */
 #include "render/scene_warnings.h"
 
@@ -11,14 +11,14 @@
 #include "core/status.h"
 #include "render/materials/materials.h"
 
-/* The warning that is asked for: `left` are still to be passed by. */
+/* The requested warning: `left` warnings are still to be skipped. */
 typedef struct asked {
     size_t left;
     char *text;
     size_t size;
 } asked;
 
-/* Whether this is the one. */
+/* Counts a warning; true if it is the requested one. */
 static bool here(asked *a)
 {
     return !a->left--;
@@ -95,7 +95,8 @@ static bool of_lights(const koksma_scene *scene, asked *a)
     return false;
 }
 
-/* Only a path that meets a light brings its light round by a mirror or through glass. */
+/* Warns about lights that rays cannot hit in a scene with mirrors or glass, because only paths that hit a light carry
+   its light by way of a mirror or glass. */
 static bool of_hidden_lights(const koksma_scene *scene, asked *a)
 {
     size_t hidden = 0;
@@ -193,7 +194,7 @@ static bool of_unknown(const koksma_scene *scene, asked *a)
     return false;
 }
 
-/* Names in OBJ files. */
+/* Warns about material names in OBJ files. */
 static bool of_names(const koksma__unread *u, asked *a)
 {
     const struct {

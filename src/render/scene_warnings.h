@@ -4,7 +4,8 @@
 
 #include "render/description.h"
 
-/* What koksma_scene_warning says; without by_paths less what only matters to integrators that follow all paths. */
+/* Warning i of koksma_scene_warning; without by_paths it leaves out warnings that matter only to integrators that
+   follow all paths. */
 bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size);
 
 #endif

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Colours of an image at texture coordinates: bilinear between the four nearest pixels, whose centres are at half
- * numbers, or the nearest pixel. Beyond the edge an image is repeated, mirrored, or goes on with its edge. In the header
- * for wavefront.c, the light of a mesh, and the module that traces meshes, which asks for the alpha of triangles.
+ * numbers, or the nearest pixel. Beyond its edge an image is repeated, mirrored, or clamped to the edge. The
+ * functions are inline because wavefront.c, the mesh lights and the module that traces meshes, which needs the alpha
+ * of triangles, all use them.
  */
 #ifndef KOKSMA_RENDER_TEXTURE_H
 #define KOKSMA_RENDER_TEXTURE_H
@@ -12,10 +13,12 @@
 
 #include "render/description.h"
 
-/* x - 0.5 as a pixel, the one after it (as the wrapping says), and the weight of the second. */
+/* Splits a coordinate x of an image, n pixels wide, between the two pixels around it: pair gets their indices,
+   wrapped; the weight of the second is returned. */
 static inline float koksma__texture_split(float x, int n, koksma__wrap wrap, size_t pair[2])
 {
-    const float half = 0.5f * x, turn = 2 * (half - floorf(half)); /* of mirrored ones: 0 to 1 and back */
+    /* mirrored coordinates go from 0 to 1 and back */
+    const float half = 0.5f * x, turn = 2 * (half - floorf(half));
     const float turns = wrap == KOKSMA__WRAP_REPEAT   ? x - floorf(x)
                         : wrap == KOKSMA__WRAP_MIRROR ? (turn > 1 ? 2 - turn : turn)
                         : x > 0                       ? fminf(x, 1)
@@ -28,8 +31,8 @@ static inline float koksma__texture_split(float x, int n, koksma__wrap wrap, siz
     return place - down;
 }
 
-/* An image over the plane: (0, 0) is the lower left corner of its lower left pixel, (1, 1) the upper right corner. rgb:
-   at most `most`, and 0 where a pixel is no number. */
+/* An image over the plane: (0, 0) is the lower left corner of its lower left pixel, (1, 1) the upper right corner of
+   the upper right pixel. rgb: the colour, at most `most`, and 0 where a pixel is not a number. */
 static inline void koksma__texture(const koksma_image *image, const koksma__mapping *m, float u, float v, float most,
                                    float rgb[3])
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Vectors of three floats, for what is done ray by ray. */
+/* Vectors of three floats, for code that handles one ray at a time. */
 #ifndef KOKSMA_RENDER_VECTOR3_H
 #define KOKSMA_RENDER_VECTOR3_H
 

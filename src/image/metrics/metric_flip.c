@@ -6,7 +6,7 @@
  *   colour   RGB -> XYZ (sRGB primaries) -> YyCxCz, relative to the white of RGB (1,1,1): Yy = 116 Y - 16,
  *            Cx = 500 (X - Y), Cz = 200 (Y - Z); filtered by the contrast sensitivity of each channel at ppd pixels
  *            per degree; clamped to [0,1] in RGB; CIELAB with a* and b* times L* / 100 (Hunt); the distance HyAB
- *            |dL| + sqrt(da^2 + db^2), to the power 0.7; with M the same of green against blue: below 0.4 M
+ *            |dL| + sqrt(da^2 + db^2), to the power 0.7; with M this distance of green to blue: below 0.4 M
  *            linear to 0 .. 0.95, from there to M linear to 0.95 .. 1.  -> c
  *   feature  (Yy + 16) / 116 through Gaussian derivatives of standard deviation 0.041 ppd pixels: the first (edges)
  *            and the second (points), each with positive weights of sum 1 and negative of sum -1; the lengths of the
@@ -17,12 +17,12 @@
  * deviations of the widest and weights of sum 1 in two dimensions. Pixels beyond the border repeat those on it. All
  * filters are separable: O(n radius).
  *
- * HDR-FLIP (Andersson et al. 2021): of both images, exposed by 2^e and tone-mapped, the largest LDR-FLIP in each pixel over
- * max(2, ceil(e1 - e0)) exposures from e0 = log2(x / largest luminance) to e1 = log2(x / median luminance) of the
- * reference, with x where the tone-mapper (of grey) reaches 0.85. A median of 0 is replaced by that of the pixels with
- * light, which the paper leaves open; of a black reference the one exposure is 0.
+ * HDR-FLIP (Andersson et al. 2021): the largest LDR-FLIP in each pixel of the two images, exposed by 2^e and
+ * tone-mapped, over max(2, ceil(e1 - e0)) exposures from e0 = log2(x / largest luminance) to e1 = log2(x / median
+ * luminance) of the reference, with x where the tone-mapper (of grey) reaches 0.85. A median of 0, a case that the
+ * paper leaves open, is replaced by the median of the pixels above 0; a black reference has the one exposure 0.
  *
- * ppd: pixels per degree = distance / width of the monitor x pixels across x pi / 180; 67.02 is the papers' own default,
+ * ppd: pixels per degree = distance / width of the monitor x pixels across x pi / 180; the papers' default is 67.02,
  * 3840 pixels across 0.7 m, seen from 0.7 m.
  */
 #include <math.h>
@@ -41,13 +41,14 @@ enum { MOST_RADIUS = 160, MOST_EXPOSURES = 64 };
 
 /* ---- Colours --------------------------------------------------------------------------------------------- */
 
-/* The primaries and the white of sRGB (IEC 61966-2-1) by the exact rational numbers of its chromaticities. */
+/* RGB to XYZ: from the primaries and white of sRGB (IEC 61966-2-1), with the exact rational numbers of its
+   chromaticities. */
 static const double to_xyz[3][3] = {{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
                                     {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
                                     {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
 
 typedef struct colours {
-    double from_xyz[3][3], white[3]; /* the inverse of to_xyz; of RGB (1,1,1) */
+    double from_xyz[3][3], white[3]; /* from_xyz: inverse of to_xyz; white: XYZ of RGB (1,1,1) */
 } colours;
 
 static void multiply(const double matrix[3][3], const double x[3], double out[3])
@@ -99,7 +100,7 @@ static double lab_root(double t)
     return t > d * d * d ? power(t, 1.0 / 3) : t / (3 * d * d) + 4.0 / 29;
 }
 
-/* CIELAB, its chroma times L* / 100, of XYZ over the white. */
+/* CIELAB of XYZ relative to the white, with its chroma times L* / 100. */
 static void hunt_lab(const double xyz[3], double out[3])
 {
     const double x = lab_root(xyz[0]), y = lab_root(xyz[1]), z = lab_root(xyz[2]);
@@ -108,7 +109,7 @@ static void hunt_lab(const double xyz[3], double out[3])
     out[2] = 0.01 * out[0] * 200 * (y - z);
 }
 
-/* Of linear RGB. */
+/* CIELAB (hunt_lab) of linear RGB. */
 static void rgb_to_lab(const colours *c, const double rgb[3], double out[3])
 {
     double xyz[3];
@@ -119,7 +120,7 @@ static void rgb_to_lab(const colours *c, const double rgb[3], double out[3])
     hunt_lab(xyz, out);
 }
 
-/* Of filtered YyCxCz, clamped to the colours of a monitor. */
+/* CIELAB (hunt_lab) of filtered YyCxCz, clamped to the colours of a monitor. */
 static void ycxcz_to_lab(const colours *c, const double in[3], double out[3])
 {
     const double y = (in[0] + 16) / 116;
@@ -145,8 +146,8 @@ typedef struct filter {
     double w[2 * MOST_RADIUS + 1];
 } filter;
 
-/* exp(-x^2 / (2 s^2)), of sum 1; derivative 1 and 2: times -x and x^2 / s^2 - 1, positive and negative weights of sum
-   1 and -1. x in units of `step`. */
+/* A Gaussian exp(-x^2 / (2 s^2)) with sum 1. derivative 1 and 2: times -x and x^2 / s^2 - 1, with positive weights of
+   sum 1 and negative weights of sum -1. x is in units of `step`. */
 static void gaussian(filter *f, int radius, double step, double s, int derivative)
 {
     double positive = 0, negative = 0;
@@ -162,8 +163,8 @@ static void gaussian(filter *f, int radius, double step, double s, int derivativ
     }
 }
 
-/* out = in filtered along x by f and along y by g. A line or a column at a time, tap by tap, so that the inner loops are
-   over neighbours. scratch: as large, and a line with the radius at both ends. */
+/* out = in filtered along x by f and along y by g. It takes a line or a column at a time, tap by tap, so that the
+   inner loops run over adjacent numbers. scratch: the size of the image, and a line with the radius at both ends. */
 static void filter_image(const filter *f, const filter *g, const double *in, int width, int height, double *scratch,
                          double *out)
 {
@@ -196,18 +197,18 @@ static void filter_image(const filter *f, const filter *g, const double *in, int
 
 typedef struct flip {
     colours colours;
-    filter sensitivity[4]; /* Yy, Cx, and the two of Cz */
-    double share;          /* of the first in Cz: of the weights' sum in two dimensions */
+    filter sensitivity[4]; /* filters of Yy, Cx, and the two Gaussians of Cz */
+    double share;          /* share of Cz's first Gaussian in the sum of its weights in two dimensions */
     filter smooth, edge, point;
     int width, height;
     size_t n;
-    double largest;                            /* HyAB of green against blue, to the power 0.7 */
+    double largest;                            /* HyAB of green and blue, to the power 0.7 */
     double *planes, *scratch, *filtered, *sum; /* planes: 3 n; the others n */
-    double *lab[2], *edges[2], *points[2];     /* of image and reference: 3 n, n, n */
+    double *lab[2], *edges[2], *points[2];     /* of image and reference: 3 n, n and n numbers */
     double *memory;
 } flip;
 
-/* The sum of the weights of a Gaussian of one dimension before it has sum 1. */
+/* The sum of the weights of a one-dimensional Gaussian before normalisation. */
 static double weight_sum(const filter *f, double step, double s)
 {
     double sum = 0;
@@ -260,7 +261,7 @@ static koksma_status flip_init(flip *f, double ppd, int width, int height)
     return KOKSMA_OK;
 }
 
-/* The length of the gradient that a derivative along x and along y makes. */
+/* The lengths of the gradients whose components are the derivatives along x and along y. */
 static void find_features(flip *f, const filter *derivative, const double *grey, double *out)
 {
     filter_image(derivative, &f->smooth, grey, f->width, f->height, f->scratch, f->filtered);
@@ -270,7 +271,7 @@ static void find_features(flip *f, const filter *derivative, const double *grey,
     }
 }
 
-/* What is compared of one image, of clamped RGB. */
+/* Computes the features and colours of one image, from clamped RGB, that pixel_error compares. */
 static void analyse(flip *f, const double *rgb, int which)
 {
     double *const y = f->planes, *const cx = y + f->n, *const cz = cx + f->n, *lab = f->lab[which];
@@ -281,7 +282,7 @@ static void analyse(flip *f, const double *rgb, int which)
         cx[p] = c[1];
         cz[p] = c[2];
     }
-    for (int i = 0; i < 4; i++) { /* lab holds the filtered Yy, Cx, Cz until the next loop */
+    for (int i = 0; i < 4; i++) { /* until the next loop lab holds the filtered Yy, Cx and Cz */
         const double *const in = f->planes + (size_t)(i < 3 ? i : 2) * f->n;
         const filter *s = &f->sensitivity[i];
         filter_image(s, s, in, f->width, f->height, f->scratch, f->filtered);
@@ -301,7 +302,7 @@ static void analyse(flip *f, const double *rgb, int which)
     find_features(f, &f->point, y, f->points[which]);
 }
 
-/* The error of pixel p of the two images that were analysed. */
+/* The error of pixel p between the two images analysed. */
 static double pixel_error(const flip *f, size_t p)
 {
     const double distance = hyab(f->lab[0] + 3 * p, f->lab[1] + 3 * p), knee = 0.4 * f->largest;
@@ -332,8 +333,9 @@ static koksma_status ldr_errors(const koksma_metric_input *in, double *out)
     return clamped ? KOKSMA_OK : koksma__fail_memory(3 * f.n * sizeof *clamped);
 }
 
-/* A tone-mapper is (a x^2 + b x + c) / (d x^2 + e x + g), of each channel. aces: Narkowicz's (2015) fit to ACES with the
-   exposure 0.6; hable: Hable's (2010) curve over its value at 11.2, with the exposure 2; reinhard: of the luminance, x / (1 + x). */
+/* A tone-mapper is (a x^2 + b x + c) / (d x^2 + e x + g), applied to each channel. aces: Narkowicz's (2015) fit to
+   ACES with the exposure 0.6; hable: Hable's (2010) curve over its value at 11.2, with the exposure 2; reinhard: x /
+   (1 + x) of the luminance. */
 enum { ACES, HABLE, REINHARD };
 static const char *const tone_mappers[] = {"aces", "hable", "reinhard", NULL};
 
@@ -349,7 +351,7 @@ static curve curve_of(int tone_mapper)
     if (tone_mapper == REINHARD) {
         return (curve){0, 1, 0, 0, 1, 1};
     }
-    /* ((x (A x + C B) + D E) / (x (A x + B) + D F) - E / F) / the same at 11.2, with x twice the light */
+    /* Hable's curve h(x) = (x (A x + C B) + D E) / (x (A x + B) + D F) - E / F, as h(2 x) / h(11.2) for light x */
     const double A = 0.15, B = 0.50, C = 0.10, D = 0.20, E = 0.02, F = 0.30, white = 11.2;
     const double top = (white * (A * white + C * B) + D * E) / (white * (A * white + B) + D * F) - E / F;
     return (curve){(A - A * E / F) / top * 4, (C * B - B * E / F) / top * 2, 0, A * 4, B * 2, D * F};
@@ -360,7 +362,7 @@ static double map_tone(const curve *t, double x)
     return ((t->a * x + t->b) * x + t->c) / ((t->d * x + t->e) * x + t->g);
 }
 
-/* The light that the curve maps to y. */
+/* The light that the tone curve maps to y. */
 static double invert_tone(const curve *t, double y)
 {
     const double a = t->a - y * t->d, b = t->b - y * t->e, c = t->c - y * t->g;
@@ -373,7 +375,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The first and the last exposure for a reference; scratch: a number a pixel. */
+/* The first and the last exposure for a reference; scratch has one number for each pixel. */
 static void find_exposures(const double *reference, size_t n, const curve *t, double *scratch, double *first,
                            double *last)
 {

@@ -3,7 +3,8 @@
  * smape: the symmetric mean absolute percentage error over pixels and channels, as a fraction (Vogels et al. 2018,
  * section 4.2),
  *     sum |x - x_ref| / (|x| + |x_ref| + epsilon) / (3 n),   x: linear red, green, blue, epsilon = 0.01.
- * Every pixel counts 1 at most, so that fireflies carry little: the most robust of the relative metrics.
+ * The error of a pixel is at most 1, so that fireflies contribute little: this is the most robust of the relative
+ * metrics.
  */
 #include <math.h>
 

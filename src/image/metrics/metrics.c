@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of metrics, their specs, and what all have in common. A metric gives every pixel an error of at least 0; its
- * value is their mean, or the root of it. Beside the value stand
+ * The table of metrics, their specs, and the code that all metrics share. A metric gives every pixel an error of at
+ * least 0; its value is the mean of the pixels' errors, or the root of the mean. Two more numbers are computed with
+ * the value:
  *
- *     top_share  the share of the sum that the 0.1 % of the pixels with the largest errors carry; 0 of fewer than 1000 pixels
+ *     top_share  the share of the sum that the 0.1 % of the pixels with the largest errors carry; 0 for fewer
+ *                than 1000 pixels
  *     robust     the value without these pixels: a mean trimmed at one side
  *
- * Where top_share is large, the value says more about a few pixels (fireflies) than about the image, and an order of
- * images by it is not to be trusted. The largest errors are found by quickselect (Hoare 1961) in O(n).
+ * Where top_share is large, the value says more about a few pixels (fireflies) than about the image, and ranking
+ * images by it is unreliable. The largest errors are found by quickselect (Hoare 1961) in O(n).
  */
 #include <math.h>
 #include <stdio.h>
@@ -79,7 +81,7 @@ void koksma__metric_values(const koksma_metric *metric, const koksma_image *imag
 double koksma__metric_mean(const koksma_metric *metric, const double *errors, size_t n)
 {
     koksma__sum sum = {0};
-    for (size_t first = 0; first < n; first += BLOCK) { /* eight sums at once in a block */
+    for (size_t first = 0; first < n; first += BLOCK) { /* adds eight partial sums side by side in each block */
         const size_t end = n - first < BLOCK ? n : first + BLOCK;
         double part[8] = {0};
         for (size_t p = first; p < end; p++) {
@@ -101,7 +103,8 @@ static void select_largest(double *x, size_t n, size_t k)
     while (end - first > 1) {
         const double pivot = x[first + (end - first) / 2];
         size_t less = first, same = first, more = end;
-        while (same < more) { /* three ways: equal errors, such as zeros, are many */
+        /* partition into less, equal and more, because many errors are equal, such as zeros */
+        while (same < more) {
             const double v = x[same];
             if (v < pivot) {
                 x[same++] = x[less];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Metrics for those who have pixels as doubles, and many references for one image (the ranking's jackknife). */
+/* Metrics for callers with pixels in doubles, and with many references for one image (the jackknife of `rank`). */
 #ifndef KOKSMA_IMAGE_METRICS_METRICS_H
 #define KOKSMA_IMAGE_METRICS_METRICS_H
 
@@ -10,16 +10,16 @@ static inline size_t koksma__metric_pixels(const koksma_metric_input *in)
     return (size_t)in->width * (size_t)in->height;
 }
 
-/* Whether there is a metric, with parameters that it takes. Errors: ARGUMENT. */
+/* Checks that the metric exists and its parameters are valid. Errors: ARGUMENT. */
 koksma_status koksma__metric_spec_check(const koksma_metric_spec *spec);
 
-/* The pixels as the metric takes them: metric->channels doubles a pixel. */
+/* The pixels as the metric needs them: metric->channels doubles for each pixel. */
 void koksma__metric_values(const koksma_metric *metric, const koksma_image *image, double *out);
 
-/* The metric's value from the errors of n pixels, which are put in another order. */
+/* The metric's value from the errors of n pixels, whose order it changes. */
 koksma_metric_value koksma__metric_pool(const koksma_metric *metric, double *errors, size_t n);
 
-/* The value alone, in the order of the pixels, as koksma__metric_pool has it. */
+/* Only the value that koksma__metric_pool computes, with the sum in the order of the pixels. */
 double koksma__metric_mean(const koksma_metric *metric, const double *errors, size_t n);
 
 #define METRIC(name) extern const koksma_metric koksma__metric_##name;

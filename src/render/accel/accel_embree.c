@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The module koksma-embree.so: triangle meshes by Embree 3 or 4 (Wald et al. 2014), together with the analytic shapes:
- * the closest of both, the shadow of both. Rays go in packets of 16 where the machine has them and else of 8; a hit's
- * position and normal are made from its triangle, not from the ray, so that they are as exact as the vertices.
+ * The module koksma-embree.so: it intersects triangle meshes by Embree 3 or 4 (Wald et al. 2014) and analytic shapes
+ * by their own loops, and combines the closest hits and the shadows of both. Rays are traced in packets of 16 if the
+ * machine supports them, otherwise of 8; a hit's position and normal are computed from its triangle, not from the
+ * ray, so that they are as exact as the vertices.
  *
- * Triangles that are not there for some rays (glTF's alpha) are left out by a filter, which Embree asks at each hit.
+ * Triangles that are transparent to some rays (glTF's alpha) are skipped by a filter function, which Embree calls at
+ * each hit.
  *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
- * threads, but not between versions of Embree or the instruction sets that it chooses by itself. The floating-point
- * mode (Embree would like denormals to be 0) is left as it is. Long because one file includes Embree.
+ * threads, but not between versions of Embree or the instruction sets that Embree selects. The floating-point mode is
+ * not changed, although Embree recommends that denormals be treated as 0. This file is long because only one file
+ * includes Embree.
  */
 #if KOKSMA_EMBREE == 3
 #include <embree3/rtcore.h>
@@ -29,19 +32,20 @@
 #define HOST ((const koksma__mesh_host *)koksma__own_host->functions)
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
-#define SHADOW_END (1 - 0x1p-16f) /* as for the analytic shapes */
+#define SHADOW_END (1 - 0x1p-16f) /* equal to KOKSMA__SHADOW_END of the analytic shapes */
 
 /* ---- Triangles of placed meshes ----------------------------------------------------------------------------- */
 
-/* A placement, ready for tracing. Its vertices are in world coordinates, but those of an instance in the mesh's. */
+/* A placement, prepared for tracing. Its vertices are in world coordinates; those of an instance are in the mesh's
+   coordinates. */
 typedef struct part {
     const koksma__mesh *mesh;
-    float *placed; /* owned by Embree; NULL: the mesh's own */
+    float *placed; /* owned by Embree; NULL: the mesh's own vertices are used */
     bool is_instance, smooth, moves;
     float matrix[12], normal_matrix[9], motion[3];
     int32_t material, light;
-    int32_t first;                       /* number of its first triangle, as a primitive */
-    const koksma__material *see_through; /* its material, if rays may pass by where it isn't there; or NULL */
+    int32_t first;                       /* index of its first triangle among all primitives */
+    const koksma__material *see_through; /* its material, if some rays may pass through its triangles; else NULL */
 } part;
 
 static void place(const part *p, const float v[3], float out[3])
@@ -52,8 +56,8 @@ static void place(const part *p, const float v[3], float out[3])
     }
 }
 
-/* Rays leave a large mesh's triangles in no order that the processor could foresee: what a block of them needs is
-   asked for together, before the first of it is used. */
+/* Prefetches a triangle's indices. Rays hit the triangles of a large mesh in an order that the processor cannot
+   predict, so that the data for a block of rays are requested together before the first are used. */
 static void fetch_triangle(const part *p, uint32_t triangle)
 {
     __builtin_prefetch(p->mesh->indices + 3 * (size_t)triangle);
@@ -68,7 +72,7 @@ static void fetch_corners(const part *p, uint32_t triangle)
     }
 }
 
-/* l->primitive: numbers of parts, -1: none. */
+/* Prefetches the corners of the triangles hit. l->primitive: indices of parts, -1: none. */
 static void fetch_landings(const part *parts, const koksma__landings *l, int n)
 {
     for (int i = 0; i < n; i++) {
@@ -78,7 +82,7 @@ static void fetch_landings(const part *parts, const koksma__landings *l, int n)
     }
 }
 
-/* Triangle `triangle` of the part at this time, into lane i. */
+/* Copies triangle `triangle` of the part at this time into lane i. */
 static void set_lane(const part *p, uint32_t triangle, float time, int i, koksma__landings *l)
 {
     const uint32_t *index = p->mesh->indices + 3 * (size_t)triangle;
@@ -101,10 +105,10 @@ static void set_lane(const part *p, uint32_t triangle, float time, int i, koksma
     l->material[i] = p->material;
 }
 
-/* The normal between the vertices' own, turned to the side of the triangle's; false where there is none, or where it
-   leads away from the eye although the triangle is seen. What a mirror or glass sends off by it may run into the
-   triangle's own mesh, and its light is lost: of a white octahedron .014 in mirror, .021 in glass (docs/scenes.md).
- */
+/* Interpolates the vertices' normals, on the same side as the triangle's normal. Returns false if there is no such
+   normal, or if it points away from the eye although the triangle faces the eye. A ray that a mirror or glass
+   reflects or refracts by this normal may run into the triangle's own mesh, and its light is lost: of a white
+   octahedron .014 in mirror, .021 in glass (docs/scenes.md). */
 static bool smooth_normal(const part *p, const uint32_t *index, const float w[3], const float geometric[3],
                           const float d[3], float out[3])
 {
@@ -129,7 +133,7 @@ static bool smooth_normal(const part *p, const uint32_t *index, const float w[3]
     return koksma__dot3(out, d) < 0;
 }
 
-/* What lane i has of its vertices: the normal between theirs, and the texture's coordinates. */
+/* Sets lane i from the vertices of its triangle: the interpolated normal, and the texture coordinates. */
 static void refine(const part *p, const koksma__landings *l, const koksma__rays *rays, int i, koksma__hits *hits)
 {
     const uint32_t *index = p->mesh->indices + 3 * (size_t)(l->primitive[i] - p->first);
@@ -160,7 +164,7 @@ typedef struct embree {
     part parts[];
 } embree;
 
-/* Where rays start. */
+/* The origins of a block of rays. */
 typedef struct starts {
     KOKSMA__LANES(float, x);
     KOKSMA__LANES(float, y);
@@ -172,7 +176,7 @@ static const char *tracer(void)
     return "Embree " RTC_VERSION_STRING;
 }
 
-/* ---- Starting on a triangle ---------------------------------------------------------------------------------- */
+/* ---- Rays that start on a triangle --------------------------------------------------------------------------- */
 
 static const part *part_of(const embree *e, int32_t primitive)
 {
@@ -195,7 +199,7 @@ static void set_starts(const float *x, const float *y, const float *z, int n, st
     memcpy(s->z, z, (size_t)n * sizeof *z);
 }
 
-/* The starts, off the triangles that they are on. */
+/* The origins, moved off the triangles on which the rays start. */
 static void start(const embree *e, const int32_t *from, const float *times, const float *const d[3], int n, starts *s)
 {
     koksma__landings on;
@@ -238,10 +242,9 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
 #define OCCLUDED(width, valid, e, packet) PASTE(rtcOccluded, width)(valid, (e)->scene, packet, &occluded_how)
 #endif
 
-/* intersect_8, intersect_16, shade_8 and shade_16: the same for either width of packets.
-   intersect: rays start .. start + WIDTH - 1 of the block; on gets the parts (as primitives) and triangles that are
-   closer than what hits has, and the return value is their number. shade: takes away the light of those that meet
-   something. */
+/* Defines intersect_8, intersect_16, shade_8 and shade_16, for either width of packets. intersect_N traces rays start
+   .. start + N - 1 of the block: `on` gets the parts (as primitives) and triangles of hits that are closer than those
+   in `hits`, and their number is returned. shade_N sets the light of the shadow rays that are blocked to 0. */
 #define PACKETS(WIDTH)                                                                                               \
     static int intersect_##WIDTH(const embree *e, const starts *s, const koksma__rays *rays, int start,              \
                                  bool coherent, const koksma__hits *hits, koksma__landings *on)                      \
@@ -296,7 +299,7 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
             packet.mask[i] = ~0u;                                                                                    \
             packet.id[i] = packet.flags[i] = 0;                                                                      \
             packet.time[i] = e->moves ? hits->time[start + i] : 0;                                                   \
-            /* from where it starts, off the triangle, to where it would have ended */                               \
+            /* the ray goes from its origin off the triangle to its original end */                                  \
             packet.dir_x[i] = shadows->dx[start + i] + (hits->px[start + i] - s->x[start + i]);                      \
             packet.dir_y[i] = shadows->dy[start + i] + (hits->py[start + i] - s->y[start + i]);                      \
             packet.dir_z[i] = shadows->dz[start + i] + (hits->pz[start + i] - s->z[start + i]);                      \
@@ -338,7 +341,7 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, c
         memset(on.corners, 0, sizeof on.corners);
     }
     for (int i = 0; i < n; i++) {
-        const int32_t number = on.primitive[i]; /* a part's number, which set_lane replaces */
+        const int32_t number = on.primitive[i]; /* index of a part, which set_lane replaces by the primitive */
         if (number >= 0) {
             count += hits->primitive[i] < 0;
             fine |= e->parts[number].smooth || e->parts[number].mesh->uvs;
@@ -377,9 +380,10 @@ static int light_of(const koksma__geometry *geometry, int32_t primitive)
     return primitive < e->n_shapes ? e->shapes.light(&e->shapes, primitive) : part_of(e, primitive)->light;
 }
 
-/* ---- What textures ask --------------------------------------------------------------------------------------- */
+/* ---- Texture coordinates of triangles ------------------------------------------------------------------------ */
 
-/* The share of triangle t's corners in a position, from the areas of the parts that it divides the triangle into. */
+/* The barycentric coordinates of a position in triangle t, from the areas of the parts into which it divides the
+   triangle. */
 static void weights_at(const koksma__landings *l, const float edges[2][3], const float p[3], float w[3])
 {
     float d[3];
@@ -435,8 +439,8 @@ static bool triangle_of(const koksma__geometry *geometry, int32_t primitive, con
     return true;
 }
 
-/* Whether triangle t is there for a ray that meets it at (u, v). One that is half there is for half of the rays, by
-   a hash of where they meet it, so that the answer depends on nothing else. */
+/* Whether triangle t stops a ray that meets it at (u, v). A triangle of alpha 1/2 stops half of the rays; the
+   decision is a hash of the position hit, so that it depends on nothing else. */
 static bool is_there(const part *p, uint32_t t, float u, float v)
 {
     const koksma__material *m = p->see_through;
@@ -469,7 +473,8 @@ static bool is_there(const part *p, uint32_t t, float u, float v)
     return (float)(hash >> 8) * 0x1p-24f < share;
 }
 
-/* A hit of N is arrays of N numbers: the normal (three), u, v, the triangle, and others; C has no names for them. */
+/* The filter function that Embree calls. Embree stores a hit of N rays as arrays of N numbers: the normal (three
+   arrays), u, v, the triangle, and others; its C interface has no names for the arrays. */
 static void pass_by(const struct RTCFilterFunctionNArguments *a)
 {
     const part *p = a->geometryUserPtr;
@@ -541,7 +546,7 @@ static part make_part(const koksma_scene *scene, const koksma__placement *from, 
     return p;
 }
 
-/* The triangles of a mesh as a geometry of Embree's; placed: by the part's matrix and motion. */
+/* Makes an Embree geometry from the triangles of a mesh; placed: transformed by the part's matrix and motion. */
 static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGeometry *out)
 {
     const koksma__mesh *m = p->mesh;
@@ -578,7 +583,7 @@ static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGe
     return check(e);
 }
 
-/* The tree of mesh m by itself, for its instances. */
+/* Builds the tree of mesh m alone, for its instances. */
 static koksma_status make_shared(embree *e, part *p, size_t m)
 {
     RTCGeometry g = NULL;
@@ -653,7 +658,7 @@ static koksma_status make(const koksma_scene *scene, koksma__geometry *out)
     embree *e = calloc(1, size);
     *out = (koksma__geometry){e, NULL, closest, occlude, light_of, triangle_of, release};
     KOKSMA__REQUIRE_MEMORY(e, size);
-    fenv_t mode; /* Embree may change it while it builds */
+    fenv_t mode; /* Embree may change the floating-point mode while it builds */
     fegetenv(&mode);
     e->n_parts = scene->n_placements;
     e->n_meshes = scene->n_meshes;

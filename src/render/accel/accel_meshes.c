@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Scenes with meshes are traced by the module koksma-embree.so, which the first of them loads. */
+/* Scenes with meshes are traced by the module koksma-embree.so, which this file loads for the first such scene. */
 #include "render/accel/accel_meshes.h"
 
 #include "meshes/mesh.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Analytic shapes: no tree, every shape against every block of rays. A flat shape shades nothing when all other
- * shapes and all lights lie on one side of it, because that side is convex; a floor is left out of the shadows
- * so.
+ * The geometry of scenes with only analytic shapes, without a tree: every shape is intersected with every block of
+ * rays. A flat shape casts no shadow if all other shapes and all lights lie on one side of it, because that side is
+ * convex; shadow rays therefore skip, for example, a floor.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -45,8 +45,8 @@ static void release(koksma__geometry *geometry)
     *geometry = (koksma__geometry){0};
 }
 
-/* How far the shape or rectangle reaches below the plane of `flat`, seen from the side that `sign` picks; > 0: it
- * does. */
+/* How far the shape or rectangle reaches below the plane of `flat`, seen from the side that `sign` selects; positive
+   if it does reach below. */
 static double depth(const koksma__shape *flat, double sign, const double centre[3], const double reach_u[3],
                     const double reach_v[3], double radius)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the renderer asks of geometry, whoever makes it: analytic shapes (accel_shapes.c), or these and meshes
- * (accel_meshes.c). Primitives: the shapes by their numbers, then the triangles of the placements, one after the
- * other. A shadow ray starts on primitive hits->primitive and never hits it at t = 0.
+ * The interface through which the renderer intersects rays with the geometry: of analytic shapes (accel_shapes.c), or
+ * of shapes and meshes (accel_meshes.c). Primitives are numbered: first the shapes, then the triangles of all
+ * placements. A shadow ray starts on primitive hits->primitive and never hits it at t = 0.
  */
 #ifndef KOKSMA_RENDER_ACCEL_INTERSECT_H
 #define KOKSMA_RENDER_ACCEL_INTERSECT_H
@@ -10,8 +10,9 @@
 #include "render/description.h"
 #include "render/pipelines/batch.h"
 
-/* What textures need of a triangle beside texture coordinates: its number in its mesh, its own normal outwards, how
-   positions change along its texture coordinates (0: it has none), and the colour of its vertices at a position. */
+/* The data of a triangle that textures need beside texture coordinates: its index in its mesh, its outward normal,
+   the change of position along each texture coordinate (0: it has no texture coordinates), and the interpolated
+   vertex colour. */
 typedef struct koksma__triangle {
     uint32_t number;
     float normal[3], along_u[3], along_v[3], colour[3];
@@ -20,22 +21,22 @@ typedef struct koksma__triangle {
 typedef struct koksma__geometry {
     void *made;
     const koksma__batch_shapes *shapes; /* the analytic shapes, if the scene has no meshes; else NULL */
-    /* The closest hits of n rays; the number of lanes with one. from: the primitive that each ray starts on (-1:
-       none), or NULL for rays that start nowhere. */
+    /* Finds the closest hits of n rays and returns the number of lanes with a hit. from: the primitive on which each
+       ray starts (-1: none), or NULL if no ray starts on a primitive. */
     int (*closest)(const struct koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
                    koksma__hits *hits);
-    /* Takes away the light of the shadow rays that meet something; hits->time says when. */
+    /* Sets the light of shadow rays that are blocked to 0; hits->time is the time of each ray. */
     void (*occlude)(const struct koksma__geometry *geometry, const koksma__hits *hits, int n,
                     koksma__shadows *shadows);
-    /* The light whose surface a primitive is, or -1. */
+    /* The index of the light whose surface the primitive is, or -1. */
     int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
-    /* Of the triangle that p lies on at this time; false: the primitive is an analytic shape. */
+    /* Gives the triangle on which p lies at this time; false: the primitive is an analytic shape. */
     bool (*triangle)(const struct koksma__geometry *geometry, int32_t primitive, const float p[3], float time,
                      koksma__triangle *out);
     void (*release)(struct koksma__geometry *geometry);
 } koksma__geometry;
 
-/* The scene's analytic shapes, all tried for every block. Errors: MEMORY. */
+/* Makes the geometry of the scene's analytic shapes, without an acceleration structure. Errors: MEMORY. */
 koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * directional: parallel light from far away. normal is the direction in which it travels, radiance the irradiance of
- * a surface that faces it. No ray meets it; its density is 0.
+ * directional: parallel light from far away. `normal` is the direction in which the light travels, `radiance` the
+ * irradiance of a surface that faces the light. No ray can hit this light; its density is 0.
  */
 #include "render/lights/surface_lights.h"
 

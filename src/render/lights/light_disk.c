@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * disk: a Lambert emitter that shines to the side of its normal. The concentric map (Shirley & Chiu 1997) takes the
- * square to the disk with constant area, so that positions are uniform and stratification stays.
+ * disk: a Lambert emitter that shines on the side of its normal. The concentric map (Shirley & Chiu 1997) maps the
+ * unit square to the disk and preserves relative areas, so that positions are uniform and stratification is kept.
  */
 #include "render/lights/surface_lights.h"
 

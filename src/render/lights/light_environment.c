@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * environment: light from far away, the same everywhere or an image of latitude and longitude: row 0 is straight up,
- * columns go round from +z over -x to -z, in the middle, and +x: who looks along -z sees the image as it is, not
- * mirrored. Directions are chosen with a density that is constant on each pixel and in proportion to its luminance
- * times the sine of its row (Pharr, Jakob & Humphreys 2016, section 14.2.4), by two binary searches; a hundredth of
- * the samples is uniform over the sphere, so that no light is missed by rounding.
+ * environment: light from far away, constant or given by an image in latitude and longitude. Row 0 is straight up;
+ * columns go round from +z over -x to -z in the middle of the image, and on over +x, so that a viewer who looks along
+ * -z sees the image unmirrored. Directions are chosen with a density that is constant on each pixel and in proportion
+ * to its luminance times the sine of its row (Pharr, Jakob & Humphreys 2016, section 14.2.4), by two binary searches;
+ * a hundredth of the samples is uniform over the sphere, so that rounding cannot give any light the density 0.
  */
 #include "render/lights/light_environment.h"
 
@@ -20,7 +20,7 @@ static void pixel(const koksma_image *image, size_t i, float rgb[3])
 {
     for (int k = 0; k < 3; k++) {
         const float value = image->pixels[i * (size_t)image->channels + (size_t)(image->channels == 3 ? k : 0)];
-        rgb[k] = value > 0 ? value : 0; /* no negative light */
+        rgb[k] = value > 0 ? value : 0; /* clamps negative values to 0 */
     }
 }
 
@@ -29,7 +29,7 @@ static float row_sine(const koksma_image *image, size_t y)
     return sinf(KOKSMA__PI_F * ((float)y + 0.5f) / (float)image->height);
 }
 
-/* Cumulative sums of n weights, scaled to end at 1; the total. */
+/* Writes the cumulative sums of n weights, scaled to end at 1; returns the total. */
 static double accumulate(const float *weights, size_t n, float *cdf)
 {
     double total = 0, sum = 0;
@@ -44,13 +44,13 @@ static double accumulate(const float *weights, size_t n, float *cdf)
     return total;
 }
 
-/* n + 1 numbers in whole steps, and one more. */
+/* The capacity for n + 1 numbers, rounded up to whole strides, and one more. */
 static size_t padded(size_t n)
 {
     return (n / KOKSMA__ENVIRONMENT_STEP + 2) * KOKSMA__ENVIRONMENT_STEP;
 }
 
-/* Fills what lies behind n + 1 cumulative numbers, and takes out the coarse ones. */
+/* Pads a cumulative table after its n + 1 numbers, and copies every 16th number to `coarse`. */
 static void finish(float *cdf, size_t n, float *coarse)
 {
     for (size_t i = n + 1; i < padded(n); i++) {
@@ -123,7 +123,7 @@ void koksma__environment_close(koksma__environment *e)
     }
 }
 
-/* The cell of a cumulative table that holds u, and where in it. */
+/* The index of the cell of a cumulative table that contains u; *within is u's position in the cell. */
 static size_t find(const float *cdf, size_t n, float u, float *within)
 {
     size_t low = 0, high = n;
@@ -144,7 +144,7 @@ static size_t find(const float *cdf, size_t n, float u, float *within)
 float koksma__environment_sample(const koksma__environment *e, const float u[2], float w[3])
 {
     float x = u[0], y = u[1], sine;
-    if (!e->texels || y < KOKSMA__ENVIRONMENT_FLOOR) { /* all directions alike */
+    if (!e->texels || y < KOKSMA__ENVIRONMENT_FLOOR) { /* uniform over the sphere */
         const float up = 1 - 2 * (e->texels ? y / KOKSMA__ENVIRONMENT_FLOOR : y), rest = 1 - up * up;
         sine = sqrtf(rest > 0 ? rest : 0);
         y = 2 * koksma__arc_turns(sine, up);
@@ -247,7 +247,7 @@ static void radiance(const koksma__shading_light *light, const float w[3], float
 static const koksma__parameter parameters[] = {
     {"visible", KOKSMA__FLAG, .optional = true, .fallback = 1, .at = offsetof(koksma__light, visible)}, {0}};
 
-/* It has no centre(): the integrators whitted and utah, which take lights as points, use ambient light instead. */
+/* centre() is NULL: the integrators whitted and utah, which treat lights as points, use ambient light instead. */
 const koksma__light_kind koksma__light_environment = {
     .kind = {.name = "environment",
              .title = "light from all directions that hit nothing, the same or an image",

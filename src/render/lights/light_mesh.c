@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mesh: a Lambert emitter that is a placed mesh, made by "emission" of a shape. A triangle is chosen in proportion
- * to its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that positions are
- * uniform over the whole area. With an image of the emission a triangle weighs what it sends instead, by 16 positions
- * on it, and a twentieth more as if it sent the mean, so that nothing that shines is never chosen; the image is looked
- * up where the position is. A shadow ray ends before the triangle by 2^-20 of its largest coordinate (rays that
- * leave a triangle start as far off it, batch_triangles.c); otherwise rounding could make the ray hit the light that
- * it is aimed at.
+ * mesh: a Lambert emitter that is a placed mesh, made by "emission" of a shape. A triangle is chosen in proportion to
+ * its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that positions are uniform
+ * over the whole area. With an image of the emission, the weight of a triangle is its emission, estimated at 16
+ * positions, plus a twentieth of the mean emission, so that every emitting triangle can be chosen; the image is
+ * looked up at the position chosen. A shadow ray ends before the triangle by 2^-20 of the position's largest
+ * coordinate (rays that leave a triangle start at the same distance from it, batch_triangles.c); otherwise rounding
+ * could make the ray hit the light at which it is aimed.
  */
 #include <stdlib.h>
 
 #include "render/lights/surface_lights.h"
 #include "render/texture.h"
 
-#define BRIGHT_F 1e6f /* the most that a pixel of the image counts */
+#define BRIGHT_F 1e6f /* pixels of the image are clamped to this */
 
 typedef struct mesh_light {
     size_t n;
-    double *cdf; /* of the areas, or of what the triangles send; n + 1 */
+    double *cdf; /* of the triangles' areas, or of their emission; n + 1 numbers */
     const koksma__mesh *mesh;
-    const koksma__map *map; /* of the emission, or NULL */
-    float *densities;       /* with a map: over area, of positions on each triangle; else NULL */
+    const koksma__map *map; /* the image of the emission, or NULL */
+    float *densities;       /* with a map: the density over area of positions on each triangle; else NULL */
     float corners[][9];
 } mesh_light;
 
-/* The triangles as they stand, and the sums of their areas. */
+/* Copies the placed triangles and sums their areas. */
 static void fill(const koksma__mesh *mesh, const koksma__placement *placement, mesh_light *m)
 {
     for (size_t t = 0; t < m->n; t++) {
@@ -32,7 +32,7 @@ static void fill(const koksma__mesh *mesh, const koksma__placement *placement, m
     }
 }
 
-/* What the image has at weights a and b of the second and third corner of triangle t. */
+/* The emission by the image at weights a and b of the second and third corner of triangle t. */
 static void glow_at(const mesh_light *m, size_t t, float a, float b, float rgb[3])
 {
     const float *uvs = m->mesh->uvs, w[3] = {1 - a - b, a, b};
@@ -45,7 +45,8 @@ static void glow_at(const mesh_light *m, size_t t, float a, float b, float rgb[3
     koksma__texture(m->map->image, &m->map->mapping, at[0], at[1], BRIGHT_F, rgb);
 }
 
-/* Weighs the triangles by what they send; returns the mean of the image over the area, as luminance. Errors: MEMORY. */
+/* Weighs the triangles by their emission; *mean is the luminance of the image, averaged over the area. Errors:
+   MEMORY. */
 static koksma_status weigh(mesh_light *m, double *mean)
 {
     const double area = m->cdf[m->n];
@@ -54,7 +55,7 @@ static koksma_status weigh(mesh_light *m, double *mean)
     KOKSMA__REQUIRE_MEMORY(m->densities, m->n * sizeof *m->densities);
     for (size_t t = 0; t < m->n; t++) {
         double luminance = 0;
-        for (int i = 0; i < 16; i++) { /* the centres of 16 equal triangles */
+        for (int i = 0; i < 16; i++) { /* the centroids of 16 congruent triangles */
             float rgb[3], a = (float)(i / 4) / 4 + 1 / 12.0f, b = (float)(i % 4) / 4 + 1 / 12.0f;
             if (a + b > 1) {
                 a = 1 - a;
@@ -153,7 +154,7 @@ static bool sample(const koksma__shading_light *light, const float p[3], const f
     koksma__unit3(n);
     const float at_light = -koksma__dot3(n, out->d);
     if (!(at_light > 0)) {
-        return false; /* from behind, or no triangle at all */
+        return false; /* p is behind the triangle, or the triangle has no area */
     }
     float glow[3] = {1, 1, 1};
     out->pdf = square * length / (at_light * light->area);
@@ -182,13 +183,13 @@ static float met(const koksma__shading_light *light, uint32_t triangle, const fl
     return m->map ? m->densities[triangle] : 1 / light->area;
 }
 
-/* A convex body shows a quarter of its surface in the mean (Cauchy). */
+/* On average over directions, the projected area of a convex body is a quarter of its surface (Cauchy). */
 static bool centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
 {
     if (!koksma__point_beam(light, p, light->area / 4, out)) {
         return false;
     }
-    for (int k = 0; k < 3; k++) { /* ends before the mesh itself */
+    for (int k = 0; k < 3; k++) { /* the ray ends before the mesh itself */
         const float rest = out->d[k] - light->half[0] * out->w[k];
         out->d[k] = rest * out->w[k] > 0 ? rest : 1e-3f * out->d[k];
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * point: the same intensity in all directions from one point, so that the irradiance of a surface that faces it is
- * intensity / distance^2. radiance holds the intensity. No ray meets it; its density is 0.
+ * intensity / distance^2. `radiance` holds the intensity. No ray can hit this light; its density is 0.
  */
 #include "render/lights/surface_lights.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * rectangle: a Lambert emitter that shines to the side of its normal. A position is uniform over the area, which
- * converges as the square root of the samples whatever the distance; uniform solid angle would do better near the
- * light (Urena, Fajardo & King 2013), but the published tables that scenes reproduce sample the area.
+ * rectangle: a Lambert emitter that shines on the side of its normal. Positions are sampled uniformly over the area.
+ * Uniform sampling of solid angle has less variance near the light (Urena, Fajardo & King 2013), but the published
+ * tables that scenes reproduce sample the area.
  */
 #include "render/lights/surface_lights.h"
 

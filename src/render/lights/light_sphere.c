@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * sphere: a Lambert emitter that shines outwards. Directions are uniform over the cone in which the sphere is seen
+ * sphere: a Lambert emitter that shines outwards. Directions are uniform over the cone that the sphere subtends
  * (Shirley, Wang & Zimmerman 1996): with sin = r / d, the density is 1 / (2 pi (1 - cos)). 1 - cos is computed as
- * sin^2 / (1 + cos), which doesn't cancel for a small sphere far away. Nothing comes to a point inside.
+ * sin^2 / (1 + cos), which avoids cancellation for a small sphere far away. A point inside the sphere gets no light.
  */
 #include "render/lights/surface_lights.h"
 
@@ -33,7 +33,7 @@ static bool sample(const koksma__shading_light *light, const float p[3], const f
     return true;
 }
 
-/* It shows a disk of its radius. */
+/* From far away a sphere looks like a disk of its radius. */
 static bool centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
 {
     return koksma__point_beam(light, p, KOKSMA__PI_F * light->half[0] * light->half[0], out);

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * spot: a point whose intensity falls from its whole inside a cone to 0 at the edge of a wider one, as a square between
- * the cosines of both angles (KHR_lights_punctual):
+ * spot: a point light with full intensity inside a cone, which falls to 0 at the edge of a wider cone, quadratically
+ * in the cosine of the angle (KHR_lights_punctual):
  *
  *     I(w) = intensity a^2,   a = (cos angle(w) - cos outer) / (cos inner - cos outer), at least 0 and at most 1,
  *
- * with inner = (1 - edge) outer. It emits intensity 2 pi (1 - cos inner + (cos inner - cos outer) / 3).
+ * with inner = (1 - edge) outer. The total power is intensity 2 pi (1 - cos inner + (cos inner - cos outer) / 3).
  */
 #include "render/lights/surface_lights.h"
 
-enum { ANGLE, EDGE, OUTER, INNER }; /* the last two are cosines, which open_light() sets */
+enum { ANGLE, EDGE, OUTER, INNER }; /* OUTER and INNER are cosines, which open_light() sets */
 
 static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The table of lights, and a scene's lights ready for sampling: each opened by its kind, their powers as a cumulative
- * table, and what estimates of their contribution at a point need, in lanes (batch_lights.c).
+ * table, and the data for estimates of their contribution at a point, in arrays for lanes (batch_lights.c).
  */
 #include <stdlib.h>
 #include <string.h>
@@ -56,9 +56,10 @@ static void accumulate(koksma__lights *lights)
     lights->cdf[lights->n] = 1;
 }
 
-/* What the estimate at a point needs of light i: with a position, power times the cosines over the distance's square
-   is the irradiance over pi. A sphere shows a quarter of its surface, as a disk, and any convex body does in the mean
-   (Cauchy); a point sends a quarter of its power over pi^2 as intensity over pi. */
+/* Sets the data of light i for estimates of its contribution at a point: for a light with a position, power times the
+   cosines divided by the squared distance is the irradiance over pi. A sphere appears as a disk with a quarter of its
+   surface, and so does any convex body on average over directions (Cauchy); for a point light the intensity over pi
+   is a quarter of the power over pi^2. */
 static void set_estimate(const koksma__shading_light *l, int i, koksma__batch_lights *to)
 {
     const koksma__light_distance distance = l->kind->distance;
@@ -108,7 +109,7 @@ koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out
     accumulate(out);
     memset(out->estimates, 0, sizeof *out->estimates);
     for (int i = 0; i < KOKSMA__MAX_BATCH_LIGHTS; i++) {
-        out->estimates->reach[i] = 1; /* dark ones divide by it */
+        out->estimates->reach[i] = 1; /* not 0, because estimates for dark lights divide by it */
     }
     for (size_t i = 0; i < n; i++) {
         set_estimate(&out->lights[i], (int)i, out->estimates);

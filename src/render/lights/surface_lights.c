@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What several kinds of lights share: the fields of flat ones ("facing" or "normal"; "radiance" or "strength"), the
- * surface that rays see, and samples of an emitting surface. A position that is uniform over the area A has the
- * density t^2 / (cos' A) over solid angle, with cos' at the light and t the distance.
+ * Functions that several kinds of lights share: they read the fields of flat lights ("facing" or "normal"; "radiance"
+ * or "strength"), add the surface that rays see, and sample emitting surfaces. Uniform sampling over the area A has
+ * the density t^2 / (cos' A) over solid angle, with the cosine cos' at the light and the distance t.
  */
 #include "render/lights/surface_lights.h"
 
@@ -15,8 +15,9 @@ static double luminance(const double rgb[3])
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
-/* "radiance" of the surface, or "strength": what a surface of albedo 1 reflects of it that faces it in the point that
-   the light faces, were the light small. towards: from the light to that point; NULL with a "normal". */
+/* Reads "radiance" of the surface, or "strength": the radiance reflected by a surface of albedo 1 that faces the
+   light, at the point that the light faces, if the light were small. towards: from the light to that point; NULL if
+   the file has a "normal" instead. */
 static koksma_status parse_power(const field *f, const double *towards, double area, koksma__light *light)
 {
     const bool by_radiance = koksma__json_has(f, "radiance");
@@ -26,7 +27,7 @@ static koksma_status parse_power(const field *f, const double *towards, double a
     const koksma_status status =
         koksma__parse_colour(f, by_radiance ? "radiance" : "strength", true, BRIGHT, light->radiance);
     const double square = by_radiance ? 0 : koksma__dot(towards, towards);
-    /* one product for the grey power, so that strengths in files keep their digits */
+    /* a single product for the grey power, so that strengths in files are not rounded twice */
     light->power = by_radiance ? luminance(light->radiance) * area / M_PI : light->radiance[1] * square;
     for (int k = 0; !by_radiance && k < 3; k++) {
         light->radiance[k] *= square * M_PI / area;
@@ -34,7 +35,8 @@ static koksma_status parse_power(const field *f, const double *towards, double a
     return status;
 }
 
-/* "normal", or "facing": the point that the light looks at; towards is the vector to it. */
+/* Reads "normal", or "facing", the point at which the light is aimed; towards is the vector from the light to that
+   point. */
 static koksma_status parse_aim(const field *f, bool has_target, double towards[3], koksma__light *light)
 {
     double target[3];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What several kinds of lights share: surfaces that emit, and lights taken as points. */
+/* Functions that several kinds of lights share: lights with an emitting surface, and lights treated as points. */
 #ifndef KOKSMA_RENDER_LIGHTS_SURFACE_LIGHTS_H
 #define KOKSMA_RENDER_LIGHTS_SURFACE_LIGHTS_H
 
@@ -7,34 +7,35 @@
 #include "render/shapes/shapes.h"
 #include "render/vector3.h"
 
-/* Further than anything in a scene. */
+/* A distance larger than any in a scene. */
 #define KOKSMA__AWAY 4e6f
 
-/* The fields of a flat light that are no parameters: "facing" or "normal", "up", "radiance" or "strength". */
+/* The fields of a flat light that are not parameters: "facing" or "normal", "up", "radiance" or "strength". */
 #define KOKSMA__FLAT_KEYS ((const char *const[]){"normal", "facing", "up", "radiance", "strength", NULL})
 #define KOKSMA__FLAT_EXAMPLE "\"facing\": [0.1, -0.2, 0.3], \"radiance\": [3, 2, 1]"
 
-/* Reads the fields KOKSMA__FLAT_KEYS, and adds the surface of a visible light to the scene. */
+/* Reads the fields KOKSMA__FLAT_KEYS; adds the surface of a visible light to the scene. */
 koksma_status koksma__flat_light_parse(const field *f, koksma_scene *scene, koksma__light *light, double area,
                                        const koksma__shape_type *shape);
 
-/* The surface of a light that rays see: a shape of this kind with the light's frame. */
+/* Adds the surface of a visible light: a shape of this kind in the light's coordinate frame. */
 koksma_status koksma__light_add_surface(const field *f, koksma_scene *scene, const koksma__light *light,
                                         const koksma__shape_type *type);
 
-/* Sets area and the power of a Lambert emitter of that area. */
+/* Sets area, reach and power of a Lambert emitter. */
 void koksma__emitter_open(koksma__shading_light *light, double area, float reach);
 
-/* A sample at u, v of the surface's own coordinates, whose density over the area is 1 / area; the same as a point at
-   the centre; the density of both over solid angle, for any surface that is sampled by area. */
+/* For any surface that is sampled by area. koksma__flat_light_sample: a sample at coordinates u, v of the surface,
+   with density 1 / area over the area. koksma__flat_light_centre: the light as a point at its centre.
+   koksma__area_pdf: the density of samples over solid angle. */
 bool koksma__flat_light_sample(const koksma__shading_light *light, const float p[3], float u, float v,
                                koksma__beam *out);
 bool koksma__flat_light_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out);
 float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
                        const float n[3]);
 
-/* The direction w of length 1, and its density, of a sample that lies d away on a surface that is sampled by area; 0:
-   behind it. */
+/* For a sample at vector d on a surface that is sampled by area: its direction w of length 1; returns the density
+   over solid angle, 0 behind the surface. */
 KOKSMA__INLINE float koksma__flat_beam(koksma__v3 d, koksma__v3 normal, float area, koksma__v3 *w)
 {
     const float square = koksma__v3_dot(d, d), length = sqrtf(square), at_light = -koksma__v3_dot(normal, d);
@@ -43,8 +44,8 @@ KOKSMA__INLINE float koksma__flat_beam(koksma__v3 d, koksma__v3 normal, float ar
     return at_light > 0 ? pdf : 0;
 }
 
-/* A sample of the cone in which a sphere is seen whose centre is `axis` away (light_sphere.c): the vector d to the
-   sphere, its direction w and density; 0: from within. */
+/* Samples the cone that a sphere subtends, whose centre is at vector `axis` (light_sphere.c): the vector d to the
+   sphere and its direction w; returns the density, 0 from within the sphere. */
 KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, float v, koksma__v3 *d, koksma__v3 *w)
 {
     const float square = koksma__v3_dot(axis, axis), distance = sqrtf(square), part = radius * radius / square;
@@ -60,7 +61,8 @@ KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, f
     return outside ? pdf : 0;
 }
 
-/* All of it from the centre: intensity `strength` times radiance, falling with the square of the distance. */
+/* Treats the light as a point at its centre, with intensity `strength` times its radiance, which falls with the
+   squared distance. */
 bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 
 /* value = scale times the light's radiance */

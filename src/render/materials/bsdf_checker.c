@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * checker: Lambert surfaces of two albedos, in squares of a flat shape's own coordinates or of a mesh's texture
- * coordinates (render/description.h has the formula). Which square a point is in is decided before the material is
- * asked.
+ * coordinates (render/description.h has the formula). The caller selects the square's albedo before it evaluates the
+ * material.
  */
 #include "render/materials/lobes.h"
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * dielectric: smooth glass. Light is reflected by Fresnel's share R of unpolarised light, and the rest refracted by
- * Snell's law; `choice` says which, with the weight 1 (times the tint). Radiance is followed from the eye, so that
- * the refracted ray would gain a factor of the squared ratio of indices going in and lose it coming out; as every
- * path that comes in goes out again, it is left away (Veach 1997, section 5.2, keeps it for lights inside).
+ * dielectric: smooth glass. Light is reflected with Fresnel's reflectance R for unpolarised light, and otherwise
+ * refracted by Snell's law; `choice` selects one of the two with that probability, so that its weight is 1 (times the
+ * tint). Because radiance is followed from the eye, the refracted ray would be multiplied by the squared ratio of
+ * indices on entering, and divided by it on leaving; as every path that enters leaves again, the factor is omitted
+ * (Veach 1997, section 5.2, keeps it for lights inside).
  */
 #include "render/materials/lobes.h"
 
@@ -33,7 +34,8 @@ static void refract(const koksma__surface *s, float cosine, float ratio, float i
 
 static void split(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted)
 {
-    const float ior = s->material->values[IOR], ratio = s->inside ? ior : 1 / ior; /* from this side to the other */
+    /* index of the other side over that of this side */
+    const float ior = s->material->values[IOR], ratio = s->inside ? ior : 1 / ior;
     const float cosine = koksma__dot3(s->n, s->out);
     float inner;
     const float share = koksma__reflected_share(cosine, ratio, &inner);

@@ -3,9 +3,9 @@
  * ggx: a rough metal. Microfacets with slopes of the GGX law (Walter et al. 2007), a = roughness^2, and Smith's
  * height-correlated shadowing; Schlick's reflectance from `reflectance` at normal incidence:
  *     value cos = F D G2 / (4 n.out)
- * Directions come from the facets that are seen (Heitz 2018): density D G1(out) / (4 n.out), so that a direction
- * weighs F G2 / G1. It loses what bounces between facets: a white one reflects less than 1, and at roughness 1 no
- * more than 0.307 straight on (1 - ln 2) and 0.379 at n.out = 0.7.
+ * Directions are sampled by visible facets (Heitz 2018), with density D G1(out) / (4 n.out), so that the weight of a
+ * direction is F G2 / G1. Light scattered between facets is lost: a white metal reflects less than 1, and at
+ * roughness 1 only 0.307 at normal incidence (1 - ln 2) and 0.379 at n.out = 0.7.
  */
 #include "render/materials/facets.h"
 #include "render/materials/lobes.h"

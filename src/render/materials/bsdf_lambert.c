@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * lambert: reflects a share `albedo` of what comes, as bright from every side.
+ * lambert: reflects the fraction `albedo` of the incident light, with equal radiance in all directions.
  *
- *     f = albedo / pi;   directions with density cos / pi, so that each weighs albedo
+ *     f = albedo / pi;   directions with density cos / pi, so that the weight of each is albedo
  */
 #include "render/materials/lobes.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mirror: reflects a share `reflectance` of what comes along the one mirrored direction (Whitted 1980).
+ * mirror: reflects the fraction `reflectance` of the light from the mirrored direction (Whitted 1980).
  *
  *     L(out) = reflectance L(2 (n.out) n - out)
  */

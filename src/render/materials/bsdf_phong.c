@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * phong: the glossy mirror of Shirley (1991). It never reflects more than `reflectance`, and less where a part of the
- * lobe is under the surface.
+ * lobe is below the surface.
  *
  *     f cos = reflectance (e + 1) / (2 pi) cos^e(angle to the mirrored direction);   directions with the same density
  */

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * principled: rough metal and coated diffuse in one, by the parameters of glTF 2.0 (appendix B): base colour c (the
- * albedo), metallic m, roughness, index of refraction. Of GGX facets with a = roughness^2 as ggx has them, and a
- * diffuse part below, of which the facets take their share going in and coming out (Ashikhmin & Shirley 2000):
+ * albedo), metallic m, roughness, index of refraction. It has GGX facets with a = roughness^2, as in bsdf_ggx.c,
+ * above a diffuse part, whose light is reduced by the facets' reflectance both on entering and on leaving (Ashikhmin
+ * & Shirley 2000):
  *
  *     f cos = D F G2 / (4 n.out) + (1 - m) c / pi (1 - S(n.out)) (1 - S(n.w)) cos
  *     F = S with F0 = (1 - m) s + m c at the facet;   S(x) = F0 + (1 - F0) (1 - x)^5,   s = ((ior - 1) / (ior + 1))^2
  *
- * glTF's own sketch has 1 - F at the facet in place of the two factors, and so reflects more than it gets at grazing
- * angles; this one does not, is reciprocal, and is darker by up to an eighth of c: what bounces between facets and the
- * diffuse part is lost. A direction is of the facets with the probability that their reflectance suggests, at least .1
- * where there are both.
+ * glTF's sample implementation has 1 - F at the facet in place of the two factors, and so reflects more light than
+ * arrives at grazing angles. The model here conserves energy, is reciprocal, and is darker by up to an eighth of c,
+ * because light that bounces between facets and the diffuse part is lost. A direction is sampled by the facets with a
+ * probability estimated from their reflectance, at least .1 if both lobes exist.
  */
 #include "render/materials/facets.h"
 #include "render/materials/lobes.h"
 
-/* F0 takes three numbers, which prepare() sets: these and the roughness are what images decide. */
+/* F0 has three numbers. prepare() sets all of them; images can change them and the roughness. */
 enum { F0, ROUGHNESS = 3, METALLIC, IOR };
 
 static float specular(const koksma__shading_material *m)
@@ -24,7 +25,7 @@ static float specular(const koksma__shading_material *m)
     return part * part;
 }
 
-/* F0 and the albedo of the diffuse part, of a base colour. */
+/* Splits a base colour into F0 and the albedo of the diffuse part. */
 static void divide(const koksma__shading_material *m, float metallic, float albedo[3], float f0[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -51,13 +52,13 @@ static const float *numbers_of(const koksma__surface *s)
     return s->local ? s->local : s->material->values;
 }
 
-/* The part of the light that the facets leave to what is below, going in or out. */
+/* The fraction of the light that the facets transmit to the diffuse part, on entering or leaving. */
 static float passed(const koksma__surface *s, float cosine)
 {
     return 1 - koksma__schlick(specular(s->material), cosine);
 }
 
-/* The probability of the diffuse lobe. */
+/* The probability of sampling the diffuse lobe. */
 static float share(const koksma__surface *s, unsigned lobes)
 {
     const bool diffuse = lobes & KOKSMA__LOBE_DIFFUSE, glossy = lobes & KOKSMA__LOBE_GLOSSY;

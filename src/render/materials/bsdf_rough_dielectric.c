@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * rough-dielectric: ground glass. Facets h of the GGX law, as ggx has them, each of which reflects and refracts as
- * `dielectric` does (Walter et al. 2007): with Fresnel's F at the facet, m the index on w's side over that on out's,
+ * rough-dielectric: ground glass. Its facets h have the GGX distribution, as in bsdf_ggx.c, and each reflects and
+ * refracts like the material dielectric (Walter et al. 2007): with Fresnel's F at the facet, m the index on w's side
+ * over the index on out's side,
  *
  *     reflection:  f cos = F D G2 / (4 n.out)
  *     refraction:  f |cos| = (1 - F) G1(w) Dv(h) J,   Dv(h) = D G1(out) (h.out) / (n.out),
  *                  J = m^2 |w.h| / (h.out + m w.h)^2,   h along -(out + m w)
  *
- * A facet is chosen among those that are seen (Heitz 2018), then its reflection with probability F; a direction weighs
- * G2 / G1(out), or G1(w). As in dielectric the squared ratio of indices is left away, and light that facets throw on
- * other facets is lost. Where one light is chosen for a vertex, none behind the surface is, so that light from there
- * comes by rays that meet lights.
+ * A visible facet is sampled (Heitz 2018), then its reflection with probability F; the weight of a direction is G2 /
+ * G1(out) for a reflection and G1(w) for a refraction. As in dielectric, the squared ratio of indices is omitted;
+ * light scattered between facets is lost. When one light is chosen for a path vertex, lights behind the surface are
+ * not candidates: their light arrives only by rays that hit them.
  */
 #include "render/materials/facets.h"
 #include "render/materials/lobes.h"
 
 enum { TINT, ROUGHNESS = 3, IOR };
 
-/* What is the same for all directions: seen from `out`, with the index on this side over that on the other. */
+/* The data that all directions share: a surface seen from `out`, with the index on this side over that on the
+   other. */
 typedef struct view {
     koksma__facets facets;
     float ratio;
@@ -35,7 +37,7 @@ static float masking(float cosine, float a)
     return 1 / (1 + koksma__facet_lambda(cosine, a));
 }
 
-/* The density of reflected or refracted directions, and what one weighs. */
+/* The density of a reflected or refracted direction w; *weight is its weight as a sample. */
 static float density(const view *v, koksma__v3 w, float *weight)
 {
     const koksma__facets *f = &v->facets;

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * GGX facets (bsdf_ggx.c has the model), ray by ray and in loops over lanes.
+ * GGX facets (bsdf_ggx.c documents the model), for single rays and for loops over lanes.
  *
- * D = a^2 / (pi t^2) with t = (n.h)^2 (a^2 - 1) + 1, which is (n.h)^2 a^2 + |n x h|^2: the first form is the
- * difference of numbers near 1 where a is small, the second has D to 3e-5 at roughness 0.03 and to 3 % at 0.001,
- * where directions in floats themselves are off by a tenth of a.
+ * D = a^2 / (pi t^2) with t = (n.h)^2 (a^2 - 1) + 1, which is (n.h)^2 a^2 + |n x h|^2: for small a the first form is
+ * the difference of numbers near 1; the second form gives D with a relative error of 3e-5 at roughness 0.03 and of 3
+ * % at 0.001, where directions in floats are themselves off by a tenth of a.
  */
 #ifndef KOKSMA_RENDER_MATERIALS_FACETS_H
 #define KOKSMA_RENDER_MATERIALS_FACETS_H
 
 #include "render/lanes3.h"
 
-/* A surface seen from `out`; a: the squared roughness. */
+/* A surface of facets seen from `out`; a: the squared roughness. */
 typedef struct koksma__facets {
     koksma__v3 n, out;
     float a;
 } koksma__facets;
 
-/* Of light from a direction: D G1 / (4 n.out), which is its density; G2 / G1; its cosine at the facet. */
+/* The terms for light from a direction: its density D G1 / (4 n.out), G2 / G1, and its cosine at the facet. */
 typedef struct koksma__facet_terms {
     float pdf, ratio, at_facet;
 } koksma__facet_terms;
@@ -47,14 +47,14 @@ KOKSMA__INLINE koksma__facet_terms koksma__facet_terms_of(const koksma__facets *
                                  above ? koksma__v3_dot(h, w) : 0};
 }
 
-/* Schlick's reflectance at the facet. */
+/* Schlick's approximation of the reflectance at the facet. */
 KOKSMA__INLINE float koksma__schlick(float reflectance, float at_facet)
 {
     const float rest = 1 - at_facet, square = rest * rest;
     return reflectance + (1 - reflectance) * (square * square * rest);
 }
 
-/* The mirrored direction at a facet that is seen from `out` (Heitz 2018, listing 1). */
+/* Samples the direction mirrored at a visible facet (Heitz 2018, listing 1). */
 KOKSMA__INLINE koksma__v3 koksma__facet_direction(const koksma__facets *f, float u, float v)
 {
     const koksma__v3 n = f->n, x_axis = koksma__v3_about(n, 1, 0, 0), y_axis = koksma__v3_about(n, 0, 1, 0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The lobes that several materials have. */
+/* The reflection lobes that several materials share. */
 #ifndef KOKSMA_RENDER_MATERIALS_LOBES_H
 #define KOKSMA_RENDER_MATERIALS_LOBES_H
 
@@ -7,7 +7,7 @@
 #include "render/materials/materials.h"
 #include "render/vector3.h"
 
-/* Lambert: albedo / pi; the density of koksma__cosine_direction, for the cosine of the direction. */
+/* The density of koksma__cosine_direction for a direction with this cosine; times albedo it is the Lambert value. */
 KOKSMA__INLINE float koksma__lambert_pdf(float cosine)
 {
     return cosine > 0 ? cosine * (1 / KOKSMA__PI_F) : 0;
@@ -22,7 +22,7 @@ static inline float koksma__lambert_value(const koksma__surface *s, const float 
     return pdf;
 }
 
-/* value and sample of a surface that is Lambert and nothing else. */
+/* value() and sample() of a purely Lambert surface. */
 static inline float koksma__lambert_bsdf_value(const koksma__surface *s, const float w[3], unsigned lobes,
                                                float value_out[3])
 {
@@ -45,7 +45,8 @@ static inline bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigne
     return out->pdf > 0;
 }
 
-/* Fresnel's reflected share of unpolarised light, by the index on this side over that on the other; the cosine of the refracted ray in *inner, 0 with total reflection. */
+/* Fresnel's reflectance for unpolarised light. ratio: the index on this side over that on the other; *inner: the
+   cosine of the refracted ray, 0 for total reflection. */
 static inline float koksma__reflected_share(float cosine, float ratio, float *inner)
 {
     const float square = 1 - (1 - cosine * cosine) * ratio * ratio;
@@ -58,10 +59,9 @@ static inline float koksma__reflected_share(float cosine, float ratio, float *in
     return 0.5f * (across * across + along * along);
 }
 
-/* The cosine lobe of Shirley (1991, section 5.5.6): directions about the mirror's with density (e + 1) / (2 pi)
-   cos^e, each weighing `reflectance`; those under the surface are lost. Times the cosine the material is reflectance
-   x density.
- */
+/* The cosine lobe of Shirley (1991, section 5.5.6): directions about the mirrored one with density (e + 1) / (2 pi)
+   cos^e, each with the weight `reflectance`; those below the surface are lost. The material's value times the cosine
+   is reflectance times density. */
 KOKSMA__INLINE float koksma__lobe_pdf(koksma__v3 n, koksma__v3 out, float exponent, koksma__v3 w)
 {
     const float cosine = koksma__v3_dot(koksma__v3_mirror(out, n), w), above = koksma__v3_dot(n, w);
@@ -85,7 +85,7 @@ static inline float koksma__cosine_lobe_pdf(const koksma__surface *s, float expo
     return koksma__lobe_pdf(koksma__v3_of(s->n), koksma__v3_of(s->out), exponent, koksma__v3_of(w));
 }
 
-/* False under the surface. */
+/* Returns false if the direction is below the surface. */
 static inline bool koksma__cosine_lobe_direction(const koksma__surface *s, float exponent, const float u[2],
                                                  float w[3])
 {

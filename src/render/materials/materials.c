@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of materials, and the conversion of a description in doubles to what the renderer shades with. Kinds are
- * known by the address of their entry, never by a number, so the order of the lines of materials.def decides nothing
- * but the order of lists.
+ * The table of materials, and the conversion of materials from the scene's doubles to the renderer's floats. A kind
+ * is identified by the address of its entry, never by a number, so that the order of the lines of materials.def
+ * affects only the order of lists.
  */
 #include "render/materials/materials.h"
 

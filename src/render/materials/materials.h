@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a surface does with light, direction by direction. A kind of material is one file, bsdf_<name>.c, and one line
- * of materials.def: its name and parameters in scene files, its value, its sampling and its density. All directions
- * are of length 1 and lead away from the surface; n.out > 0. A material's lobes are told apart, because integrators
- * follow some and not others.
+ * Materials: how a surface scatters light, as a function of directions. A kind of material is one file,
+ * bsdf_<name>.c, and one line of materials.def: its name and parameters in scene files, its value, its sampling and
+ * its density. All directions are of length 1 and lead away from the surface; n.out > 0. A material's lobes are
+ * evaluated and sampled separately, because some integrators follow only some of them.
  *
  * tests/render/test_bsdfs.c checks every line of the table with parameters drawn from the declared ranges: densities
  * integrate to what sampling returns, no energy is gained, reciprocity holds where it is claimed.
@@ -17,15 +17,16 @@
 /* Lobes. */
 enum { KOKSMA__LOBE_DIFFUSE = 1, KOKSMA__LOBE_GLOSSY = 2, KOKSMA__LOBE_SPECULAR = 4 };
 
-/* Fields of the diffuse part: "albedo"; "albedos" in the squares of a checker; "albedo": {"image": FILE}. */
+/* Which fields of the diffuse part a material has: "albedo"; "albedos" of the squares of a checker; "albedo":
+   {"image": FILE}. */
 enum { KOKSMA__ALBEDO = 1, KOKSMA__CHECKER = 2, KOKSMA__IMAGE = 4 };
 
-/* Which formula of batch_materials.c shades blocks of a material; parameters 0 to 3 are the reflectance and the exponent
-   of the lobes or the roughness of the facets. */
+/* The formula of batch_materials.c that shades blocks of points of a material. Parameters 0 to 3 are the reflectance
+   and the exponent of the lobes, or the roughness of the facets. */
 typedef enum koksma__material_form {
-    KOKSMA__FORM_RAYS,    /* none: value() and sample(), ray by ray */
+    KOKSMA__FORM_RAYS,    /* no formula: value() and sample() are called for each ray */
     KOKSMA__FORM_LAMBERT, /* albedo */
-    KOKSMA__FORM_LOBES,   /* Lambert and a cosine lobe; `derived` is the part of directions that Lambert gets */
+    KOKSMA__FORM_LOBES,   /* Lambert and a cosine lobe; `derived` is the fraction of directions that Lambert gets */
     KOKSMA__FORM_FACETS,  /* facets.h */
     KOKSMA__N_FORMS
 } koksma__material_form;
@@ -35,74 +36,76 @@ typedef struct koksma__shading_material {
     const struct koksma__bsdf *bsdf;
     float albedo[2][3];
     float values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
-    float derived;                    /* what prepare() makes of them */
-    const koksma_image *image;        /* of the albedo, or NULL */
-    const koksma__material *from;     /* what it is made of: it has the images */
+    float derived;                    /* set by prepare() from the values */
+    const koksma_image *image;        /* the image of the albedo, or NULL */
+    const koksma__material *from;     /* the description of this material, which has the images */
 } koksma__shading_material;
 
-/* Whether anything of it depends on where on the surface a point is, beside a checker. */
+/* Whether an image or vertex colours make the material vary over the surface; a checker does not count. */
 static inline bool koksma__is_textured(const koksma__shading_material *m)
 {
     return m->image || m->from->tinted || m->from->maps[KOKSMA__MAP_SURFACE].image ||
            m->from->maps[KOKSMA__MAP_NORMAL].image;
 }
 
-enum { KOKSMA__LOCAL = 4 }; /* numbers of a kind that images decide: what its texture() makes of them */
+enum { KOKSMA__LOCAL = 4 }; /* the most numbers of a kind that images can change; its texture() computes them */
 
-/* A point on it, seen from `out`. */
+/* A point on a surface, seen from `out`. */
 typedef struct koksma__surface {
     const koksma__shading_material *material;
-    float p[3], n[3]; /* n towards the side that it is seen from */
+    float p[3], n[3]; /* n points to the side from which the surface is seen */
     float out[3];
-    float albedo[3];    /* of the diffuse part, here */
-    const float *local; /* of kinds with texture(), of textured materials: the numbers here; else NULL */
-    bool inside;        /* seen from within a closed shape, or from a flat one's back */
+    float albedo[3];    /* of the diffuse part, at this point */
+    const float *local; /* for a textured material whose kind has texture(): its numbers at this point; else NULL */
+    bool inside;        /* seen from inside a closed shape, or from the back of a flat one */
     int32_t primitive;
 } koksma__surface;
 
 /* A direction that light may come from. */
 typedef struct koksma__scatter {
     float w[3];
-    float weight[3]; /* material times cosine over pdf */
-    float pdf;       /* over solid angle, of the lobes that were asked for; 0 for specular ones */
+    float weight[3]; /* value times cosine over pdf */
+    float pdf;       /* density over solid angle of the requested lobes; 0 for specular ones */
     unsigned lobe;
 } koksma__scatter;
 
 typedef struct koksma__bsdf {
     koksma__kind kind; /* parameters are written to koksma__material: at = KOKSMA__VALUE(i) */
-    unsigned lobes;    /* that it has */
-    unsigned diffuse;  /* which fields of the diffuse part it takes; 0: none */
-    bool is_lambert;   /* its value is albedo cosine / pi and nothing else, so that lambert_lanes.c can shade it */
+    unsigned lobes;    /* all lobes that the kind has */
+    unsigned diffuse;  /* the fields of its diffuse part; 0: none */
+    bool is_lambert;   /* its value is exactly albedo cosine / pi, so that lambert_lanes.c can shade it */
     koksma__material_form form;
-    bool takes_choice; /* sample() depends on choice */
-    bool reciprocal;   /* value / cosine is the same with w and out exchanged */
-    /* NULL, or: why these parameters are refused together; NULL if they are not. */
+    bool takes_choice; /* sample() uses choice */
+    bool reciprocal;   /* value / cosine is symmetric in w and out */
+    /* NULL, or a check of the parameters: returns the reason why they are not valid together, or NULL. */
     const char *(*check)(const koksma__material *material);
     void (*prepare)(koksma__shading_material *material); /* NULL, or sets derived */
-    /* value += material times cosine for light from w, of these lobes; the density with which sample() would choose w
-       among these lobes. */
+    /* Adds to value the material times the cosine for light from w, over the requested lobes; returns the density
+       with which sample() chooses w among these lobes. */
     float (*value)(const koksma__surface *s, const float w[3], unsigned lobes, float value[3]);
-    /* Chooses a direction among these lobes: u for the direction, choice for the lobe. False: the light is lost. */
+    /* Samples a direction among the requested lobes: u for the direction, choice for the lobe. False: the light is
+       lost. */
     bool (*sample)(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out);
-    /* NULL, or: what becomes of an albedo here, and of roughness and metal by the factors of an image. Sets local[0] to
-       [KOKSMA__LOCAL - 1], and albedo to that of the diffuse part. */
+    /* NULL, or computes local[0] to [KOKSMA__LOCAL - 1] at a point from the albedo there and from an image's factors
+       of roughness and metallic value, and sets albedo to that of the diffuse part. */
     void (*texture)(const koksma__shading_material *material, const float factors[2], float albedo[3], float *local);
-    /* NULL, or, for integrators that follow both directions of glass: both, weighed by Fresnel's share. */
+    /* NULL, or for integrators that follow both directions of glass: gives both, weighted by Fresnel's
+       reflectance. */
     void (*split)(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted);
 } koksma__bsdf;
 
-/* Where parameter i of a material is written. */
+/* The offset at which parameter i of a material is stored. */
 #define KOKSMA__VALUE(i) (offsetof(koksma__material, values) + (i) * sizeof(double))
 
-/* All kinds in the order of materials.def, then NULL. */
+/* All kinds of materials in the order of materials.def; ends with NULL. */
 extern const koksma__bsdf *const koksma__bsdfs[];
 extern const koksma__kind *const koksma__material_kinds[];
 
-/* The fields of scene files that a kind has beside its parameters: those of all materials, and of the diffuse part.
-   Ends at NULL. */
+/* The fields of scene files that a kind has beside its parameters: those of all materials, and those of its diffuse
+   part. The list ends with NULL. */
 const char *const *koksma__material_keys(const koksma__bsdf *bsdf);
 
-/* The values of the parameter of this name, which the material's kind has. */
+/* The values of the parameter with this name, which the material's kind must have. */
 double *koksma__material_value(koksma__material *material, const char *name);
 
 koksma__shading_material koksma__shading_material_of(const koksma__material *from);

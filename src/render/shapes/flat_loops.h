@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The loops of flat shapes: t = n.(c - o) / n.d, then the position must lie within the bounds in (u, v). A kind gives
- * its bounds as a function of (u, v), which the compiler puts into its own copy of each loop: KOKSMA__FLAT_LOOPS.
+ * The intersection loops of flat shapes: t = n.(c - o) / n.d, then the position must lie within the bounds in (u, v).
+ * A kind defines its bounds as a function of (u, v), which the compiler inlines into the kind's copy of each loop:
+ * KOKSMA__FLAT_LOOPS.
  *
  * A ray that starts on a flat shape never meets it, without any epsilon.
  */
@@ -37,7 +38,7 @@ INLINE void koksma__flat_hit(const koksma__batch_shape *shape, const koksma__ray
     }
 }
 
-/* Both in one, for a block of rays that start nowhere and can meet nothing else. */
+/* The loops hit and finish in one, for a block of rays that start on no shape and can hit no other shape. */
 INLINE int koksma__flat_only(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
                              koksma__hits *restrict h, koksma__within *within)
 {
@@ -75,7 +76,8 @@ INLINE int koksma__flat_only(const koksma__batch_shape *shape, const koksma__ray
     return count;
 }
 
-/* aimed: the light's shape that each ray goes to, which can't block it, as the shape that it starts on can't. */
+/* aimed: the shape of the light at which each ray is aimed. That shape cannot block the ray, and neither can the
+   shape on which the ray starts. */
 INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__hits *restrict h, const int32_t *aimed,
                                int n, koksma__shadows *restrict r, koksma__within *within)
 {
@@ -97,7 +99,7 @@ INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__h
     }
 }
 
-/* The loops hit, only and shade of a kind whose bounds are `within`. */
+/* Defines the loops hit, only and shade of a kind whose bounds are `within`. */
 #define KOKSMA__FLAT_LOOPS(within)                                                                                   \
     static void hit(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,              \
                     koksma__hits *hits)                                                                              \
@@ -114,7 +116,7 @@ INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__h
         koksma__flat_shade(s, hits, aimed, n, shadows, within);                                                      \
     }
 
-/* p in the shape's own coordinates: u and v; the result is the height over its plane. */
+/* Converts p to the shape's coordinates u and v; returns the height above its plane. */
 static inline double koksma__flat_coordinates(const koksma__shape *shape, const double p[3], double uv[2])
 {
     double q[3];
@@ -124,7 +126,7 @@ static inline double koksma__flat_coordinates(const koksma__shape *shape, const 
     return koksma__dot(q, shape->normal);
 }
 
-/* The fields that flat kinds share. */
+/* The fields that all flat kinds have. */
 #define KOKSMA__SHAPE_CENTRE                                                                                         \
     {                                                                                                                \
         "centre", KOKSMA__POINT, .at = offsetof(koksma__shape, centre)                                               \

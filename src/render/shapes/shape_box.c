@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* box: six rectangles that face outwards, turned about y by angle_deg. */
+/* box: six rectangles that face outwards, rotated about y by angle_deg. */
 #include "core/vector.h"
 #include "render/shapes/shapes.h"
 
-/* Side `side` (0 to 5: -x +x -y +y -z +z of the box's axes): a rectangle in the frame that one with this normal has:
-   v is y, and -z for top and bottom, the box's own; u = v x normal. */
+/* Makes side `side` (0 to 5: -x +x -y +y -z +z of the box's axes), a rectangle in the frame that a rectangle with
+   this normal has: v is the box's y, and -z for top and bottom; u = v x normal. */
 static void make_side(koksma__shape *shape, double axes[3][3], const double half[3], int side)
 {
     const int along = side / 2;

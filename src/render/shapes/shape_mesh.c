@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mesh and instance: which file, where it stands, what it is made of. A mesh is read once; its instances are
- * placements of the same triangles. Embree intersects them (accel/accel_embree.c).
+ * mesh and instance: they have a file, a placement and a material. A mesh is read once; its instances are placements
+ * of the same triangles. Embree intersects them (accel/accel_embree.c).
  */
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "render/placements.h"
 #include "render/shapes/shapes.h"
 
-/* A positive number, or three. */
+/* Reads a positive number, or three. */
 static koksma_status parse_scale(const field *f, double scale[3])
 {
     field node;
@@ -46,7 +46,7 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
     double radiance[3];
     KOKSMA__TRY(koksma__parse_colour(f, "emission", true, BRIGHT, radiance));
     KOKSMA__JSON_FAIL_IF(p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth, f,
-                         "a light is neither smooth nor does it move");
+                         "a mesh that is a light can be neither smooth nor moving");
     const koksma_status added = koksma__scene_add_glow(scene, p, radiance);
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
 }

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * sphere: |p - c - t motion|^2 = r^2 at time t. Of a ray o + t d with e = o - c: d.d t^2 + 2 e.d t + (e.e - r^2) = 0.
+ * sphere: |p - c - t motion|^2 = r^2 at time t. For a ray o + t d with e = o - c: d.d t^2 + 2 e.d t + (e.e - r^2) =
+ * 0.
  *
- * A ray that starts on the sphere has no epsilon: the constant term is set to exactly 0, which leaves the far root,
- * that is > 0 only when the ray starts inwards.
+ * A ray that starts on the sphere needs no epsilon: its constant term is set to exactly 0, so that only the far root
+ * is left, which is positive only if the ray starts inwards.
  */
 #include "core/vector.h"
 #include "render/pipelines/batch_kernel.h"
 #include "render/shapes/shapes.h"
 
-/* Where the centre is at time[i]. */
+/* Coordinate k of the centre at this time. */
 #define AT(k, c, time) (moves ? c + (time)*s->motion[k] : c)
 
 INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *restrict r, const int32_t *restrict from,
@@ -24,13 +25,13 @@ INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *res
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
         const float inverse = 1 / a, middle = -b * inverse;
-        /* The distance of the line from the centre, from its nearest point: no cancellation of large squares. */
+        /* uses the vector from the centre to the line's nearest point, which avoids cancellation of large squares */
         const float qx = ex + middle * dx, qy = ey + middle * dy, qz = ez + middle * dz;
         const float rest = radius2 - (qx * qx + qy * qy + qz * qz);
         const float reach = sqrtf((rest > 0 ? rest : 0) * inverse);
         const float near = middle - reach, far = middle + reach;
         const int away = from[i] != id;
-        /* A ray that starts on the sphere has its roots at exactly 0 and 2 middle. */
+        /* a ray that starts on the sphere has its roots at exactly 0 and 2 middle */
         const float t = !away ? 2 * middle : near > 0 ? near : far;
         const int hit = (away ? rest > 0 : 1) & (t > 0) & (t < h->t[i]);
         h->t[i] = hit ? t : h->t[i];
@@ -38,7 +39,7 @@ INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *res
     }
 }
 
-/* Position and normal of the lanes that hit the sphere; all: every lane does. */
+/* Sets position and normal of the lanes that hit the sphere; all: every lane hits it. */
 INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *restrict r, int n,
                           koksma__hits *restrict h, bool all, bool moves)
 {
@@ -65,10 +66,11 @@ INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *rest
     }
 }
 
-/* Has |e + t d|^2 = r^2 a root in (0, end)? Times a = d.d the equation is (a t + b)^2 = D with b = e.d and, by
-   Lagrange's identity, D = a r^2 - |e x d|^2: no difference of large squares, so that small spheres far away keep
-   their shadows. An end is inside where (a t + b)^2 < D; with both outside the line must cross the sphere between
-   them. On a ray that starts on the sphere D is exactly b^2. */
+/* Blocks the shadow rays for which |e + t d|^2 = r^2 has a root in (0, end). Multiplied by a = d.d the equation is (a
+   t + b)^2 = D with b = e.d and, by Lagrange's identity, D = a r^2 - |e x d|^2: this avoids a difference of large
+   squares, so that small spheres far away keep their shadows. An end of the ray is inside the sphere if (a t + b)^2 <
+   D; if both ends are outside, the line must cross the sphere between them. For a ray that starts on the sphere D is
+   exactly b^2. */
 INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restrict h, const int32_t *aimed, int n,
                          koksma__shadows *restrict r, bool moves)
 {
@@ -91,7 +93,7 @@ INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restr
     }
 }
 
-/* The loops are compiled once for spheres that move and once for others. */
+/* The loops are compiled twice, for moving spheres and for others. */
 static void hit(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
                 koksma__hits *hits)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of shapes, and the conversion of a description in doubles to what the loops intersect. A shape's kind
- * there is its index in the table, by which each instruction set finds its loops (batch_shapes.c).
+ * The table of shapes, and the conversion of shapes from the scene's doubles to the floats that the loops use. A
+ * converted shape stores its kind as an index in the table, by which the code for each instruction set finds its
+ * loops (batch_shapes.c).
  */
 #include "render/shapes/shapes.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Shapes: what rays meet. A kind of shape is one file, shape_<name>.c, and one line of shapes.def: its name and
- * parameters in scene files, its definition, its bounds, and the loops that intersect it with a block of rays. Files
- * that include flat_loops.h or batch_kernel.h are compiled once for each instruction set, and
- * KOKSMA__SHAPE(name) is the entry of the set that is being compiled; elsewhere it is that of `ref`, whose loops
- * nobody calls from there.
+ * Shapes: the surfaces that rays hit. A kind of shape is one file, shape_<name>.c, and one line of shapes.def: its
+ * name and parameters in scene files, its definition, its bounds, and the loops that intersect it with a block of
+ * rays. Files that include flat_loops.h or batch_kernel.h are compiled once for each instruction set, and
+ * KOKSMA__SHAPE(name) is the entry for the instruction set that is being compiled; in other files it is the entry for
+ * `ref`, of which they use only the other members, not the loops.
  *
  * tests/render/test_every_shape.c checks every line of the table: hits, normals, bounds and shadows against the
  * definition, all instruction sets against each other, and the geometry with Embree against that without.
@@ -18,37 +18,39 @@
 
 typedef struct koksma__shape_type {
     koksma__kind kind; /* parameters are written to koksma__shape */
-    bool is_flat;      /* in the plane through centre along axis_u and axis_v, as far as half */
+    bool is_flat;      /* lies in the plane through centre along axis_u and axis_v, extending as far as half */
     bool takes_checker, takes_image;
-    bool may_emit; /* the field "emission" in place of "material" makes it a light */
-    /* NULL, or: reads the fields that are no parameters; name is the scene file's. A compound adds what it is made of
-       to the scene. Errors: those of the fields, of files, and of too many shapes. */
+    bool may_emit; /* the field "emission", instead of "material", makes the shape a light */
+    /* NULL, or reads the fields that are not parameters; name is the scene file's. A compound adds its parts to the
+       scene. Errors: those of the fields, of files, and of too many shapes. */
     koksma_status (*parse)(const char *name, const field *f, koksma_scene *scene, koksma__shape *shape);
 
-    /* The rest is NULL in a compound. */
+    /* The members below are NULL for a compound. */
 
-    /* The radius of a sphere about the centre that holds the shape; NULL: half[0]. Unused of flat ones. */
+    /* The radius of a sphere about the centre that contains the shape; NULL: half[0]. Not used for flat shapes. */
     double (*radius)(const koksma__shape *shape);
-    /* The definition, at time 0: p is on the surface where the result is 0 and beyond <= 0 (beyond the edge, in any
-       unit); the result is > 0 on the front, where the normal leads. Tests compare the loops with it. */
+    /* The implicit equation at time 0, with which tests compare the loops: p is on the surface if the result is 0 and
+       *beyond <= 0 (*beyond: how far p is beyond the edge, in any unit). The result is positive on the front, to
+       which the normal points. */
     double (*equation)(const koksma__shape *shape, const double p[3], double *beyond);
 
-    /* The loops; n as in batch.h. hit: sets t and primitive where the shape is closer. from: the shape that each ray
-       starts on, or -1: there its t = 0 is no hit. */
+    /* The loops; n as in batch.h. hit: sets t and primitive where the shape is closer than the hit so far. from: the
+       shape on which each ray starts, whose t = 0 is no hit, or -1. */
     void (*hit)(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
                 koksma__hits *hits);
-    /* Position, normal, coordinates, side and material of the hits on this shape; all: every lane hits it. NULL: flat
-       shapes, which share a loop. */
+    /* Sets position, normal, coordinates, side and material of the hits on this shape; all: every lane hits it. NULL:
+       flat shapes, which share a loop. */
     void (*finish)(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits, bool all);
-    /* Takes away the light of lanes that the shape blocks; aimed: the shape that each ray goes to and that can't
+    /* Sets the light of lanes that the shape blocks to 0; aimed: the shape at which each ray is aimed, which cannot
        block it, or -1. */
     void (*shade)(const koksma__batch_shape *s, const koksma__hits *hits, const int32_t *aimed, int n,
                   koksma__shadows *shadows);
-    /* NULL, or: hit and finish in one, for rays that start nowhere and can meet nothing else; the number of hits. */
+    /* NULL, or hit and finish in one loop, for rays that start on no shape and can hit no other shape; returns the
+       number of hits. */
     int (*only)(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits);
 } koksma__shape_type;
 
-/* A shadow ray ends this much short of the light. */
+/* The t at which a shadow ray ends, just before the light at t = 1. */
 #define KOKSMA__SHADOW_END (1 - 0x1p-16f)
 
 #ifdef KOKSMA_ISA
@@ -57,14 +59,14 @@ typedef struct koksma__shape_type {
 #define KOKSMA__SHAPE(name) koksma__shape_##name##_ref
 #endif
 
-/* All kinds in the order of shapes.def, then NULL. */
+/* All kinds of shapes in the order of shapes.def; ends with NULL. */
 extern const koksma__shape_type *const koksma__shape_types[];
 extern const koksma__kind *const koksma__shape_kinds[];
 
-/* A parse() of flat shapes: the axes, from the normal and the field "up". */
+/* A parse() for flat shapes: computes the axes from the normal and the field "up". */
 koksma_status koksma__shape_axes(const char *name, const field *f, koksma_scene *scene, koksma__shape *shape);
 
-/* The shape in floats, as the loops read it. id: its number in the scene. */
+/* Converts a shape to floats for the loops. id: its index in the scene. */
 koksma__batch_shape koksma__batch_shape_of(const koksma__shape *from, int32_t id);
 
 #define SHAPE(name) extern const koksma__shape_type KOKSMA__SHAPE(name);
