@@ -185,7 +185,8 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2",
                     points->dim);
     KOKSMA__FAIL_IF(!(r_max > 0 && r_max <= 0.5) || bins == 0, KOKSMA_ARGUMENT,
-                    "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2 and at least one bin", r_max);
+                    "pair correlation: r_max = %g, %zu bins: it takes 0 < r_max <= 1/2 and 1 bin or more", r_max,
+                    bins);
     koksma_status checked = koksma__points_check(points);
     checked = checked ? checked : koksma__array_check("bins", values, bins, sizeof *values);
     if (checked) {

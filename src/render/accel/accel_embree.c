@@ -10,8 +10,9 @@
  *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
  * threads, but not between versions of Embree or the instruction sets that Embree selects. The floating-point mode is
- * not changed, although Embree recommends that denormals be treated as 0. This file is long because only one file
- * includes Embree.
+ * not changed, although Embree recommends that denormals be treated as 0.
+ *
+ * Long because one file includes Embree.
  */
 #if KOKSMA_EMBREE == 3
 #include <embree3/rtcore.h>

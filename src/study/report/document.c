@@ -7,7 +7,7 @@
  * needs changes in both files and in the page.
  *
  * Words are a list of runs; a run is a text, or an object with a style or with the value of a number. A run is
- * extended as long as words of the same style follow.
+ * extended as long as words of the same style follow. Long because all kinds of blocks share the state of the writer.
  */
 #include "study/report/document.h"
 
