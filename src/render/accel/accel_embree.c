@@ -6,13 +6,11 @@
  * ray, so that they are as exact as the vertices.
  *
  * Triangles that are transparent to some rays (glTF's alpha) are skipped by a filter function, which Embree calls at
- * each hit.
+ * each hit. Long because one file includes Embree.
  *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
  * threads, but not between versions of Embree or the instruction sets that Embree selects. The floating-point mode is
  * not changed, although Embree recommends that denormals be treated as 0.
- *
- * Long because one file includes Embree.
  */
 #if KOKSMA_EMBREE == 3
 #include <embree3/rtcore.h>
