@@ -47,7 +47,7 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
 #define CLI_UNKNOWN_OPTION                                                                                           \
     {                                                                                                                \
         0, "unknown", "approximate|refuse",                                                                          \
-            "unknown parts of a pbrt or Mitsuba scene give a warning, or an error (default: approximate)"            \
+            "what an unknown part of a pbrt or Mitsuba scene gives: a warning (approximate, default) or an error"    \
     }
 
 /* Opens a scene and applies the option --unknown. Returns 0, or the exit code after an error. */

@@ -49,7 +49,7 @@ typedef struct koksma_optimum {
 typedef struct koksma_processes {
     int size, rank; /* number of processes; index of this process, from 0 */
     /* An all-gather: process i % size provides piece i of `count` pieces of `bytes` bytes each, and afterwards
-       every process has all pieces. All processes call it at the same points of the search. */
+       every process has all pieces. All processes call this function at the same points of the search. */
     koksma_status (*exchange)(void *context, void *pieces, size_t count, size_t bytes);
     /* Called after the last exchange of a search that ends without an error; may be NULL. */
     void (*done)(void *context);

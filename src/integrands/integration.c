@@ -83,7 +83,8 @@ static double rounding(const koksma_integration_options *o, const double *estima
     return 0x1p-44 * scale;
 }
 
-/* Fits the slope to the mean squared errors. Those within rounding are set to NaN, which the fit leaves out. */
+/* Fits the slope to the mean squared errors. Mean squared errors that may be rounding errors alone are set
+   to NaN, which the fit leaves out. */
 static void fit_slope(double value, const koksma_integration_options *o, const double *estimates, double least,
                       koksma_integration *out)
 {

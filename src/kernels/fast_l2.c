@@ -18,8 +18,8 @@ typedef struct shape {
     double q, r;
 } shape;
 
-/* Multiplies out[0 .. count) by the kernels of point i with points j .. j + count - 1 in coordinate k; for k = 0 sets
-   it to them. */
+/* Computes the kernels of point i with points j .. j + count - 1 in coordinate k: stores them in out[0 .. count) for
+   k = 0, and multiplies out[0 .. count) by them for other k. */
 static inline void multiply(const shape *s, size_t k, size_t i, size_t j, size_t count, double *restrict out)
 {
     const double *restrict u = s->u + k * s->n + j, *restrict g = s->g + k * s->n + j;

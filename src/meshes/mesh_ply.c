@@ -392,7 +392,7 @@ static koksma_status take_list(ply *p, const element *e, size_t i, const propert
         p->mesh.uvs = calloc(2 * p->n_vertices + 1, sizeof *p->mesh.uvs);
         status = p->mesh.uvs ? KOKSMA_OK : koksma__fail_memory(2 * p->n_vertices * sizeof *p->mesh.uvs);
     }
-    /* as text it stops at the line's end, even if more items are claimed */
+    /* in text files a list ends with its line, even if its count is larger */
     for (long long j = 0; !status && j < n; j++) {
         status = put_listed(p, e, i, of, n, j);
     }

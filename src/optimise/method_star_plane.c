@@ -445,8 +445,8 @@ static bool draw_swap(plane *s, swap *w)
     return a > 0 && b <= n && beside(s->rank[a], j, reach, !many) && beside(s->rank[b], j, reach, many);
 }
 
-/* Whether a swap leaves more stored cycles violated at target than now (one may always be violated), or any violated
-   at limit. */
+/* Whether a swap is refused: after it, more of the stored constraint cycles would be violated at the value `target`
+   than now (one violated cycle is permitted), or any would be violated at the value `limit`. */
 static bool refused(plane *s, double target, double limit, const swap *w)
 {
     size_t count = 0;

@@ -456,7 +456,7 @@ static koksma_status take_texture(reader *r, source *s)
     return koksma__pbrt_texture(&r->values, name, kind, r->parameters);
 }
 
-/* Skips a directive that does not describe the scene: a text and parameters. */
+/* Skips the quoted text and the parameters of a directive that does not describe the scene. */
 static koksma_status take_nothing(reader *r, source *s)
 {
     return koksma__pbrt_parameters_read(s, r->parameters); /* take_options() has already read the text */

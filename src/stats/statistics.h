@@ -41,7 +41,7 @@ typedef struct koksma__estimate {
 } koksma__estimate;
 
 /* By what factor the number of trials must grow so that a test finds the difference of two means with a
-   probability of 80 %; the interval of the difference is now +- half. Errors fall as trials^-1/2. */
+   probability of 80 %; `half` is half the width of the present interval of the difference. Errors fall as trials^-1/2. */
 double koksma__trials_factor(double difference, double half);
 
 /* The relative difference of means over n pairs, mean a / mean base - 1. It is 0 if both means are 0; the

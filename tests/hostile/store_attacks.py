@@ -208,7 +208,7 @@ def rows():
         "measure": ("UPDATE series SET what = 'extreme', measured_by = 'extreme 0' WHERE what = 'star'", "is stored, and"),
         "no pattern": ("UPDATE series SET pattern = 'none' WHERE pattern = 'random'", "can't be made again"),
         "n": ("UPDATE series SET n = 16 WHERE n = 9", "seed"),
-        "scene": ("UPDATE series SET scene_hash = '00' WHERE kind = 'image'", "another one now"),
+        "scene": ("UPDATE series SET scene_hash = '00' WHERE kind = 'image'", "has changed since"),
         "size": ("UPDATE series SET width = 9 WHERE kind <> 'discrepancy'", "seed"),
         "reference": ("UPDATE series SET what = 'r:jittered@5x2' WHERE kind <> 'discrepancy'", ""),
         "hash": ("UPDATE reference SET pixels = replace(pixels, substr(pixels, 1, 3), 'abc')", "hash"),

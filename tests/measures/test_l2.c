@@ -508,8 +508,8 @@ static void a_product_out_of_range(void **state)
     assert_ok(koksma_measure_spec("l2-star", &spec));
     assert_int_equal(koksma_evaluate(&spec, &p, NULL, &got), KOKSMA_DIM);
     assert_string_equal(koksma_error_text(), "l2-star: in 1000 dimensions a product over the first coordinates of a "
-                                             "point is beyond the range of doubles; coordinates in another order may "
-                                             "serve");
+                                             "point is beyond the range of doubles; another order of the "
+                                             "coordinates may work");
     koksma_points_fini(&p);
 }
 

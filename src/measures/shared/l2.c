@@ -54,7 +54,7 @@ typedef struct pairs {
     const koksma__l2_row *row;
     size_t n;
     int dim;
-    double *u, *g;     /* coordinate k of point j at k n + j; g of it */
+    double *u, *g;     /* u[k n + j] is coordinate k of point j, g[k n + j] the kernel's function g of it */
     koksma__sum *sums; /* one for each block of rows */
 } pairs;
 

@@ -60,7 +60,7 @@ static koksma_status fail_range(const koksma__l2_row *row, int dim)
     return koksma__fail(KOKSMA_DIM, "%s: in %d dimensions it is beyond the range of doubles", row->name, dim);
 }
 
-/* Fails for an intermediate product, although the value itself may be in the range of doubles. */
+/* The error of an intermediate product beyond the range of doubles; the value itself may be within that range. */
 static koksma_status fail_product(const koksma__l2_row *row, int dim)
 {
     return koksma__fail(KOKSMA_DIM,

@@ -79,7 +79,7 @@ void koksma__sample_scratch_fini(koksma__sample_scratch *room);
 
 /* The coordinates that a use takes from the points of its set. */
 typedef struct koksma__place_of_use {
-    int group;      /* index in the options of the group that contains the use; -1: none */
+    int group;      /* index in the options of the group of uses that this use belongs to; -1: it is in no group */
     int first, dim; /* the first coordinate of the use, and the number of dimensions of the set */
     uint32_t lead;  /* the smallest number of the uses in the group */
 } koksma__place_of_use;
