@@ -30,7 +30,6 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "kernels/kernels.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
 
@@ -75,14 +74,6 @@ static uint32_t column_of(int d, int b)
     return koksma_mirror(z);
 }
 
-static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
-{
-    const uint32_t(*directions)[BITS] = context;
-    uint32_t v[KOKSMA__COLUMN_BLOCK];
-    koksma__kernels()->digital(count, directions[k], koksma__digital_start(directions[k], first), v);
-    koksma__kernels()->fractions(count, v, xs);
-}
-
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
@@ -95,7 +86,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             directions[d][b] = column_of(d, b);
         }
     }
-    const koksma_status status = koksma__range_columns(args, out, column, directions);
+    const koksma_status status = koksma__range_columns(args, out, koksma__digital_column, directions);
     free(directions);
     return status;
 }

@@ -132,6 +132,14 @@ uint32_t koksma__digital_start(const uint32_t *directions, uint64_t first)
     return start;
 }
 
+void koksma__digital_column(const void *context, int k, uint64_t first, size_t count, double *xs)
+{
+    const uint32_t(*directions)[32] = context;
+    uint32_t v[KOKSMA__COLUMN_BLOCK];
+    koksma__kernels()->digital(count, directions[k], koksma__digital_start(directions[k], first), v);
+    koksma__kernels()->fractions(count, v, xs);
+}
+
 /* Makes the points of group g of a digital sequence. The kernel handles aligned runs of 2^k points, so that a group
    which begins at an unaligned index is cut into longer and longer aligned runs. */
 static koksma_status group_of_digits(void *context, size_t g)

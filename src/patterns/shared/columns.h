@@ -31,6 +31,10 @@ koksma_status koksma__range_digital(const koksma_args *args, const uint32_t *con
 /* The exclusive or of directions[b] for all bits b set in `first`. */
 uint32_t koksma__digital_start(const uint32_t *directions, uint64_t first);
 
+/* A koksma__column of a digital sequence in base 2 of any number of dimensions: context is an array uint32_t[dim][32],
+   the directions of each coordinate. */
+void koksma__digital_column(const void *context, int k, uint64_t first, size_t count, double *xs);
+
 /* Fails with KOKSMA_N if a point's index is 2^32 or more, for sequences whose indices have 32 bits. */
 koksma_status koksma__range_fits(const char *name, const koksma_args *args, const koksma_points *out);
 
