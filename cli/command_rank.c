@@ -71,7 +71,7 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
             i++;
         }
         if (i < p->n && strcmp(list, "all") != 0) {
-            return cli_usage_error(arguments, "--patterns: '%s' stands twice", p->texts[i]);
+            return cli_usage_error(arguments, "--patterns: '%s' is listed twice", p->texts[i]);
         }
         p->at[p->n] = p->texts[p->n];
         p->n += i == p->n; /* "all" lists some patterns under two names; they are added once */

@@ -119,7 +119,7 @@ static void wrong_groups(void **state)
                                "\"scenes\": [\"ball\"]}]",
                    "plan 'p': line 4: questions[0].groups[1]: title 'g': another group has it");
     wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"ball\"]}]",
-                   "plan 'p': line 5: questions[0].groups[0].scenes[1]: 'ball' stands twice");
+                   "plan 'p': line 5: questions[0].groups[0].scenes[1]: 'ball' is listed twice");
     wrong_question(CORRELATION "\"groups\": []", "plan 'p': line 3: questions[0].groups: an empty list");
     wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scene\": \"ball\"}]",
                    "plan 'p': line 4: questions[0].groups[0].scene: unknown field; did you mean 'scenes'?");

@@ -177,7 +177,7 @@ static koksma_status read_texts(const koksma__json_node *node, const char *key, 
         }
         for (size_t i = 0; !status && i < out->n; i++) {
             if (!strcmp(out->at[i], out->at[out->n])) {
-                status = koksma__json_fail(&item, "'%s' stands twice", out->at[i]);
+                status = koksma__json_fail(&item, "'%s' is listed twice", out->at[i]);
             }
         }
     }
@@ -220,7 +220,7 @@ koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key
         status = koksma__json_whole(&item, min, max, &out->at[out->n]);
         for (size_t i = 0; !status && i < out->n; i++) {
             if (out->at[i] == out->at[out->n]) {
-                status = koksma__json_fail(&item, "%lld stands twice", out->at[i]);
+                status = koksma__json_fail(&item, "%lld is listed twice", out->at[i]);
             }
         }
     }

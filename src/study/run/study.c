@@ -170,7 +170,7 @@ static koksma_status recall_plan(koksma_study *study)
 static koksma_status check_text(const koksma_study_options *options, char *const *texts, size_t i)
 {
     for (size_t k = 0; k < i; k++) {
-        KOKSMA__FAIL_IF(!strcmp(texts[k], texts[i]), KOKSMA_ARGUMENT, "plan '%s' stands twice", options->plans[i]);
+        KOKSMA__FAIL_IF(!strcmp(texts[k], texts[i]), KOKSMA_ARGUMENT, "plan '%s' is listed twice", options->plans[i]);
     }
     return KOKSMA_OK;
 }
