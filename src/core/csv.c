@@ -24,24 +24,22 @@ void koksma__csv_put(FILE *stream, const char *text)
     putc_unlocked('"', stream);
 }
 
-void koksma__csv_put_whole(FILE *stream, uint64_t number)
+size_t koksma__csv_whole(uint64_t number, char text[KOKSMA__CSV_NUMBER])
 {
-    char digits[24], *first = digits + sizeof digits;
-    *--first = '\0';
+    char digits[KOKSMA__CSV_NUMBER];
+    size_t first = sizeof digits;
     do {
-        *--first = (char)('0' + number % 10);
+        digits[--first] = (char)('0' + number % 10);
         number /= 10;
     } while (number);
-    fputs(first, stream);
+    memcpy(text, digits + first, sizeof digits - first);
+    return sizeof digits - first;
 }
 
-void koksma__csv_put_number(FILE *stream, double number)
+size_t koksma__csv_number(double number, char text[KOKSMA__CSV_NUMBER])
 {
-    char text[KOKSMA__DECIMAL_ROOM];
+    _Static_assert((int)KOKSMA__CSV_NUMBER >= (int)KOKSMA__DECIMAL_ROOM,
+                   "koksma__decimal_write writes to the same text");
     const size_t length = isnan(number) ? 0 : koksma__decimal_write(number, text);
-    if (length) {
-        fwrite(text, 1, length, stream);
-    } else if (!isnan(number)) {
-        koksma__fprintf(stream, "%.17g", number);
-    }
+    return length || isnan(number) ? length : (size_t)koksma__snprintf(text, KOKSMA__CSV_NUMBER, "%.17g", number);
 }

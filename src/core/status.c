@@ -111,14 +111,19 @@ koksma_status koksma__fail_in(koksma_status status, const char *name)
 
 bool koksma__missing(const char *function, const char *names, const void *const *pointers, size_t n)
 {
-    for (size_t i = 0; i < n; i++, names += strcspn(names, ",")) {
-        names += strspn(names, ", ");
-        if (!pointers[i]) {
-            koksma__fail(KOKSMA_ARGUMENT, "%s: %.*s is NULL", function, (int)strcspn(names, ","), names);
-            return true;
-        }
+    size_t first = 0;
+    while (first < n && pointers[first]) {
+        first++;
     }
-    return false;
+    if (first == n) {
+        return false;
+    }
+    for (size_t i = 0; i < first; i++) {
+        names += strcspn(names, ",") + 1;
+    }
+    names += strspn(names, " ");
+    koksma__fail(KOKSMA_ARGUMENT, "%s: %.*s is NULL", function, (int)strcspn(names, ","), names);
+    return true;
 }
 
 koksma_status koksma__array_check(const char *what, const void *array, size_t n, size_t bytes)

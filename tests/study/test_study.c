@@ -185,7 +185,7 @@ static void store_keeps_rows(void **state)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/r.sqlite", folder);
     koksma__store *store, *second;
-    const koksma__series series = {"discrepancy", "", "", "", "random", "star", 16, 2, 0, 0, NULL, NULL};
+    const koksma__series series = {"discrepancy", "", "", "", "random", "star", 16, 2, 0, 0, NULL, NULL, 0};
     const koksma__result first = {3, UINT64_MAX, {0.1, NAN, NAN, NAN}}, again = {3, UINT64_MAX, {0.7, NAN, NAN, NAN}};
     koksma__result *results;
     long long id, same;
@@ -239,7 +239,7 @@ static void store_keeps_many_rows(void **state)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/r.sqlite", folder);
     koksma__store *store;
-    koksma__series series = {"discrepancy", "", "", "", "random", "l2-star", 16, 2, 0, 0, NULL, NULL};
+    koksma__series series = {"discrepancy", "", "", "", "random", "l2-star", 16, 2, 0, 0, NULL, NULL, 0};
     koksma__result *results;
     long long ids[2], seen = 0;
     size_t n;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/atomic_file.h"
+#include "core/capacity.h"
 #include "core/csv.h"
 #include "core/json_writer.h"
 #include "core/npy.h"
@@ -24,6 +25,9 @@ static const char *const value_names[N_VALUES] = {"value", "sd", "max", "rmse", 
 
 typedef struct writer {
     FILE *stream;
+    koksma__sha256 *hash; /* takes the CSV instead of the stream, unless it is NULL */
+    long long series;     /* the id of the series that `before` and `after` are of; 0: none */
+    char *before, *after; /* the columns of a row of CSV before the trial, and those after the values */
     koksma__json_writer json;
     size_t rows, widths[N_TEXTS]; /* lengths of the byte strings in NPY */
 } writer;
@@ -54,31 +58,58 @@ static void values_of(const koksma__series *s, const koksma__result *result, dou
 
 /* ---- CSV (RFC 4180) ------------------------------------------------------------------------------------ */
 
+static void put_text(const writer *w, const char *text, size_t length)
+{
+    if (w->hash) {
+        koksma__sha256_add(w->hash, text, length);
+    } else {
+        fwrite(text, 1, length, w->stream);
+    }
+}
+
+/* Makes the columns that are the same in all rows of a series. */
+static koksma_status begin_series(writer *w, const koksma__series *series)
+{
+    size_t size[2];
+    KOKSMA__FREE(w->before, w->after);
+    w->before = w->after = NULL;
+    FILE *before = open_memstream(&w->before, &size[0]), *after = open_memstream(&w->after, &size[1]);
+    for (int k = 0; before && k < N_FIRST; k++) {
+        koksma__csv_put(before, text_of(series, k));
+        putc(',', before);
+    }
+    for (int k = 0; before && k < N_WHOLES; k++) {
+        fprintf(before, "%llu,", (unsigned long long)whole_of(series, k));
+    }
+    for (int k = N_FIRST; after && k < N_TEXTS; k++) {
+        putc(',', after);
+        koksma__csv_put(after, text_of(series, k));
+    }
+    if (after) {
+        putc('\n', after);
+    }
+    const bool made = before && !fclose(before), ended = after && !fclose(after);
+    w->series = series->id;
+    return made && ended ? KOKSMA_OK : koksma__fail_memory(1);
+}
+
 static koksma_status put_csv(void *context, const koksma__series *series, const koksma__result *result)
 {
-    FILE *f = ((writer *)context)->stream;
+    writer *w = context;
+    char text[(2 + N_VALUES) * (KOKSMA__CSV_NUMBER + 1)];
     double values[N_VALUES];
+    KOKSMA__TRY(w->before && series->id == w->series ? KOKSMA_OK : begin_series(w, series));
     values_of(series, result, values);
-    for (int k = 0; k < N_FIRST; k++) {
-        koksma__csv_put(f, text_of(series, k));
-        putc_unlocked(',', f);
-    }
-    for (int k = 0; k < N_WHOLES; k++) {
-        koksma__csv_put_whole(f, (uint64_t)whole_of(series, k));
-        putc_unlocked(',', f);
-    }
-    koksma__csv_put_whole(f, (uint64_t)result->trial);
-    putc_unlocked(',', f);
-    koksma__csv_put_whole(f, result->seed);
+    size_t length = koksma__csv_whole((uint64_t)result->trial, text);
+    text[length++] = ',';
+    length += koksma__csv_whole(result->seed, text + length);
     for (int k = 0; k < N_VALUES; k++) {
-        putc_unlocked(',', f);
-        koksma__csv_put_number(f, values[k]);
+        text[length++] = ',';
+        length += koksma__csv_number(values[k], text + length);
     }
-    for (int k = N_FIRST; k < N_TEXTS; k++) {
-        putc_unlocked(',', f);
-        koksma__csv_put(f, text_of(series, k));
-    }
-    putc_unlocked('\n', f);
+    put_text(w, w->before, strlen(w->before));
+    put_text(w, text, length);
+    put_text(w, w->after, strlen(w->after));
     return KOKSMA_OK;
 }
 
@@ -213,44 +244,24 @@ static koksma_status put_npy(void *context, const koksma__series *series, const 
 
 /* ---- SHA-256 of the CSV -------------------------------------------------------------------------------- */
 
-typedef struct hasher {
-    koksma__sha256 hash;
-    char *text; /* the stream's buffer, which holds the rows not yet hashed */
-    size_t size, rows;
-    writer writer;
-} hasher;
-
-static koksma_status hash_text(hasher *h)
-{
-    if (fflush(h->writer.stream) || ferror(h->writer.stream)) {
-        return koksma__fail_memory(h->size);
-    }
-    koksma__sha256_add(&h->hash, h->text, h->size);
-    rewind(h->writer.stream);
-    return KOKSMA_OK;
-}
-
-static koksma_status hash_row(void *context, const koksma__series *series, const koksma__result *result)
-{
-    hasher *h = context;
-    put_csv(&h->writer, series, result);
-    return ++h->rows % 256 ? KOKSMA_OK : hash_text(h);
-}
-
 koksma_status koksma__rows_sha256(koksma__store *store, char text[KOKSMA__SHA256_TEXT])
 {
-    hasher h = {.size = 0};
-    koksma__sha256_init(&h.hash);
-    h.writer.stream = open_memstream(&h.text, &h.size);
-    if (!h.writer.stream) {
-        return koksma__fail_memory(1);
+    koksma__sha256 hash;
+    writer w = {.hash = &hash};
+    char *header = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&header, &size);
+    if (stream) {
+        put_csv_header(stream);
     }
-    put_csv_header(h.writer.stream);
-    koksma_status status = koksma__store_visit(store, hash_row, &h);
-    status = status ? status : hash_text(&h);
-    fclose(h.writer.stream);
-    free(h.text);
-    koksma__sha256_finish(&h.hash, text);
+    koksma_status status = stream && !fclose(stream) ? KOKSMA_OK : koksma__fail_memory(1);
+    koksma__sha256_init(&hash);
+    if (!status) {
+        koksma__sha256_add(&hash, header, size);
+        status = koksma__store_visit(store, put_csv, &w);
+    }
+    koksma__sha256_finish(&hash, text);
+    KOKSMA__FREE(header, w.before, w.after);
     return status;
 }
 
@@ -300,6 +311,7 @@ koksma_status koksma_study_export(const char *folder, koksma_export_format forma
         w.stream = file.stream;
         status = write_rows(store, format, &w);
         koksma__json_writer_fini(&w.json);
+        KOKSMA__FREE(w.before, w.after);
         const koksma_status closed = koksma__atomic_close(&file, !status);
         status = status ? status : closed;
     }

@@ -425,10 +425,11 @@ bool koksma__column_is_null(koksma__statement *s, int column)
     return sqlite3_column_type(s, column) == SQLITE_NULL;
 }
 
-bool koksma__column_has_number(koksma__statement *s, int column)
+bool koksma__column_read_number(koksma__statement *s, int column, double *out)
 {
     const int type = sqlite3_column_type(s, column);
-    return type == SQLITE_NULL || (type == SQLITE_FLOAT && isfinite(sqlite3_column_double(s, column)));
+    *out = type == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, column);
+    return type == SQLITE_NULL || (type == SQLITE_FLOAT && isfinite(*out));
 }
 
 bool koksma__column_has_whole(koksma__statement *s, int column)

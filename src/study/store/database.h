@@ -75,8 +75,8 @@ long long koksma__column_whole(koksma__statement *statement, int column);
 double koksma__column_number(koksma__statement *statement, int column);
 bool koksma__column_is_null(koksma__statement *statement, int column);
 
-/* Whether a column has the type of the schema: a finite number or NULL; a whole number; a text. */
-bool koksma__column_has_number(koksma__statement *statement, int column);
+/* Whether a column has the type of the schema: a finite number or NULL, which is read as NaN; a whole number; a text. */
+bool koksma__column_read_number(koksma__statement *statement, int column, double *number);
 bool koksma__column_has_whole(koksma__statement *statement, int column);
 bool koksma__column_has_text(koksma__statement *statement, int column);
 

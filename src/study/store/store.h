@@ -18,6 +18,7 @@ typedef struct koksma__series {
     /* revisions (made_by.h) of a series that was read; ignored when a series is looked up or added: this
        program's are used */
     const char *made_by, *measured_by;
+    long long id; /* of a series that was read; 0: unknown */
 } koksma__series;
 
 /* The values of a result. A discrepancy has one value; an image the mean, SD, maximum and RMSE of its error; a

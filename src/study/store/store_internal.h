@@ -61,6 +61,15 @@ typedef struct koksma__rows {
     koksma__row *at;
 } koksma__rows;
 
+/* The rows of table result as a scan has read them, in the order of their ids. Only a store of few rows has them in
+   memory: a report reads them several times, which SQLite does at about 1 us a row. */
+typedef struct koksma__kept_rows {
+    bool all; /* `rows` are all rows of the table */
+    koksma__rows rows;
+    size_t capacity;
+    koksma__seal seal; /* of the rows */
+} koksma__kept_rows;
+
 typedef struct koksma__known_series {
     /* true: the four values of a row are one result; false: a row has one value each of up to four series */
     bool alone;
@@ -80,6 +89,7 @@ struct koksma__store {
     size_t n_known;              /* length of `known`, whose index is the id of a series */
     koksma__known_series *known; /* NULL until it is needed */
     bool knows_ends;
+    koksma__kept_rows kept;
     pthread_mutex_t gather_lock; /* guards the members below; may be taken while `lock` is held */
     koksma__rows gathered;
     double written_s; /* when rows were last written, in seconds */
@@ -152,7 +162,7 @@ koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s,
 /* ---- store_series.c ---------------------------------------------------------------------------------------------
  */
 
-/* Reads all series into `known` unless that is done; forget frees `known`. */
+/* Reads all series into `known` unless that is done; forget frees `known` and `kept`, after a change of the tables. */
 koksma_status koksma__store_know_series(koksma__store *store);
 void koksma__store_forget(koksma__store *store);
 

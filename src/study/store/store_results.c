@@ -1,34 +1,83 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads results from the store. A scan reads all rows, compares them with the seal, and finds the number of
-   trials of each series; results of a series are then looked up trial by trial, or filtered from all rows where
-   that is faster. */
+/* Reads results from the store. A scan reads all rows, compares them with the seal, finds the number of trials of
+   each series, and keeps up to MOST_KEPT rows in memory. Results of a series are then looked up trial by trial, or
+   filtered from all rows where that is faster, in memory or, for larger stores, in the database. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
 #include "study/store/store_internal.h"
 
-/* Reads all rows in the order of their ids, calls `see` for each result, and compares the rows with the store's
-   seal. */
-static koksma_status scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
-                          void *context)
+/* 24 MiB */
+enum { MOST_KEPT = 1 << 19 };
+
+/* Keeps a row; false: there are too many, or there is no memory for it. */
+static bool keep(koksma__kept_rows *kept, const koksma__row *row)
+{
+    if (kept->rows.n == kept->capacity) {
+        const size_t capacity = kept->capacity ? 2 * kept->capacity : 1024;
+        koksma__row *at = capacity <= MOST_KEPT ? realloc(kept->rows.at, capacity * sizeof *at) : NULL;
+        if (!at) {
+            return false;
+        }
+        kept->rows.at = at;
+        kept->capacity = capacity;
+    }
+    kept->rows.at[kept->rows.n++] = *row;
+    return true;
+}
+
+typedef void see_result(void *context, long long series, long long trial);
+
+static void see_row(const koksma__store *store, const koksma__row *row, see_result *see, void *context)
+{
+    const long long first = row->id & 0xffffffff;
+    for (int k = 0; row->id >= 0 && k < KOKSMA__GROUP && (size_t)(first + k) < store->n_known; k++) {
+        if (!isnan(row->values[k]) && (k == 0 || !store->known[first].alone)) {
+            see(context, first + k, row->id >> 32);
+        }
+    }
+}
+
+/* Reads all rows from the database, in the order of their ids. */
+static koksma_status read_rows(koksma__store *store, see_result *see, void *context, koksma__seal *found)
 {
     koksma__statement *s = store->queries[KOKSMA__GET_IDS];
-    koksma__seal found = {0};
-    koksma_status status = koksma__store_write_rows(store);
-    status = status ? status : koksma__store_know_series(store);
+    koksma_status status = KOKSMA_OK;
+    koksma__kept_rows kept = {.all = true};
     while (koksma__next_row(store->database, s, &status)) {
         koksma__row row = {.id = koksma__column_whole(s, 0)};
-        const long long first = row.id & 0xffffffff;
         status = koksma__store_read_row(store, s, 1, &row);
-        koksma__seal_add(&found, 1, koksma__checksum_of_row(&row));
-        for (int k = 0; !status && row.id >= 0 && k < KOKSMA__GROUP && (size_t)(first + k) < store->n_known; k++) {
-            if (!isnan(row.values[k]) && (k == 0 || !store->known[first].alone)) {
-                see(context, first + k, row.id >> 32);
-            }
+        koksma__seal_add(found, 1, koksma__checksum_of_row(&row));
+        kept.all = kept.all && keep(&kept, &row);
+        if (!status) {
+            see_row(store, &row, see, context);
         }
     }
     koksma__statement_reset(s);
+    kept.seal = *found;
+    if (!kept.all || status) {
+        free(kept.rows.at);
+        kept = (koksma__kept_rows){.all = false};
+    }
+    store->kept = kept;
+    return status;
+}
+
+/* Calls `see` for each result in the order of the rows' ids, and compares the rows with the store's seal. */
+static koksma_status scan(koksma__store *store, see_result *see, void *context)
+{
+    koksma__seal found = {0};
+    koksma_status status = koksma__store_write_rows(store);
+    status = status ? status : koksma__store_know_series(store);
+    if (!status && store->kept.all) {
+        found = store->kept.seal;
+        for (size_t i = 0; i < store->kept.rows.n; i++) {
+            see_row(store, &store->kept.rows.at[i], see, context);
+        }
+    } else if (!status) {
+        status = read_rows(store, see, context, &found);
+    }
     status = status ? status : koksma__seal_rest(store, &found);
     store->found = found;
     return status || store->for_audit || koksma__store_is_sealed(store) ? status : koksma__seal_fail(store);
@@ -77,41 +126,87 @@ static long long end_of(const koksma__store *store, long long series)
     return series >= 0 && (size_t)series < store->n_known ? store->known[series].end : 0;
 }
 
-/* Reads a series' result from a row; false if the row only has results of other series of its group. */
-static bool read_result(koksma__statement *s, const koksma__store *store, long long series, koksma__result *result)
+/* The results that each_result looks for: those of a series with trials below `end`. */
+typedef struct wanted {
+    long long series, end;
+    const koksma__series *key;
+    koksma__row_visitor visit;
+    void *context;
+} wanted;
+
+/* Passes on the series' result in a row, unless the row only has results of other series of its group. */
+static koksma_status pass_result(const koksma__store *store, const wanted *w, const koksma__row *row)
 {
-    const int place = (int)(series - koksma__group_of(series));
-    result->trial = koksma__column_whole(s, 0);
-    result->seed = (uint64_t)koksma__column_whole(s, 1);
-    result->values[0] = koksma__column_number(s, 2 + place);
-    for (int k = 1; k < KOKSMA__RESULT_VALUES; k++) {
-        result->values[k] = store->known[series].alone ? koksma__column_number(s, 2 + k) : (double)NAN;
+    koksma__result result = {row->id >> 32, row->seed, {row->values[w->series % KOKSMA__GROUP], NAN, NAN, NAN}};
+    for (int k = 1; k < KOKSMA__RESULT_VALUES && store->known[w->series].alone; k++) {
+        result.values[k] = row->values[k];
     }
-    return !isnan(result->values[0]);
+    return isnan(result.values[0]) ? KOKSMA_OK : w->visit(w->context, w->key, &result);
+}
+
+static koksma_status each_in_database(koksma__store *store, const wanted *w, bool filter)
+{
+    koksma__statement *s = store->queries[filter ? KOKSMA__FILTER_RESULTS : KOKSMA__GET_RESULTS];
+    koksma_status status = KOKSMA_OK;
+    int column = 1;
+    koksma__bind_whole(s, &column, koksma__group_of(w->series));
+    koksma__bind_whole(s, &column, w->end);
+    while (koksma__next_row(store->database, s, &status)) {
+        koksma__row row = {.id = koksma__column_whole(s, 0) << 32};
+        status = koksma__store_read_row(store, s, 1, &row);
+        status = status ? status : pass_result(store, w, &row);
+    }
+    koksma__statement_reset(s);
+    return status;
+}
+
+/* The first kept row from `low` on whose id is not below `id`. */
+static size_t find_kept(const koksma__rows *rows, size_t low, long long id)
+{
+    for (size_t high = rows->n; low < high;) {
+        const size_t middle = low + (high - low) / 2;
+        if (rows->at[middle].id < id) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static koksma_status each_in_memory(const koksma__store *store, const wanted *w, bool filter)
+{
+    const koksma__rows *rows = &store->kept.rows;
+    const long long group = koksma__group_of(w->series);
+    const size_t past = find_kept(rows, 0, w->end << 32);
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; filter && i < past && !status; i++) {
+        if ((rows->at[i].id & 0xffffffff) == group) {
+            status = pass_result(store, w, &rows->at[i]);
+        }
+    }
+    for (size_t i = 0, trial = 0; !filter && trial < (size_t)w->end && !status; trial++) {
+        const long long id = (long long)trial << 32 | group;
+        i = find_kept(rows, i, id);
+        if (i < rows->n && rows->at[i].id == id) {
+            status = pass_result(store, w, &rows->at[i]);
+        }
+    }
+    return status;
 }
 
 /* Looking up one row by its id takes about as long as reading this many rows in sequence. */
 static const long long ROWS_A_LOOKUP = 8;
 
-/* Calls `visit` for a series' results with trials below `end`, in order; looks trials up one by one, or filters
-   all rows where that is faster. */
-static koksma_status each_result(koksma__store *store, long long series, long long end, const koksma__series *key,
-                                 koksma__row_visitor visit, void *context)
+/* Calls `visit` for the results in the order of trials; looks trials up one by one, or filters all rows where that is
+   faster. */
+static koksma_status each_result(koksma__store *store, const wanted *w)
 {
-    const bool filter = end > 0 && store->found.rows / ROWS_A_LOOKUP <= store->known[series].count;
-    koksma__statement *s = store->queries[filter ? KOKSMA__FILTER_RESULTS : KOKSMA__GET_RESULTS];
-    koksma_status status = KOKSMA_OK;
-    int column = 1;
-    koksma__bind_whole(s, &column, koksma__group_of(series));
-    koksma__bind_whole(s, &column, end);
-    while (end > 0 && koksma__next_row(store->database, s, &status)) {
-        koksma__result result;
-        if (read_result(s, store, series, &result)) {
-            status = visit(context, key, &result);
-        }
+    if (w->end <= 0) {
+        return KOKSMA_OK;
     }
-    koksma__statement_reset(s);
-    return status;
+    const bool filter = store->found.rows / ROWS_A_LOOKUP <= store->known[w->series].count;
+    return store->kept.all ? each_in_memory(store, w, filter) : each_in_database(store, w, filter);
 }
 
 typedef struct results {
@@ -137,7 +232,7 @@ koksma_status koksma__store_results(koksma__store *store, long long series, long
     if (end > 0 && !(to.at = calloc((size_t)end, sizeof *to.at))) {
         status = koksma__fail_memory((size_t)end * sizeof *to.at);
     }
-    status = status ? status : each_result(store, series, end, NULL, keep_result, &to);
+    status = status ? status : each_result(store, &(wanted){series, end, NULL, keep_result, &to});
     *out = to.at;
     *n = to.n;
     return koksma__store_leave(store, status);
@@ -152,7 +247,7 @@ koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visi
         koksma__series series;
         long long id;
         status = koksma__store_read_series(store, s, &series, &id);
-        status = status ? status : each_result(store, id, end_of(store, id), &series, visit, context);
+        status = status ? status : each_result(store, &(wanted){id, end_of(store, id), &series, visit, context});
     }
     koksma__statement_reset(s);
     return koksma__store_leave(store, status);

@@ -127,6 +127,8 @@ koksma_status koksma__store_know_series(koksma__store *store)
 void koksma__store_forget(koksma__store *store)
 {
     free(store->known);
+    free(store->kept.rows.at);
+    store->kept = (koksma__kept_rows){.all = false};
     store->known = NULL;
     store->n_known = 0;
     store->knows_ends = false;

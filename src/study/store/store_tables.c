@@ -19,8 +19,7 @@ koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s,
     bool right = koksma__column_has_whole(s, column);
     row->seed = (uint64_t)koksma__column_whole(s, column);
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        right = right && koksma__column_has_number(s, column + 1 + k);
-        row->values[k] = koksma__column_number(s, column + 1 + k);
+        right = koksma__column_read_number(s, column + 1 + k, &row->values[k]) && right;
     }
     return right ? KOKSMA_OK : fail_row(store, "result", row->id);
 }
@@ -35,6 +34,7 @@ koksma_status koksma__store_read_series(koksma__store *store, koksma__statement 
     }
     *id = koksma__column_whole(s, KOKSMA__SERIES_COLUMNS);
     *key = (koksma__series){
+        .id = *id,
         .kind = koksma__column_text(s, 0),
         .scene = koksma__column_text(s, 1),
         .scene_hash = koksma__column_text(s, 2),
@@ -85,9 +85,10 @@ koksma_status koksma__store_visit_references(koksma__store *store,
                                     .height = koksma__column_whole(s, 4),
                                     .what = koksma__column_text(s, 5),
                                     .made_by = koksma__column_text(s, 6)};
-        koksma__reference_row row = {.standard_error = koksma__column_number(s, 7)};
+        koksma__reference_row row;
+        const bool right = koksma__column_read_number(s, 7, &row.standard_error);
         snprintf(row.pixels, sizeof row.pixels, "%s", koksma__column_text(s, 8));
-        status = koksma__column_has_number(s, 7) ? visit(context, &key, &row) : fail_row(store, "reference", 0);
+        status = right ? visit(context, &key, &row) : fail_row(store, "reference", 0);
     }
     koksma__statement_reset(s);
     return status;
