@@ -124,6 +124,7 @@ static const struct {
     {"exchange", "l2-centered", 8, 3, KOKSMA_KEEP_LATIN}, {"exchange", "l2-wraparound", 8, 2, KOKSMA_KEEP_LATIN},
     {"star-space", "star", 8, 3, KOKSMA_KEEP_NONE},       {"witness", "extreme", 8, 3, KOKSMA_KEEP_NONE},
     {"perturb", "star", 8, 2, KOKSMA_KEEP_NET},           {"perturb", "star", 8, 2, KOKSMA_KEEP_LATIN},
+    {"anneal", "l2-star", 12, 2, KOKSMA_KEEP_NONE},       {"anneal", "l2-centered", 11, 3, KOKSMA_KEEP_NONE},
     {"perturb", "min-distance", 8, 2, KOKSMA_KEEP_NONE},  {"witness", "edge", 8, 2, KOKSMA_KEEP_NONE},
     {"witness", "disk", 8, 2, KOKSMA_KEEP_NONE},          {"digital", "star", 16, 2, KOKSMA_KEEP_SEQUENCE},
     {"digital", "l2-star", 8, 3, KOKSMA_KEEP_SEQUENCE},   {"digital", "min-distance", 16, 2, KOKSMA_KEEP_SEQUENCE},
