@@ -5,7 +5,8 @@
  *
  *     energy = sum over i != j of exp(-d_ij^2 / (2 s^2)),   s = sigma / sqrt n
  *
- * Source: Ahmed, Ren & Wonka 2022, in 2D. A step moves a point by step * (sum of unit-scaled forces), where the
+ * Source: Ahmed, Ren & Wonka 2022. In 3 to 6 dimensions s = sigma n^(-1/dim), and shared/space_forces.c computes the
+ * forces; what follows is about the plane. A step moves a point by step * (sum of unit-scaled forces), where the
  * forces are cut off at the distance 5 s, and by a part of its last move, the momentum (heavy ball, Polyak 1964): 0.9
  * for the first 128 steps, which settle the stiff modes, then 0.98, which makes the slow modes converge five times
  * faster. All points move at once, so that their order does not matter.
@@ -36,16 +37,22 @@
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/fill.h"
+#include "patterns/shared/space_forces.h"
 #include "patterns/shared/torus_rows.h"
 
-enum { BLOCK = 1024, STIFF_STEPS = 128, LEAST_STEPS = 400, MOST_STEPS = 2000, PATIENCE = 200 };
+enum { BLOCK = 1024, BLOCK_IN_SPACE = 64, STIFF_STEPS = 128, LEAST_STEPS = 400, MOST_STEPS = 2000, PATIENCE = 200 };
+
+enum { MOST_PAIRED = 20000 };
 
 #define TOLERANCE 2e-5
 
 typedef struct descent {
-    koksma__torus_rows rows; /* sorted positions of all copies; all tiles together have the width 1 */
-    size_t n, copies;        /* points in one tile, and in all tiles, of which those of the first tile come first */
+    int dim;
+    koksma__space_forces forces; /* in more dimensions than 2; rows, tiles, copies and places are of the plane */
+    koksma__torus_rows rows;     /* sorted positions of all copies; all tiles together have the width 1 */
+    size_t n, copies; /* points in one tile, and in all tiles, of which those of the first tile come first */
     double s, step, momentum, tiles, cut;
+    double limit;    /* of the square root of the sum of squares */
     double *squares; /* squared force on each point; NULL with a fixed number of steps, which does not need it */
     double least;    /* smallest sum of squares so far, replaced only where the root mean square falls by 10 % */
     int wait;        /* steps since `least` was replaced */
@@ -57,6 +64,27 @@ static double wrap(double x)
 {
     x -= floor(x);
     return x < 1 ? x : 0;
+}
+
+/* Moves one block of points in more dimensions than 2. */
+static koksma_status move_block_in_space(void *context, size_t block)
+{
+    const descent *d = context;
+    const size_t dim = (size_t)d->dim, end = (block + 1) * BLOCK_IN_SPACE;
+    for (size_t at = block * BLOCK_IN_SPACE; at < end && at < d->n; at++) {
+        const size_t i = d->forces.order[at];
+        double force[KOKSMA__FORCE_DIMS], square = 0;
+        koksma__space_force(&d->forces, at, force);
+        for (size_t k = 0; k < dim; k++) {
+            square += force[k] * force[k];
+            d->moves[i * dim + k] = d->momentum * d->moves[i * dim + k] + d->step * force[k];
+            d->xs[i * dim + k] = wrap(d->xs[i * dim + k] + d->moves[i * dim + k]);
+        }
+        if (d->squares) {
+            d->squares[i] = square;
+        }
+    }
+    return KOKSMA_OK;
 }
 
 /* Moves one block of points. Points are visited in the order of their cells, so that neighbours are in the cache. */
@@ -109,22 +137,27 @@ static bool converged(descent *d)
     for (size_t i = 0; i < d->n; i++) {
         sum += d->squares[i];
     }
-    const double limit = TOLERANCE * d->s * d->s * (double)d->n; /* square root of a sum of n squares */
     d->wait = sum < 0.81 * d->least ? 0 : d->wait + 1;
     d->least = d->wait ? d->least : sum;
-    return sum <= limit * limit || d->wait >= PATIENCE;
+    return sum <= d->limit * d->limit || d->wait >= PATIENCE;
 }
 
 static koksma_status descend(descent *d, int steps, const koksma_run *run)
 {
-    const size_t blocks = (d->copies + BLOCK - 1) / BLOCK;
+    const bool plane = d->dim == 2;
+    const size_t blocks = plane ? (d->copies + BLOCK - 1) / BLOCK : (d->n + BLOCK_IN_SPACE - 1) / BLOCK_IN_SPACE;
+    const koksma__block_function move = plane ? move_block : move_block_in_space;
     const koksma_run quiet = {.threads = koksma__threads(run)};
     koksma_status status = KOKSMA_OK;
     for (int t = 0; t < steps && !status; t++) {
         d->momentum = t < STIFF_STEPS ? 0.9 : 0.98;
-        lay_out(d);
-        koksma__torus_rows_sort(&d->rows, d->copies, d->places);
-        status = blocks == 1 ? move_block(d, 0) : koksma__parallel(&quiet, blocks, move_block, d);
+        if (plane) {
+            lay_out(d);
+            koksma__torus_rows_sort(&d->rows, d->copies, d->places);
+        } else {
+            koksma__space_forces_sort(&d->forces, d->xs);
+        }
+        status = blocks == 1 ? move(d, 0) : koksma__parallel(&quiet, blocks, move, d);
         if (!status && !koksma__keep_going(run, (double)t / steps)) {
             status = koksma__fail_interrupted();
         }
@@ -135,10 +168,43 @@ static koksma_status descend(descent *d, int steps, const koksma_run *run)
     return status;
 }
 
+/* The limit is 1.13e-5 of the root mean square for independent points, s sqrt(dim/2) pi^(dim/4) sigma^(dim/2). The
+   stiffness of a crystal grows as (2 pi)^(dim/2), so that the step is divided by it, in units of the plane's. */
+static koksma_status generate_in_space(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const size_t n = out->n, numbers = n * (size_t)out->dim;
+    const double sigma = args->params[1];
+    const int steps = (int)args->params[0];
+    descent d = {.dim = out->dim, .n = n, .s = sigma * pow((double)n, -1.0 / out->dim), .xs = out->xs};
+    KOKSMA__FAIL_IF(d.s > 0.1 && n > MOST_PAIRED, KOKSMA_N,
+                    "gaussian-blue-noise: n = %zu is too large in dim %d, where all pairs of points act; n = %d or "
+                    "less would do",
+                    n, d.dim, MOST_PAIRED);
+    d.step = args->params[2] / pow(2 * M_PI, 0.5 * d.dim - 1);
+    d.limit = TOLERANCE / sqrt(M_PI) * d.s * sqrt(0.5 * d.dim) * pow(M_PI, 0.25 * d.dim) * pow(sigma, 0.5 * d.dim) *
+              sqrt((double)n);
+    d.least = INFINITY;
+    d.moves = calloc(numbers + n, sizeof *d.moves);
+    KOKSMA__REQUIRE_MEMORY(d.moves, (numbers + n) * sizeof *d.moves);
+    d.squares = steps ? NULL : d.moves + numbers;
+    koksma_status status = koksma__space_forces_init(&d.forces, n, d.dim, d.s);
+    if (!status) {
+        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, numbers, out->xs);
+    }
+    status = status ? status : descend(&d, steps ? steps : MOST_STEPS, args->run);
+    koksma__space_forces_fini(&d.forces);
+    free(d.moves);
+    return status;
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
+    if (out->dim > 2) {
+        return generate_in_space(seed, args, out);
+    }
     const size_t n = out->n;
-    descent d = {.n = n, .s = args->params[1] / sqrt((double)n), .step = args->params[2], .xs = out->xs};
+    descent d = {.dim = 2, .n = n, .s = args->params[1] / sqrt((double)n), .step = args->params[2], .xs = out->xs};
+    d.limit = TOLERANCE * d.s * d.s * (double)n; /* square root of a sum of n squares */
     d.tiles = fmax(ceil(10 * d.s), 1);
     d.cut = 5 * d.s / d.tiles;
     d.copies = n * (size_t)(d.tiles * d.tiles);
@@ -161,7 +227,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 static const koksma_param params[] = {
     {"steps", "steps of the descent; 0: until it has converged, 2000 at most", 0, 0, 100000, NULL, true},
-    {"sigma", "of the Gaussian, in units of 1/sqrt n", 1, 0.15, 1.05, NULL, false},
+    {"sigma", "of the Gaussian, in units of 1/sqrt n (in 3 dimensions 1/cbrt n, and so on)", 1, 0.15, 1.05, NULL,
+     false},
     {"step", "distance that a point moves for each unit of force", 0.4, 0.001, 1, NULL, false},
     {0},
 };
@@ -171,7 +238,7 @@ const koksma_pattern koksma__pattern_gaussian_blue_noise = {
     .title = "points that repel each other with Gaussian forces",
     .cite = "ahmed2022 polyak1964",
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = KOKSMA__FORCE_DIMS,
     .claims = KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_BLUE | KOKSMA_CLAIM_UNBIASED,
     .params = params,
     .generate = generate,

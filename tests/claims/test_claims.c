@@ -30,6 +30,9 @@ static size_t largest_count(const char *name, int dim)
     static const char *const slow[] = {
         "best-candidate", "gaussian-blue-noise", "sample-elimination", "progressive-elimination",
         "pmj02bn",        "poisson-disk",        "void-and-cluster"};
+    if (dim > 2 && (!strcmp(name, "gaussian-blue-noise") || !strcmp(name, "poisson-disk-maximal"))) {
+        return name[0] == 'g' ? 16 : 64;
+    }
     for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
         if (!strcmp(slow[i], name)) {
             return dim <= 4 ? 128 : 64;

@@ -81,8 +81,9 @@ class Points(unittest.TestCase):
                     koksma.generate("file:" + path, **arguments)
         self.assertEqual(koksma.generate("random", 5).shape, (5, 2))
         self.assertEqual(koksma.generate("poisson-disk-maximal:d=0.3").shape[1], 2)
-        with self.assertRaisesRegex(koksma.ArgumentError, "no 3-dimensional form"):
-            koksma.generate("poisson-disk-maximal:d=0.3", dim=3)
+        self.assertEqual(koksma.generate("poisson-disk-maximal:d=0.3", dim=3).shape[1], 3)
+        with self.assertRaisesRegex(koksma.ArgumentError, "no 7-dimensional form"):
+            koksma.generate("poisson-disk-maximal:d=0.3", dim=7)
         out = np.zeros((5, 4))
         for arguments in ({}, {"n": 5}, {"dim": 4}, {"n": 5, "dim": 4}):
             np.testing.assert_array_equal(koksma.generate("random", seed=1, out=out, **arguments),

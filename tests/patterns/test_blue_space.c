@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Blue noise in 3 to 6 dimensions: counts and distances of maximal Poisson disk sets, forces of gaussian-blue-noise
+   by their definition, radial means of the power. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "patterns/shared/ball_cover.h"
+#include "patterns/shared/elimination.h"
+#include "patterns/shared/space_forces.h"
+#include "sets.h"
+#include "test.h"
+
+static double distance2(const double *a, const double *b, int dim)
+{
+    double sum = 0;
+    for (int k = 0; k < dim; k++) {
+        const double t = fabs(a[k] - b[k]), way = t > 0.5 ? 1 - t : t;
+        sum += way * way;
+    }
+    return sum;
+}
+
+static double nearest_to(const koksma_points *p, const double *x, size_t but)
+{
+    double best = INFINITY;
+    for (size_t i = 0; i < p->n; i++) {
+        best = i == but ? best : fmin(best, distance2(p->xs + i * (size_t)p->dim, x, p->dim));
+    }
+    return sqrt(best);
+}
+
+static double smallest(const koksma_points *p)
+{
+    double best = INFINITY;
+    for (size_t i = 0; i < p->n; i++) {
+        best = fmin(best, nearest_to(p, p->xs + i * (size_t)p->dim, i));
+    }
+    return best;
+}
+
+/* No two points are closer than d, and no random place is further than d from all. */
+static void assert_maximal(const koksma_points *p, double d)
+{
+    assert_true(smallest(p) >= d * (1 - 1e-12));
+    for (uint64_t i = 0; i < 5000; i++) {
+        double x[6];
+        for (uint64_t k = 0; k < 6; k++) {
+            x[k] = sets_unit(17, 6 * i + k);
+        }
+        assert_true(nearest_to(p, x, SIZE_MAX) <= d * (1 + 1e-9));
+    }
+}
+
+/* The share of the volume of balls of diameter d is that of saturated random sequential addition: Zhang & Torquato
+   2013, Physical Review E 88, 053312. Its spread is that of the sets. A set that is not maximal, or not of uniform
+   darts, has another. */
+static void counts_are_those_of_saturated_packings(void **state)
+{
+    (void)state;
+    enum { SETS = 12 };
+    static const struct {
+        int dim;
+        double d, ball, filled;
+    } rows[] = {{3, 0.1, 4.18879020478639, 0.384131},
+                {4, 0.25, 4.93480220054468, 0.260078},
+                {5, 0.42, 5.26378901391432, 0.170776},
+                {6, 0.6, 5.16771278004997, 0.109302}};
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        char text[64];
+        koksma_spec spec;
+        double sum = 0, squares = 0;
+        snprintf(text, sizeof text, "poisson-disk-maximal:d=%g", rows[r].d);
+        assert_ok(koksma_pattern_spec(text, &spec));
+        for (uint64_t seed = 0; seed < SETS; seed++) {
+            koksma_points p;
+            assert_ok(koksma_generate_whole(&spec, seed, NULL, rows[r].dim, &p));
+            if (seed < 2) {
+                assert_maximal(&p, rows[r].d);
+            }
+            const double filled = (double)p.n * rows[r].ball * pow(rows[r].d / 2, rows[r].dim);
+            sum += filled / SETS;
+            squares += filled * filled / SETS;
+            koksma_points_fini(&p);
+        }
+        const double error = sqrt(fmax(squares - sum * sum, 0) / (SETS - 1));
+        assert_true(error < 0.01);
+        /* a torus that is only some d wide moves the mean: by less than 2 % in these rows */
+        assert_near(sum, rows[r].filled, 4 * error + 0.02 * rows[r].filled);
+    }
+}
+
+static void sets_by_number_are_maximal(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {1, 2, 3, 5, 8, 30, 64, 100};
+    for (int dim = 3; dim <= 6; dim++) {
+        for (size_t c = 0; c < sizeof counts / sizeof *counts && counts[c] <= (dim < 6 ? 100 : 30); c++) {
+            koksma_points p = test_points("poisson-disk-maximal", counts[c], dim, 3);
+            if (counts[c] > 1) {
+                assert_maximal(&p, smallest(&p));
+            }
+            koksma_points_fini(&p);
+        }
+    }
+}
+
+/* Words of a wrong number of points, and of more points than the memory of the cover allows. */
+static void limits_are_said(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *spec, *said;
+        size_t n;
+        int dim;
+    } rows[] = {
+        {"poisson-disk-maximal:d=0.3", "with this seed has", 7, 3},
+        {"poisson-disk-maximal:d=0.01", "no d would do", 7, 4},
+        {"poisson-disk-maximal:d=0.001", "no d would do", 7, 6},
+        {"gaussian-blue-noise", "20000 or less would do", 30000, 6},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        koksma_spec spec;
+        koksma_points p;
+        assert_ok(koksma_pattern_spec(rows[r].spec, &spec));
+        assert_ok(koksma_points_init(&p, rows[r].n, rows[r].dim));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &p), KOKSMA_N);
+        if (!strstr(koksma_error_text(), rows[r].said)) {
+            fail_msg("%s: %s", rows[r].spec, koksma_error_text());
+        }
+        koksma_points_fini(&p);
+    }
+}
+
+/* Forces against sums over all images within 12 s. Up to s = 1/10 the cut-off leaves out less than 1e-3 of a force. */
+static void forces_are_sums_over_images(void **state)
+{
+    (void)state;
+    static const struct {
+        int dim;
+        size_t n;
+        double s, bound;
+    } rows[] = {{3, 60, 0.3, 2e-6}, {3, 40, 0.11, 2e-6},  {4, 30, 0.35, 2e-6},
+                {6, 6, 0.4, 2e-6},  {3, 300, 0.09, 1e-4}, {3, 2000, 0.05, 1e-4}};
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        const int dim = rows[r].dim, reach = (int)ceil(8 * rows[r].s);
+        const double s = rows[r].s, scale = s * sqrt((double)rows[r].n * pow(s, dim) + 1);
+        koksma_points p = test_points("random", rows[r].n, dim, r);
+        koksma__space_forces f;
+        assert_ok(koksma__space_forces_init(&f, p.n, dim, s));
+        koksma__space_forces_sort(&f, p.xs);
+        for (size_t at = 0; at < 5; at++) {
+            double force[6], brute[6] = {0};
+            koksma__space_force(&f, at, force);
+            const double *x = p.xs + f.order[at] * (size_t)dim;
+            for (size_t j = 0; j < p.n; j++) {
+                for (int image = 0; image < (int)pow(2 * reach + 1, dim) && j != f.order[at]; image++) {
+                    double t[6], square = 0;
+                    for (int k = 0, rest = image; k < dim; k++, rest /= 2 * reach + 1) {
+                        t[k] = x[k] - p.xs[j * (size_t)dim + (size_t)k] + rest % (2 * reach + 1) - reach;
+                        square += t[k] * t[k];
+                    }
+                    for (int k = 0; k < dim; k++) {
+                        brute[k] += t[k] * exp(-square / (2 * s * s));
+                    }
+                }
+            }
+            for (int k = 0; k < dim; k++) {
+                assert_near(force[k], brute[k], rows[r].bound * scale);
+            }
+        }
+        koksma__space_forces_fini(&f);
+        koksma_points_fini(&p);
+    }
+}
+
+/* The mean of |sum_j exp(-2 pi i k.x_j)|^2 / n over all k != 0 with |k| < radius, in 3D. */
+static double power_within(const koksma_points *p, double radius)
+{
+    const int most = (int)radius;
+    double sum = 0, count = 0;
+    for (int a = 0; a <= most; a++) { /* one of k and -k, and both where a is 0 */
+        for (int b = -most; b <= most; b++) {
+            for (int c = -most; c <= most; c++) {
+                if ((a || b || c) && a * a + b * b + c * c < radius * radius) {
+                    double re = 0, im = 0;
+                    for (size_t j = 0; j < p->n; j++) {
+                        const double *x = p->xs + 3 * j, phase = 2 * M_PI * (a * x[0] + b * x[1] + c * x[2]);
+                        re += cos(phase);
+                        im += sin(phase);
+                    }
+                    sum += (re * re + im * im) / (double)p->n * (a ? 2 : 1);
+                    count += a ? 2 : 1;
+                }
+            }
+        }
+    }
+    return sum / count;
+}
+
+/* Independent points have a power of 1; docs/findings/blue-noise.md has the means of more sets. */
+static void low_frequencies_are_weak_in_space(void **state)
+{
+    (void)state;
+    enum { N = 343 }; /* n^(1/3) = 7 */
+    static const struct {
+        const char *spec;
+        double radius, low, high;
+    } rows[] = {{"random", 5, 0.7, 1.3},
+                {"gaussian-blue-noise", 3.5, 0, 1e-6},
+                {"gaussian-blue-noise", 5.25, 0, 3e-3},
+                {"poisson-disk-maximal", 3.5, 0.03, 0.15},
+                {"sample-elimination", 3.5, 0.05, 0.25},
+                {"progressive-elimination:length=343", 3.5, 0.05, 0.25}};
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        koksma_points p = test_points(rows[r].spec, N, 3, 1);
+        const double power = power_within(&p, rows[r].radius);
+        if (!(power >= rows[r].low && power <= rows[r].high)) {
+            fail_msg("%s: the power within %g is %g", rows[r].spec, rows[r].radius, power);
+        }
+        koksma_points_fini(&p);
+    }
+}
+
+/* Yuksel's 2 r_max is the distance of the densest packing in 3D; the relative radius of his sets is about .7. */
+static void relative_radii_in_space(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *spec;
+        double low, high;
+    } rows[] = {{"sample-elimination", 0.66, 0.72},
+                {"sample-elimination:factor=20", 0.73, 0.79},
+                {"progressive-elimination:length=1000", 0.66, 0.72},
+                {"poisson-disk-maximal", 0.79, 0.82}};
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        koksma_points p = test_points(rows[r].spec, 1000, 3, 2);
+        const double rho = smallest(&p) / cbrt(sqrt(2) / 1000);
+        assert_near(cbrt(sqrt(2) / 1000), koksma__elimination_radius(1000, 3), 1e-12);
+        if (!(rho >= rows[r].low && rho <= rows[r].high)) {
+            fail_msg("%s: relative radius %.3f", rows[r].spec, rho);
+        }
+        koksma_points_fini(&p);
+    }
+}
+
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    for (int dim = 3; dim <= 5; dim++) {
+        koksma_spec spec;
+        koksma_points one = test_points("gaussian-blue-noise:steps=12", 200, dim, 5), many;
+        assert_ok(koksma_pattern_spec("gaussian-blue-noise:steps=12", &spec));
+        assert_ok(koksma_points_init(&many, 200, dim));
+        for (int threads = 1; threads <= 4; threads += 3) {
+            assert_ok(koksma_generate(&spec, 5, &(koksma_run){.threads = threads}, &many));
+            assert_memory_equal(many.xs, one.xs, 200 * (size_t)dim * sizeof *one.xs);
+        }
+        koksma_points_fini(&one);
+        koksma_points_fini(&many);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(counts_are_those_of_saturated_packings),
+        cmocka_unit_test(sets_by_number_are_maximal),
+        cmocka_unit_test(limits_are_said),
+        cmocka_unit_test(forces_are_sums_over_images),
+        cmocka_unit_test(low_frequencies_are_weak_in_space),
+        cmocka_unit_test(relative_radii_in_space),
+        cmocka_unit_test(threads_change_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
