@@ -4,8 +4,9 @@
  *
  *     x_k = 2^-32 (the sum modulo 2 of the columns V_b of dimension k over the set bits b of i)
  *
- * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008 or, with numbers=bratley-fox, those of Bratley & Fox 1988,
- * which GSL uses. Options for scrambling:
+ * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008; with numbers=bratley-fox those of Bratley & Fox 1988, which
+ * GSL uses; with numbers=groups our own, searched so that dimensions 2 k and 2 k + 1 and dimensions 4 k .. 4 k + 3 are
+ * even in the first 2^4 .. 2^12 points (tools/make_sobol_groups.c). Options for scrambling:
  *     scramble=digital-shift  exclusive or with one random word for each dimension
  *     scramble=lms            a random lower triangular matrix for each dimension, and a digital shift (Matousek
  *                             1998); unlike with owen, pairs of points that share a bit prefix stay correlated
@@ -34,16 +35,19 @@
 
 enum { NONE, DIGITAL_SHIFT, LMS, OWEN, HASH_OWEN };
 
+static const char *const scrambles[] = {"none", "digital-shift", "lms", "owen", "hash-owen", NULL};
+static const char *const numbers[] = {"joe-kuo", "bratley-fox", "groups", NULL};
+
 typedef struct job {
     uint64_t seed;
-    int scramble, old;
+    int scramble, numbers;
     bool shuffle;
     const uint32_t (*matrices)[32]; /* with lms: the scrambled direction numbers of all dimensions */
 } job;
 
 static const uint32_t *directions_of(const job *j, int k)
 {
-    return j->matrices ? j->matrices[k] : koksma__sobol_directions(k, j->old);
+    return j->matrices ? j->matrices[k] : koksma__sobol_directions(k, j->numbers);
 }
 
 /* The random word of the digital shift of dimension k. Word 3 of the random stream is skipped. */
@@ -136,7 +140,7 @@ static koksma_status generate_owen(const job *j, const koksma_args *args, koksma
    those higher input bits that a random row of the matrix selects. */
 static void scramble_matrix(const job *j, int k, uint32_t *matrix)
 {
-    const uint32_t *directions = koksma__sobol_directions(k, j->old);
+    const uint32_t *directions = koksma__sobol_directions(k, j->numbers);
     for (int b = 0; b < 32; b++) {
         matrix[b] = 0;
     }
@@ -171,12 +175,13 @@ static koksma_status generate_lms(job *j, const koksma_args *args, koksma_points
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    job j = {
-        .seed = seed, .scramble = (int)args->params[0], .old = (int)args->params[1], .shuffle = args->params[2] != 0};
-    KOKSMA__FAIL_IF(j.old && out->dim > KOKSMA__SOBOL_OLD_DIM, KOKSMA_DIM,
-                    "sobol: Bratley & Fox have numbers for %d dimensions, not %d; "
-                    "numbers=joe-kuo has %d",
-                    KOKSMA__SOBOL_OLD_DIM, out->dim, KOKSMA__SOBOL_DIM);
+    job j = {.seed = seed,
+             .scramble = (int)args->params[0],
+             .numbers = (int)args->params[1],
+             .shuffle = args->params[2] != 0};
+    KOKSMA__FAIL_IF(out->dim > koksma__sobol_dim(j.numbers), KOKSMA_DIM,
+                    "sobol: numbers=%s has %d dimensions, not %d; numbers=joe-kuo has %d", numbers[j.numbers],
+                    koksma__sobol_dim(j.numbers), out->dim, KOKSMA__SOBOL_DIM);
     KOKSMA__FAIL_IF(j.shuffle && j.scramble != HASH_OWEN, KOKSMA_ARGUMENT,
                     "sobol: shuffle=1 goes with scramble=hash-owen only");
     KOKSMA__TRY(koksma__range_fits("sobol", args, out));
@@ -189,14 +194,12 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     return j.scramble == HASH_OWEN ? koksma__range_blocks(args, out, hash_owen, &j) : fill_digital(&j, args, out);
 }
 
-static const char *const scrambles[] = {"none", "digital-shift", "lms", "owen", "hash-owen", NULL};
-static const char *const numbers[] = {"joe-kuo", "bratley-fox", NULL};
-
 static const koksma_param params[] = {
     {"scramble", "none, digital-shift, lms (random matrix and shift), owen (exact) or hash-owen", NONE, NONE,
      HASH_OWEN, scrambles, true},
-    {"numbers", "direction numbers: joe-kuo (1,111 dimensions) or bratley-fox (40, as in GSL)", 0, 0, 1, numbers,
-     true},
+    {"numbers",
+     "direction numbers: joe-kuo (1,111 dimensions), bratley-fox (40, as in GSL) or groups (128: even pairs)",
+     KOKSMA__JOE_KUO, KOKSMA__JOE_KUO, KOKSMA__GROUPS, numbers, true},
     {"shuffle", "1: scrambles the order of the points, too; only with hash-owen", 0, 0, 1, NULL, true},
     {0},
 };

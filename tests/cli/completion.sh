@@ -90,7 +90,7 @@ render ball -p sobol:sc^ scramble=
 render ball -p sobol:scramble=^ none digital-shift lms owen hash-owen
 render ball -p lens=sobol:scramble=ow^ owen
 render ball -p sobol:scramble=owen,nu^ numbers=
-rank ball -p random,sobol:numbers=^ joe-kuo bratley-fox
+rank ball -p random,sobol:numbers=^ joe-kuo bratley-fox groups
 measure x -m star,l2-disk:^ $(koksma list parameters --json | sed -n 's/.*"of":"l2-disk","parameter":"\([^"]*\)".*/\1=/p' | tr '\n' ' ')
 measure pattern:n-r^ n-rooks
 rank ball --patterns later,n-r^ n-rooks

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Direction numbers of Sobol' sequences from primitive polynomials and initial numbers (Joe & Kuo 2008; Bratley &
- * Fox 1988), expanded once by the recurrence of Sobol 1967.
+ * Fox 1988; our own), expanded once by the recurrence of Sobol 1967.
  */
 #include "patterns/shared/sobol_table.h"
 
@@ -14,8 +14,22 @@ static const uint16_t bratley_fox[] = {
 #include "patterns/shared/sobol_bratley_fox.inc"
 };
 
+static const uint16_t groups[] = {
+#include "patterns/shared/sobol_groups.inc"
+};
+
 static pthread_once_t once = PTHREAD_ONCE_INIT;
-static uint32_t new_columns[KOKSMA__SOBOL_DIM][32], old_columns[KOKSMA__SOBOL_OLD_DIM][32];
+static uint32_t joe_kuo_columns[KOKSMA__SOBOL_DIM][32], bratley_fox_columns[40][32], groups_columns[128][32];
+
+static const struct {
+    const uint16_t *rows;
+    uint32_t (*columns)[32];
+    int dim;
+} sets[KOKSMA__SOBOL_SETS] = {
+    [KOKSMA__JOE_KUO] = {joe_kuo, joe_kuo_columns, KOKSMA__SOBOL_DIM},
+    [KOKSMA__BRATLEY_FOX] = {bratley_fox, bratley_fox_columns, 40},
+    [KOKSMA__GROUPS] = {groups, groups_columns, 128},
+};
 
 /* Expands one row of the table by the recurrence of the polynomial x^s + a_1 x^(s-1) + … + a_(s-1) x + 1,
    m_i = 2 a_1 m_(i-1) ^ 4 a_2 m_(i-2) ^ … ^ 2^s m_(i-s) ^ m_(i-s), where column i is m_i 2^(32-i). */
@@ -41,23 +55,26 @@ static const uint16_t *expand(const uint16_t *row, uint32_t *columns)
 
 static void expand_all(void)
 {
-    const uint16_t *row = joe_kuo;
-    for (int i = 0; i < 32; i++) {
-        new_columns[0][i] = old_columns[0][i] = 0x80000000u >> i;
-    }
-    for (int k = 1; k < KOKSMA__SOBOL_DIM; k++) {
-        row = expand(row, new_columns[k]);
-    }
-    row = bratley_fox;
-    for (int k = 1; k < KOKSMA__SOBOL_OLD_DIM; k++) {
-        row = expand(row, old_columns[k]);
+    for (int s = 0; s < KOKSMA__SOBOL_SETS; s++) {
+        const uint16_t *row = sets[s].rows;
+        for (int i = 0; i < 32; i++) {
+            sets[s].columns[0][i] = 0x80000000u >> i;
+        }
+        for (int k = 1; k < sets[s].dim; k++) {
+            row = expand(row, sets[s].columns[k]);
+        }
     }
 }
 
-const uint32_t *koksma__sobol_directions(int k, int old)
+int koksma__sobol_dim(int set)
+{
+    return sets[set].dim;
+}
+
+const uint32_t *koksma__sobol_directions(int k, int set)
 {
     pthread_once(&once, expand_all);
-    return old ? old_columns[k] : new_columns[k];
+    return sets[set].columns[k];
 }
 
 void koksma__partners(const uint32_t *directions, int levels, uint32_t *partners)

@@ -6,11 +6,17 @@
 
 #include "core/visibility.h"
 
-enum { KOKSMA__SOBOL_DIM = 1111, KOKSMA__SOBOL_OLD_DIM = 40 };
+enum { KOKSMA__SOBOL_DIM = 1111 };
+
+/* The sets of direction numbers: Joe & Kuo's, Bratley & Fox's, and our own of tools/make_sobol_groups.c. */
+enum { KOKSMA__JOE_KUO, KOKSMA__BRATLEY_FOX, KOKSMA__GROUPS, KOKSMA__SOBOL_SETS };
+
+/* The number of dimensions of a set. */
+KOKSMA__LAB int koksma__sobol_dim(int set);
 
 /* Returns the generator matrix of dimension k, counted from 0: word b is column b, whose first row is the highest bit.
-   old: use the numbers of Bratley & Fox (k < 40) instead of those of Joe & Kuo (k < 1111). */
-KOKSMA__LAB const uint32_t *koksma__sobol_directions(int k, int old);
+   k is below koksma__sobol_dim(set). */
+KOKSMA__LAB const uint32_t *koksma__sobol_directions(int k, int set);
 
 /* Computes partners[l], l < levels, for the digital sequence with these directions, an upper triangular matrix: for
    i < 2^l, points 2^l + i and i ^ partners[l] have the same first l bits. */
