@@ -293,6 +293,34 @@ static void kernels_equal_reference(void **state)
     }
 }
 
+/* The angle t between a line and the nearer axis, in bins of 1 degree. Mitchell's slope is that of a uniform point of a
+   square, seen from its centre: below t lie tan t of them. Isotropic lines meet the square as often as it is wide,
+   cos t + sin t: below t lie 1 + sin t - cos t. Chi-square with 44 degrees of freedom; the other law must fail. */
+static void angles_of_random_lines(void **state)
+{
+    enum { LINES = 200000 };
+    (void)state;
+    for (int law = 0; law < 2; law++) {
+        double counts[45] = {0}, square[2] = {0};
+        for (uint64_t i = 0; i < LINES; i++) {
+            double a, b, c;
+            koksma__random_line((koksma__line_law)law, 3, i, &a, &b, &c);
+            const double t = atan2(fmin(fabs(a), fabs(b)), fmax(fabs(a), fabs(b))) * 180 / M_PI;
+            counts[(int)fmin(t, 44)]++;
+        }
+        for (int k = 0; k < 45; k++) {
+            const double t = k * M_PI / 180, u = (k + 1) * M_PI / 180;
+            const double expected[2] = {sin(u) - cos(u) - sin(t) + cos(t), tan(u) - tan(t)};
+            for (int l = 0; l < 2; l++) {
+                const double difference = counts[k] - LINES * expected[l];
+                square[l] += difference * difference / (LINES * expected[l]);
+            }
+        }
+        assert_true(square[law] < 44 + 4 * sqrt(2 * 44));
+        assert_true(square[!law] > 1000);
+    }
+}
+
 static void threads_change_no_bit(void **state)
 {
     (void)state;
@@ -318,8 +346,9 @@ int main(void)
         cmocka_unit_test(edge_equals_brute_force),   cmocka_unit_test(known_edges),
         cmocka_unit_test(signs_are_exact),           cmocka_unit_test(potentials_are_integrals),
         cmocka_unit_test(exact_agrees_with_sampled), cmocka_unit_test(disk_equals_fine_search),
-        cmocka_unit_test(kernels_equal_reference),   cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(bounds_of_edge_hold),       cmocka_unit_test(edge_obeys_its_time_limit),
+        cmocka_unit_test(kernels_equal_reference),   cmocka_unit_test(angles_of_random_lines),
+        cmocka_unit_test(threads_change_no_bit),     cmocka_unit_test(bounds_of_edge_hold),
+        cmocka_unit_test(edge_obeys_its_time_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

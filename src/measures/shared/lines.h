@@ -9,8 +9,10 @@
 
 /* The distribution of a random line that meets the square. ISOTROPIC: the measure that is invariant under translation
    and rotation. MITCHELL: the recipe of Mitchell 1992, y = m x + b with m = (r1 - 1/2)/(r2 - 1/2) and b uniform over
-   the values for which the line meets the square. The paper takes it to be isotropic, but lines at 45 degrees are up
-   to 1.84 times as frequent as lines along an axis, while isotropic ones are 1.36 times as frequent. */
+   the values for which the line meets the square. The paper takes it to be isotropic, and it is not. With t from 0 to
+   45 degrees the angle between a line and the nearer axis, the share of lines below t is tan t, so that the density
+   1 / cos^2 t is 2 times as high at 45 degrees as along an axis; of isotropic lines that share is 1 + sin t - cos t,
+   whose density, the square's width cos t + sin t, is only sqrt(2) times as high. */
 typedef enum koksma__line_law { KOKSMA__LINES_ISOTROPIC, KOKSMA__LINES_MITCHELL } koksma__line_law;
 
 extern const char *const koksma__line_laws[]; /* the values of the parameter `law` */
