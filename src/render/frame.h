@@ -30,6 +30,9 @@ typedef struct koksma__frame {
     koksma__sampler sampler;
     size_t together; /* the pipeline's number of samples for a group, unless one pixel has more */
     koksma__batch_camera camera;
+    /* of an orthographic camera: the ray at film position (x, y) starts at eye + origins[0] + x origins[1] + y
+       origins[2] */
+    float origins[3][3];
     koksma__lights lights;
     koksma__batch_material *materials;
     koksma__shading_material *shading_materials;
@@ -88,6 +91,13 @@ void koksma__frame_close(koksma__frame *frame);
    lights, otherwise all. */
 enum { KOKSMA__FEW_LIGHTS = 8 };
 koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options);
+
+/* The side of a pixel: at distance 1 from a perspective camera, at any distance from an orthographic one. */
+double koksma__pixel_size(const koksma__camera *camera, int height);
+
+/* Moves the origins of the camera rays through film positions from the eye to where an orthographic camera has them;
+   those of other cameras stay. */
+void koksma__move_origins(const koksma__frame *frame, const float *film, int n, koksma__rays *rays);
 
 /* The sample dimensions that the render will use. */
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);

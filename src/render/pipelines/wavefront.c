@@ -37,9 +37,9 @@
 #include <string.h>
 
 #include <koksma/image.h>
-#include <koksma/warp.h>
 
 #include "core/status.h"
+#include "render/lens.h"
 #include "render/pipelines/pipelines.h"
 #include "render/texture.h"
 #include "render/vector3.h"
@@ -63,27 +63,6 @@ static koksma__lens lens_of(const koksma__camera *camera)
     return lens;
 }
 
-/* Maps pairs to points on a lens of radius 1. */
-static void map_to_lens(const koksma__frame *frame, const float *pairs, int n, koksma__lanes x, koksma__lanes y)
-{
-    const koksma_warp *map = frame->scene->camera.lens_map;
-    for (int i = 0; i < n; i++) {
-        x[i] = pairs[2 * i];
-        y[i] = pairs[2 * i + 1];
-    }
-    if (map == koksma_warp_find("concentric-disk")) {
-        frame->batch->to_disk(n, x, y);
-        return;
-    }
-    for (int i = 0; i < n; i++) {
-        const double square[2] = {(double)x[i], (double)y[i]};
-        double disk[2];
-        map->map(square, disk);
-        x[i] = (float)disk[0];
-        y[i] = (float)disk[1];
-    }
-}
-
 /* Starts paths at the eye. The positions, lens points and times are padded with copies up to whole lanes. */
 static koksma_status start_paths(const koksma__trace *trace, const koksma__values *values, size_t first, size_t end)
 {
@@ -105,13 +84,14 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
         KOKSMA__TRY(koksma__wavefront_reserve(queue));
         koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
         if (points) {
-            map_to_lens(frame, points + 2 * start, whole, x, y);
+            koksma__lens_points(camera, frame->batch, points + 2 * start, whole, x, y);
         }
         for (int i = 0; times && i < whole; i++) {
             u[i] = times[2 * (start + (size_t)i)];
         }
         frame->batch->start(&frame->camera, &lens, values->film + 2 * start, points ? x : NULL, y, times ? u : NULL,
                             whole, to);
+        koksma__move_origins(frame, values->film + 2 * start, whole, &to->rays);
         for (int i = 0; i < whole; i++) {
             to->sample[i] = (uint32_t)(start + (size_t)(i < n ? i : n - 1));
         }
