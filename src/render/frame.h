@@ -16,6 +16,8 @@
 #include "render/pipelines/vertices.h"
 #include "render/samples/sampler.h"
 
+typedef struct koksma__aovs koksma__aovs;
+
 typedef struct koksma__frame {
     const koksma_scene *scene;
     const koksma_render_options *options;
@@ -40,6 +42,7 @@ typedef struct koksma__frame {
     float background[3];
     koksma__filter_table *filter; /* NULL: box */
     void *cache;                  /* data of the integrator */
+    const koksma__aovs *aovs;     /* further images, or NULL */
     koksma_scene *replaced;       /* the scene that the integrator made, to which `scene` then points; or NULL */
 } koksma__frame;
 
@@ -60,6 +63,8 @@ typedef struct koksma__values {
     float *weights; /* of the filter; NULL: all weights are 1 */
     float *rgb;     /* channels a sample */
     float *albedo, *normal, *depth;
+    float *parts; /* 3 numbers for each AOV of light for each sample; NULL: no AOVs */
+    float *ids;   /* the first object that each sample hits */
     uint64_t rays;
 } koksma__values;
 
