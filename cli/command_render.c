@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma render`: renders a scene into an image file and prints one row with the options, the number of rays and the
- * time. Before it starts it computes how much memory the image takes, and refuses an image that takes more than the
+ * time. --aov adds layers to an EXR file, or files beside one of another format. Before it starts it computes how much memory the image takes, and refuses an image that takes more than the
  * machine has. When it is interrupted it writes the image with the pixels that are done.
  */
 #include <stdio.h>
@@ -76,17 +76,38 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
     }
 }
 
+/* The name of an AOV in files: with '-' for ':'. */
+static void name_layer(const char *aov, char out[16])
+{
+    snprintf(out, 16, "%s", aov);
+    for (char *at = out; (at = strchr(at, ':')) != NULL;) {
+        *at = '-';
+    }
+}
+
 static koksma_status write_image(const cli_arguments *arguments, const koksma_scene *scene,
                                  const koksma_render_options *options, const koksma_adaptive_options *adaptive,
-                                 koksma_layers *layers)
+                                 koksma_layers *layers, koksma_aovs *aovs)
 {
-    static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC];
-    const koksma_layer all[] = {{"", &layers->image},          {"albedo", &layers->albedo},
-                                {"normal", &layers->normal},   {"Z", &layers->depth},
-                                {"samples", &layers->samples}, {"variance", &layers->variance}};
-    const size_t n = layers->albedo.pixels ? sizeof all / sizeof *all : 1;
+    static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC], path[4096], names[KOKSMA_MAX_AOVS][16];
+    koksma_layer all[6 + KOKSMA_MAX_AOVS] = {{"", &layers->image},          {"albedo", &layers->albedo},
+                                             {"normal", &layers->normal},   {"Z", &layers->depth},
+                                             {"samples", &layers->samples}, {"variance", &layers->variance}};
+    const char *output = cli_text(arguments, "output", ""), *dot = strrchr(output, '.');
+    const bool layered = koksma_image_has_layers(output);
+    size_t n = layered || (layers->albedo.pixels && !aovs->n) ? 6 : 1;
+    koksma_status status = KOKSMA_OK;
     describe(arguments, scene, options, adaptive, metadata, sizeof metadata);
-    const koksma_status status = koksma_image_write_layers(cli_text(arguments, "output", ""), all, n, metadata);
+    for (int i = 0; !status && i < aovs->n; i++) {
+        name_layer(aovs->names[i], names[i]);
+        if (layered) {
+            all[n++] = (koksma_layer){names[i], &aovs->images[i]};
+        } else if (snprintf(path, sizeof path, "%.*s.%s%s", (int)(dot - output), output, names[i], dot) <
+                   (int)sizeof path) {
+            status = koksma_image_write(path, &aovs->images[i], metadata);
+        }
+    }
+    status = status ? status : koksma_image_write_layers(output, all, n, metadata);
     return status ? status : cli_adaptive_counts(arguments, &layers->samples);
 }
 
@@ -101,12 +122,14 @@ static double in_gib(uint64_t bytes)
 /* Prints how much memory a large image takes. Returns false, after an error, if this is more than the machine has,
    because swapping would take longer than rendering. */
 static bool announce_size(const cli_arguments *arguments, const koksma_scene *scene,
-                          const koksma_render_options *options, const koksma_adaptive_options *adaptive)
+                          const koksma_render_options *options, const koksma_adaptive_options *adaptive,
+                          const koksma_aovs *aovs)
 {
-    const bool layers = adaptive->method || koksma_image_has_layers(cli_text(arguments, "output", ""));
+    const bool layers = adaptive->method || aovs->n || koksma_image_has_layers(cli_text(arguments, "output", ""));
     const koksma_render_size size = koksma_render_size_of(scene, options, layers);
     const uint64_t first =
-        size.film + size.samples + (adaptive->method ? koksma_adaptive_size_of(options, adaptive) : 0);
+        size.film + size.samples + (adaptive->method ? koksma_adaptive_size_of(options, adaptive) : 0) +
+        (uint64_t)options->width * (uint64_t)options->height * (uint64_t)aovs->n * 3 * sizeof(float);
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : UINT64_MAX;
     if (first > machine) {
@@ -126,7 +149,7 @@ static bool announce_size(const cli_arguments *arguments, const koksma_scene *sc
 }
 
 static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options,
-                  cli_adaptive *adaptive)
+                  cli_adaptive *adaptive, koksma_aovs *aovs)
 {
     koksma_layers layers;
     cli_work work;
@@ -136,6 +159,7 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
     const double start = now_s();
     koksma_status status = adaptive->options.method ? koksma_render_adaptive(scene, options, &adaptive->options,
                                                                              &work.run, &layers, &adaptive->report)
+                           : aovs->n                ? koksma_render_aovs(scene, options, &work.run, aovs, &layers)
                            : koksma_image_has_layers(cli_text(arguments, "output", ""))
                                ? koksma_render_layers(scene, options, &work.run, &layers)
                                : koksma_render_only(scene, options, &work.run, &layers);
@@ -143,8 +167,9 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
     cli_work_end();
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
     const koksma_status written =
-        done ? write_image(arguments, scene, options, &adaptive->options, &layers) : KOKSMA_OK;
+        done ? write_image(arguments, scene, options, &adaptive->options, &layers, aovs) : KOKSMA_OK;
     koksma_layers_fini(&layers);
+    koksma_aovs_fini(aovs);
     if (!status && !written) {
         status = cli_adaptive_strata(adaptive);
     }
@@ -174,11 +199,30 @@ static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *co
     return !status;
 }
 
+/* Reads --aov, which needs one pass whose samples are not splatted. Returns false after an error. */
+static bool parse_aovs(const cli_arguments *arguments, const koksma_render_options *options,
+                       const cli_adaptive *adaptive, koksma_aovs *out, int *code)
+{
+    const char *text = cli_text(arguments, "aov", NULL);
+    const koksma_status status = text ? koksma_aovs_parse(text, out) : KOKSMA_OK;
+    if (status) {
+        *code = cli_fail(arguments, status);
+    } else if (text && (options->splat || adaptive->options.method)) {
+        cli_usage_error(arguments,
+                        "--aov goes without --%s: its layers are those of one pass over each pixel's samples",
+                        options->splat ? "splat" : "adaptive");
+        *code = CLI_USAGE;
+        return false;
+    }
+    return !status;
+}
+
 static int run(const cli_arguments *arguments)
 {
     koksma_scene *scene;
     koksma_render_options options;
     cli_adaptive adaptive;
+    static koksma_aovs aovs;
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
     }
@@ -196,13 +240,14 @@ static int run(const cli_arguments *arguments)
     if (set_sky(arguments, scene, &code) && cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) &&
         cli_size(arguments, &options.width, &options.height) && cli_sampling_options(arguments, &options) &&
         cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
-        cli_adaptive_options(arguments, &adaptive, &code)) {
+        cli_adaptive_options(arguments, &adaptive, &code) &&
+        parse_aovs(arguments, &options, &adaptive, &aovs, &code)) {
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_idle_uses(arguments, arguments->operands[0], scene, &options);
         }
-        code = announce_size(arguments, scene, &options, &adaptive.options)
-                   ? render(arguments, scene, &options, &adaptive)
+        code = announce_size(arguments, scene, &options, &adaptive.options, &aovs)
+                   ? render(arguments, scene, &options, &adaptive, &aovs)
                    : koksma_status_exit_code(KOKSMA_MEMORY);
     }
     koksma_scene_close(scene);
@@ -217,6 +262,8 @@ static const cli_option options[] = {
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "sky", "L", "light of this radiance from all around, in place of the scene's sky or a bare model's studio"},
     {0, "environment", "FILE", "light from an image in latitude and longitude, times --sky"},
+    {0, "aov", "LIST",
+     "further layers: direct, indirect, bounce:N, id, half; of an .exr, else files such as IMAGE.direct.png"},
     {'o', "output", "FILE", "the image, {image-formats}; an .exr has all layers"},
     CLI_UNKNOWN_OPTION,
     CLI_SAMPLING_OPTIONS,
@@ -241,9 +288,15 @@ const cli_command cli_command_render = {
         "of the pattern, 'native' as one set with all dimensions. Uses joined by '+' (pixel+time=scan-time) share\n"
         "the dimensions of one set. --scope image spreads one set of SPP x pixels points over the whole image.\n"
         "--adaptive takes SPP samples in every pixel first, then more in rounds until METHOD or the budget ends "
-        "it.\n",
+        "it.\n"
+        "--aov direct,indirect or bounce:0,bounce:1,... are parts of the light, which add up to the image; bounce:N "
+        "was\n"
+        "reflected N times, direct is bounce:0 + bounce:1. id has the number of the object in a pixel (as 'koksma "
+        "scene\n"
+        "check' lists them, from 1; 0: none), half the means of every second sample, half-even and half-odd.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
+                "koksma render cornell --integrator path --aov direct,indirect,half,id -o parts.exr\n"
                 "koksma render cornell --integrator path --filter mitchell --splat -o c.exr\n"
                 "koksma render glossy --adaptive hierarchical --counts counts.png -o glossy.exr\n",
     .options = options,

@@ -304,6 +304,33 @@ KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const k
 KOKSMA_API koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,
                                             const koksma_run *run, koksma_layers *out);
 
+/* Further images of a render (arbitrary output variables). All but `id` have the channels of the image. Light that was
+   reflected or refracted r times, mirrors and glass included, is in "bounce:r", r = 0 (seen) to KOKSMA_MAX_DEPTH + 1;
+   ambient light, and the light between surfaces of an irradiance cache, counts as reflected once more than light of
+   lights at the same place. "direct" is r = 0 and 1, "indirect" the rest: both, or all bounces, add up to the image
+   within the rounding of floats. "id" is the number of the object that most samples of a pixel hit first: i + 1 for
+   koksma_scene_part_at(i), 0 for none. "half:even" and "half:odd" are the means of every second sample of a pixel, from
+   the first and from the second on. */
+enum { KOKSMA_MAX_AOVS = 72 };
+typedef struct koksma_aovs {
+    int n;
+    char names[KOKSMA_MAX_AOVS][16];
+    koksma_image images[KOKSMA_MAX_AOVS];
+} koksma_aovs;
+
+/* Reads names separated by ',' into an empty list without images; "half" is both halves.
+   Errors: UNKNOWN (no such AOV), ARGUMENT (one is given twice). */
+KOKSMA_API koksma_status koksma_aovs_parse(const char *text, koksma_aovs *out);
+
+/* Renders as koksma_render_layers and allocates the images of `aovs`, which the caller must free also after an error.
+   The image can differ by the rounding of floats from that of koksma_render, as all scenes take the same pipeline.
+   Errors: those of koksma_render; ARGUMENT (splatting). */
+KOKSMA_API koksma_status koksma_render_aovs(const koksma_scene *scene, const koksma_render_options *options,
+                                            const koksma_run *run, koksma_aovs *aovs, koksma_layers *out);
+
+/* Frees the images; aovs may be NULL. */
+KOKSMA_API void koksma_aovs_fini(koksma_aovs *aovs);
+
 #ifdef __cplusplus
 }
 #endif

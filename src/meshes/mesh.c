@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/capacity.h"
 #include "core/hash.h"
@@ -213,6 +214,71 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
         }
         matrix[4 * k + 3] = translate[k];
     }
+}
+
+koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[3], const double scale[3])
+{
+    koksma__pose p = {.rotation = {1, 0, 0, 0}};
+    for (int k = 0; k < 3; k++) { /* q = z y x: the rotation about x comes first */
+        const double half = rotate_deg[k] * M_PI / 360, c = cos(half), s = sin(half), *q = p.rotation;
+        const int i = 1 + (k + 1) % 3, j = 1 + (k + 2) % 3;
+        double out[4];
+        out[0] = c * q[0] - s * q[1 + k];
+        out[1 + k] = c * q[1 + k] + s * q[0];
+        out[i] = c * q[i] - s * q[j];
+        out[j] = c * q[j] + s * q[i];
+        memcpy(p.rotation, out, sizeof out);
+        p.translate[k] = translate[k];
+        p.scale[k] = scale[k];
+    }
+    return p;
+}
+
+/* The angle between the unit quaternions, half of that of the rotation between them, along the shorter arc; *sign is
+   -1 if the second must be negated for that. */
+static double arc(const koksma__pose poses[2], double *sign)
+{
+    const double *a = poses[0].rotation, *b = poses[1].rotation;
+    const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+    double difference = 0, sum = 0;
+    *sign = dot < 0 ? -1 : 1;
+    for (int i = 0; i < 4; i++) {
+        difference += (a[i] - *sign * b[i]) * (a[i] - *sign * b[i]);
+        sum += (a[i] + *sign * b[i]) * (a[i] + *sign * b[i]);
+    }
+    return 2 * atan2(sqrt(difference), sqrt(sum));
+}
+
+void koksma__poses_at(const koksma__pose poses[2], double t, double m[12])
+{
+    double sign, q[4], length = 0;
+    const double angle = arc(poses, &sign), whole = sin(angle);
+    const double first = whole > 1e-9 ? sin((1 - t) * angle) / whole : 1 - t;
+    const double second = sign * (whole > 1e-9 ? sin(t * angle) / whole : t);
+    for (int i = 0; i < 4; i++) {
+        q[i] = first * poses[0].rotation[i] + second * poses[1].rotation[i];
+        length += q[i] * q[i];
+    }
+    for (int i = 0; i < 4; i++) {
+        q[i] /= sqrt(length);
+    }
+    const double w = q[0], x = q[1], y = q[2], z = q[3];
+    const double turn[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+                            2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+                            2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j < 3; j++) {
+            m[4 * k + j] = turn[3 * k + j] * ((1 - t) * poses[0].scale[j] + t * poses[1].scale[j]);
+        }
+        m[4 * k + 3] = (1 - t) * poses[0].translate[k] + t * poses[1].translate[k];
+    }
+}
+
+int koksma__pose_steps(const koksma__pose poses[2])
+{
+    double sign;
+    const double steps = ceil(2 * arc(poses, &sign) / (M_PI / KOKSMA__MAX_STEPS) - 1e-9);
+    return steps < 1 ? 1 : steps > KOKSMA__MAX_STEPS ? KOKSMA__MAX_STEPS : (int)steps;
 }
 
 void koksma__normal_matrix(const double m[12], double out[9])

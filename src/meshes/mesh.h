@@ -21,10 +21,18 @@ typedef struct koksma__mesh {
     size_t n_degenerate; /* triangles without area */
 } koksma__mesh;
 
-/* x -> matrix x, with three rows of four numbers. At time t each position is moved by t motion. */
+/* x -> translate + rotation (scale x), with the rotation as a unit quaternion (w, x, y, z). */
+typedef struct koksma__pose {
+    double translate[3], rotation[4], scale[3];
+} koksma__pose;
+
+/* x -> matrix x, with three rows of four numbers. At time t each position is moved by t motion; or, if steps > 0, the
+   matrix is that of koksma__poses_at at the times i / steps, and linear between them. */
 typedef struct koksma__placement {
     int mesh;
     double matrix[12], motion[3];
+    int steps;
+    koksma__pose poses[2];  /* at the times 0 and 1, if steps > 0 */
     double low[3], high[3]; /* a box around the placed mesh at time 0 */
     int material;           /* -1 for a light's own surface, which reflects nothing */
     int light;              /* the light whose surface this is, or -1 */
@@ -47,12 +55,30 @@ koksma_status koksma__mesh_smooth(koksma__mesh *mesh);
 /* 64-bit hash of the mesh's content. */
 uint64_t koksma__mesh_hash(const koksma__mesh *mesh);
 
+/* Whether the placed mesh depends on time. */
+static inline bool koksma__placement_moves(const koksma__placement *p)
+{
+    return p->steps || p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0;
+}
+
 /* Sets the placement's box around the placed mesh. */
 void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placement);
 
 /* matrix = translation * rotation * scaling; the rotation is about x first, then y, then z. */
 void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
                               double matrix[12]);
+
+/* The pose with the same rotation as koksma__placement_matrix. */
+koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[3], const double scale[3]);
+
+/* The matrix of the pose between two, at time t of 0 to 1: translation and scale are interpolated linearly, the
+   rotation along the shortest arc at constant speed (slerp, Shoemake 1985). */
+void koksma__poses_at(const koksma__pose poses[2], double t, double matrix[12]);
+
+/* The number of steps, 1 to KOKSMA__MAX_STEPS, after which linear interpolation of the matrices turns by at most 1.5
+   degrees a step: a point is then at most 1e-4 of its distance from the axis inside its circle. */
+enum { KOKSMA__MAX_STEPS = 120 };
+int koksma__pose_steps(const koksma__pose poses[2]);
 
 /* The matrix for normals: the cofactors of `matrix`, which are its inverse transpose times its determinant (negative
    for a mirroring matrix), divided by a power of 2 such that the largest is within [0.5, 1). All are 0 if the rank is

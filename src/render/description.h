@@ -91,15 +91,21 @@ typedef struct koksma__light {
     koksma_image *image;               /* the environment's image in latitude and longitude, or NULL */
 } koksma__light;
 
-/* The camera ray through film coordinates (x, y), y downwards, has the direction forward + x right + y down. */
+/* The camera ray through film coordinates (x, y), y downwards, has the direction forward + x right + y down; of an
+   orthographic camera it starts at eye + x right + y down and has the direction forward. */
 typedef struct koksma__camera {
     double eye[3], forward[3], right[3], down[3]; /* unit vectors */
     double fov_rad;                               /* vertical field of view */
+    double height; /* of an orthographic camera: what the image shows from bottom to top; 0: perspective */
     /* lens_radius 0: a pinhole; the plane of focus is perpendicular to forward */
     double lens_radius, focus_distance;
     const koksma_warp *lens_map; /* map from the unit square to the lens */
-    double shutter[2];           /* the times when it opens and closes */
-    double motion[3];            /* at time t the eye is eye + t motion */
+    /* The lens is a regular polygon with this many corners, at lens_radius from its centre, or a disk if blades is 0;
+       corner 0 is at this angle from `right` towards up. */
+    int blades;
+    double blade_angle_rad;
+    double shutter[2]; /* the times when it opens and closes */
+    double motion[3];  /* at time t the eye is eye + t motion */
 } koksma__camera;
 
 /* Data that the renderer derives from a scene and that all its images share: made under the lock when first needed,

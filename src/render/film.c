@@ -37,6 +37,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "render/aov.h"
 #include "render/vector3.h"
 
 /* The sums of a pixel, beside W and the sum of w y, that the variance of splatted samples needs, in this order. */
@@ -269,6 +270,9 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
             add_layers(film->layers, values, has_lobes ? weights : NULL, channels, pixel, first, end);
         }
     }
+    if (frame->aovs) {
+        koksma__aov_film(frame, group, values, weights);
+    }
 }
 
 /* ---- The end ---------------------------------------------------------------------------------------------- */
@@ -340,7 +344,12 @@ koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film
         any = !(has[i] > 0);
     }
     const bool fills = whole && any && (film->splats || frame->options->scope == KOKSMA_SCOPE_IMAGE);
-    const koksma_status status = fills ? koksma__film_fill_gaps(image, has) : KOKSMA_OK;
+    koksma_status status = fills ? koksma__film_fill_gaps(image, has) : KOKSMA_OK;
+    for (size_t a = 0; !status && fills && frame->aovs && a < frame->aovs->n; a++) {
+        status = frame->aovs->items[a].kind == KOKSMA__AOV_ID
+                     ? KOKSMA_OK
+                     : koksma__film_fill_gaps(frame->aovs->items[a].image, has);
+    }
     free(weights);
     return status;
 }

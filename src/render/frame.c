@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Data that all pixels of an image share, computed once: materials and lights in floats, the camera as steps on the
- * film, the sampler, the filter's table and the geometry. The geometry (for meshes Embree's tree) is shared by all
+ * film (of the directions; of an orthographic camera, of the origins), the sampler, the filter's table and the geometry. The geometry (for meshes Embree's tree) is shared by all
  * images of a scene: it is stored in the scene (scene_cache), under a lock, until the scene is released.
  */
 #include <math.h>
@@ -14,18 +14,40 @@
 
 /* ---- The scene in floats ------------------------------------------------------------------------------ */
 
-static koksma__batch_camera make_camera(const koksma__camera *from, int width, int height)
+double koksma__pixel_size(const koksma__camera *camera, int height)
 {
-    koksma__batch_camera c;
-    const double step = 2 * tan(from->fov_rad / 2) / height;
+    return (camera->height > 0 ? camera->height : 2 * tan(camera->fov_rad / 2)) / height;
+}
+
+static koksma__batch_camera make_camera(const koksma__camera *from, int width, int height, float origins[3][3])
+{
+    koksma__batch_camera c = {0};
+    const double step = koksma__pixel_size(from, height);
     for (int k = 0; k < 3; k++) {
         const double right = step * from->right[k], down = step * from->down[k];
         c.eye[k] = (float)from->eye[k];
+        if (from->height > 0) {
+            c.base[k] = (float)from->forward[k];
+            origins[0][k] = (float)(-0.5 * width * right - 0.5 * height * down);
+            origins[1][k] = (float)right;
+            origins[2][k] = (float)down;
+            continue;
+        }
         c.base[k] = (float)(from->forward[k] - 0.5 * width * right - 0.5 * height * down);
         c.step_x[k] = (float)right;
         c.step_y[k] = (float)down;
     }
     return c;
+}
+
+void koksma__move_origins(const koksma__frame *f, const float *film, int n, koksma__rays *rays)
+{
+    float *const o[3] = {rays->ox, rays->oy, rays->oz};
+    for (int k = 0; k < 3 && f->scene->camera.height > 0; k++) {
+        for (int i = 0; i < n; i++) {
+            o[k][i] += f->origins[0][k] + film[2 * i] * f->origins[1][k] + film[2 * i + 1] * f->origins[2][k];
+        }
+    }
 }
 
 static koksma__batch_material make_material(const koksma__material *from)
@@ -197,7 +219,7 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
         f->background[k] = (float)f->scene->background[k];
     }
     KOKSMA__TRY(koksma__lights_init(f->scene, &f->lights));
-    f->camera = make_camera(&f->scene->camera, options->width, options->height);
+    f->camera = make_camera(&f->scene->camera, options->width, options->height, f->origins);
     f->uses = koksma__frame_uses(f->scene, options);
     koksma_status status = options->scope == KOKSMA_SCOPE_IMAGE
                                ? koksma__image_samples(options, &f->uses, run, &f->sampler)

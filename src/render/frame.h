@@ -16,6 +16,8 @@
 #include "render/pipelines/vertices.h"
 #include "render/samples/sampler.h"
 
+typedef struct koksma__aovs koksma__aovs;
+
 typedef struct koksma__frame {
     const koksma_scene *scene;
     const koksma_render_options *options;
@@ -30,6 +32,9 @@ typedef struct koksma__frame {
     koksma__sampler sampler;
     size_t together; /* the pipeline's number of samples for a group, unless one pixel has more */
     koksma__batch_camera camera;
+    /* of an orthographic camera: the ray at film position (x, y) starts at eye + origins[0] + x origins[1] + y
+       origins[2] */
+    float origins[3][3];
     koksma__lights lights;
     koksma__batch_material *materials;
     koksma__shading_material *shading_materials;
@@ -37,6 +42,7 @@ typedef struct koksma__frame {
     float background[3];
     koksma__filter_table *filter; /* NULL: box */
     void *cache;                  /* data of the integrator */
+    const koksma__aovs *aovs;     /* further images, or NULL */
     koksma_scene *replaced;       /* the scene that the integrator made, to which `scene` then points; or NULL */
 } koksma__frame;
 
@@ -57,6 +63,8 @@ typedef struct koksma__values {
     float *weights; /* of the filter; NULL: all weights are 1 */
     float *rgb;     /* channels a sample */
     float *albedo, *normal, *depth;
+    float *parts; /* 3 numbers for each AOV of light for each sample; NULL: no AOVs */
+    float *ids;   /* the first object that each sample hits */
     uint64_t rays;
 } koksma__values;
 
@@ -88,6 +96,13 @@ void koksma__frame_close(koksma__frame *frame);
    lights, otherwise all. */
 enum { KOKSMA__FEW_LIGHTS = 8 };
 koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options);
+
+/* The side of a pixel: at distance 1 from a perspective camera, at any distance from an orthographic one. */
+double koksma__pixel_size(const koksma__camera *camera, int height);
+
+/* Moves the origins of the camera rays through film positions from the eye to where an orthographic camera has them;
+   those of other cameras stay. */
+void koksma__move_origins(const koksma__frame *frame, const float *film, int n, koksma__rays *rays);
 
 /* The sample dimensions that the render will use. */
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);

@@ -9,6 +9,7 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
+#include "render/aov.h"
 #include "render/frame.h"
 
 void koksma__group_fill(const koksma__frame *f, size_t first, size_t end, koksma__group *group)
@@ -47,12 +48,12 @@ koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group
 
 /* ---- Room -------------------------------------------------------------------------------------------------- */
 
-static koksma_status values_init(koksma__values *v, size_t capacity, int channels, bool all_layers)
+static koksma_status values_init(koksma__values *v, size_t capacity, const koksma__frame *frame, bool all_layers)
 {
-    const size_t n = capacity;
+    const size_t n = capacity, channels = (size_t)frame->channels;
     *v = (koksma__values){.film = malloc(2 * n * sizeof(float)),
                           .weights = malloc(n * sizeof(float)),
-                          .rgb = malloc(n * (size_t)channels * sizeof(float))};
+                          .rgb = malloc(n * channels * sizeof(float))};
     bool all = v->film && v->weights && v->rgb;
     if (all_layers) {
         v->albedo = malloc(3 * n * sizeof(float));
@@ -60,19 +61,21 @@ static koksma_status values_init(koksma__values *v, size_t capacity, int channel
         v->depth = malloc(n * sizeof(float));
         all &= v->albedo && v->normal && v->depth;
     }
-    return all ? KOKSMA_OK : koksma__fail_memory(13 * n * sizeof(float));
+    return !all          ? koksma__fail_memory(13 * n * sizeof(float))
+           : frame->aovs ? koksma__aov_values_init(frame->aovs, capacity, v)
+                         : KOKSMA_OK;
 }
 
 static void values_fini(koksma__values *v)
 {
-    KOKSMA__FREE(v->film, v->weights, v->rgb, v->albedo, v->normal, v->depth);
+    KOKSMA__FREE(v->film, v->weights, v->rgb, v->albedo, v->normal, v->depth, v->parts, v->ids);
 }
 
 koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
                                         bool all_layers, koksma__task_scratch *scratch)
 {
     *scratch = (koksma__task_scratch){.pipeline = pipeline};
-    koksma_status status = values_init(&scratch->values, capacity, frame->channels, all_layers);
+    koksma_status status = values_init(&scratch->values, capacity, frame, all_layers);
     status = status ? status : koksma__sample_scratch_init(&scratch->draw, &frame->sampler);
     return status ? status : pipeline->open(frame, capacity, &scratch->pipeline_scratch);
 }

@@ -430,14 +430,13 @@ void koksma__import_rotation(double angle_deg, const double axis[3], double out[
 }
 
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double m[12], double right,
-                                    double fov_rad, double lens_radius, double focus_distance)
+                                    const koksma__camera *lens)
 {
     koksma__camera *c = &im->scene->camera;
-    *c = (koksma__camera){.fov_rad = fov_rad,
-                          .lens_radius = lens_radius,
-                          .focus_distance = focus_distance,
-                          .lens_map = koksma_warp_find("concentric-disk"),
-                          .shutter = {0, 1}};
+    *c = *lens;
+    c->height *= sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]);
+    c->lens_map = koksma_warp_find("concentric-disk");
+    c->shutter[1] = 1;
     for (int k = 0; k < 3; k++) {
         c->eye[k] = m[4 * k + 3];
         c->right[k] = right * m[4 * k];
@@ -450,10 +449,13 @@ koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place
     if (!koksma__normalise(c->right) || !koksma__normalise(c->down) || !koksma__normalise(c->forward)) {
         return koksma__import_fail(place, "the camera's matrix has no inverse");
     }
-    if (!(fov_rad >= 1e-4 && fov_rad < 3.13)) {
+    if (lens->height > 0 && !(c->height > TINY && c->height <= FAR)) {
+        return koksma__import_fail(place, "the height that the camera shows must be 1e-6 to 1e6");
+    }
+    if (!(lens->height > 0) && !(c->fov_rad >= 1e-4 && c->fov_rad < 3.13)) {
         return koksma__import_fail(place, "the camera's angle of view must be above 0 and below 180 degrees");
     }
-    if (!(lens_radius >= 0 && lens_radius <= FAR && focus_distance > TINY && focus_distance <= FAR)) {
+    if (!(c->lens_radius >= 0 && c->lens_radius <= FAR && c->focus_distance > TINY && c->focus_distance <= FAR)) {
         return koksma__import_fail(place, "the lens's radius must be 0 to 1e6, its focus distance 1e-6 to 1e6");
     }
     return KOKSMA_OK;

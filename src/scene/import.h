@@ -113,9 +113,10 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
                                  const double scale[3], const double matrix[12]);
 
 /* Sets the camera. The columns of its matrix are the direction to the right (times `right`, 1 or -1), the
-   direction up, the direction ahead and the position. */
+   direction up (whose length scales an orthographic camera's height), the direction ahead and the position; the angle
+   or height and the lens are those of `lens`. */
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
-                                    double right, double fov_rad, double lens_radius, double focus_distance);
+                                    double right, const koksma__camera *lens);
 
 /* Finds the inverse of a matrix; false if there is none. */
 bool koksma__import_invert(const double matrix[12], double out[12]);

@@ -655,15 +655,29 @@ static koksma_status sensor(reader *r, const node *n)
     if (r->has_sensor) {
         return koksma__import_unknown(r->im, n->place, "a second sensor: it is left out");
     }
-    if (!lens && strcmp(type, "perspective") != 0) {
-        return koksma__import_fail(n->place, "sensor '%s' is not read; 'perspective' and 'thinlens' are", type);
+    const bool parallel = !strcmp(type, "orthographic");
+    if (!lens && !parallel && strcmp(type, "perspective") != 0) {
+        return koksma__import_fail(n->place,
+                                   "sensor '%s' is not read; 'perspective', 'thinlens' and 'orthographic' are", type);
     }
     r->has_sensor = true;
     KOKSMA__TRY(film(r, n));
     KOKSMA__TRY(transform(r, n, "to_world", m));
-    const double angle = height_angle(r, n, r->im->scene->width, r->im->scene->height);
-    return koksma__import_camera(r->im, n->place, m, -1, angle, lens ? number(r, n, "aperture_radius", 0) : 0,
-                                 lens ? number(r, n, "focus_distance", 1) : 1);
+    const double width = r->im->scene->width, height = r->im->scene->height;
+    koksma__camera camera = {.focus_distance = lens ? number(r, n, "focus_distance", 1) : 1,
+                             .lens_radius = lens ? number(r, n, "aperture_radius", 0) : 0};
+    if (parallel) { /* from -1 to 1 along x */
+        const double x = sqrt(m[0] * m[0] + m[4] * m[4] + m[8] * m[8]),
+                     y = sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]);
+        camera.height = 2 * height / width;
+        if (fabs(x - y) > 1e-4 * y) {
+            KOKSMA__TRY(
+                koksma__import_unknown(r->im, n->place, "the camera's scale along x is taken to be that along y"));
+        }
+    } else {
+        camera.fov_rad = height_angle(r, n, width, height);
+    }
+    return koksma__import_camera(r->im, n->place, m, -1, &camera);
 }
 
 /* ---- The whole scene ---------------------------------------------------------------------------------------- */

@@ -16,8 +16,24 @@
 
 /* ---- The camera ----------------------------------------------------------------------------------------- */
 
-/* The camera: a pinhole, or a thin lens (Potmesil & Chakravarty 1981; Cook, Porter & Carpenter 1984), and the time
+/* The camera: a pinhole or orthographic, with a thin lens or without (Potmesil & Chakravarty 1981; Cook, Porter & Carpenter 1984), and the time
    that its shutter is open. */
+
+enum { MOST_BLADES = 64 };
+
+static koksma_status parse_blades(const field *f, koksma__camera *camera)
+{
+    long long blades = 0;
+    double angle_deg = 0;
+    koksma_status status = koksma__json_get_whole(f, "lens_blades", false, 3, MOST_BLADES, &blades);
+    status = status ? status : koksma__json_get_number(f, "lens_angle_deg", false, -360, 360, &angle_deg);
+    KOKSMA__JSON_FAIL_IF(!status && koksma__json_has(f, "lens_angle_deg") && !blades, f,
+                         "lens_angle_deg turns the corners that 'lens_blades' gives the lens");
+    KOKSMA__JSON_FAIL_IF(!status && blades && !(camera->lens_radius > 0), f, "lens_blades needs a 'lens_radius'");
+    camera->blades = (int)blades;
+    camera->blade_angle_rad = angle_deg * TURN / 360;
+    return status;
+}
 
 static koksma_status parse_lens(const field *f, koksma__camera *camera)
 {
@@ -33,7 +49,7 @@ static koksma_status parse_lens(const field *f, koksma__camera *camera)
     }
     camera->lens_map = koksma__lens_map(map);
     KOKSMA__JSON_FAIL_IF(!status && !camera->lens_map, f, "no lens_map '%s'; it takes concentric or polar", map);
-    return status;
+    return status ? status : parse_blades(f, camera);
 }
 
 static koksma_status parse_shutter(const field *f, koksma__camera *camera)
@@ -47,17 +63,32 @@ static koksma_status parse_shutter(const field *f, koksma__camera *camera)
     return !status && koksma__json_has(f, "motion") ? koksma__parse_point(f, "motion", camera->motion) : status;
 }
 
+/* Reads what the image shows: the angle of a perspective camera, or the height of an orthographic one. */
+static koksma_status parse_view(const field *f, koksma__camera *camera)
+{
+    static const char key[] = "orthographic_height";
+    double fov_deg = 0;
+    KOKSMA__JSON_FAIL_IF(koksma__json_has(f, "fov_deg") && koksma__json_has(f, key), f,
+                         "it takes one of 'fov_deg' and '%s'", key);
+    const koksma_status status = koksma__json_has(f, key)
+                                     ? koksma__json_get_number(f, key, true, TINY, FAR, &camera->height)
+                                     : koksma__json_get_number(f, "fov_deg", true, 0.01, 179, &fov_deg);
+    camera->fov_rad = fov_deg * TURN / 360;
+    return status;
+}
+
 static koksma_status parse_camera(const field *root, koksma__camera *camera)
 {
     field f;
-    double target[3], up[3] = {0, 1, 0}, fov_deg = 0;
+    double target[3], up[3] = {0, 1, 0};
     koksma_status status = koksma__json_member(root, "camera", &f);
     status = status ? status
-                    : koksma__json_only(&f, KEYS("eye", "target", "up", "fov_deg", "lens_radius", "focus_distance",
-                                                 "lens_map", "shutter", "motion"));
+                    : koksma__json_only(&f, KEYS("eye", "target", "up", "fov_deg", "orthographic_height",
+                                                 "lens_radius", "focus_distance", "lens_map", "lens_blades",
+                                                 "lens_angle_deg", "shutter", "motion"));
     status = status ? status : koksma__parse_point(&f, "eye", camera->eye);
     status = status ? status : koksma__parse_point(&f, "target", target);
-    status = status ? status : koksma__json_get_number(&f, "fov_deg", true, 0.01, 179, &fov_deg);
+    status = status ? status : parse_view(&f, camera);
     if (!status && koksma__json_has(&f, "up")) {
         status = koksma__parse_direction(&f, "up", up);
     }
@@ -66,7 +97,6 @@ static koksma_status parse_camera(const field *root, koksma__camera *camera)
     if (status) {
         return status;
     }
-    camera->fov_rad = fov_deg * TURN / 360;
     koksma__subtract(target, camera->eye, camera->forward);
     KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->forward), &f, "'eye' and 'target' are the same point");
     koksma__cross(camera->forward, up, camera->right);

@@ -55,6 +55,8 @@ typedef struct reader {
     bool has_camera;
     koksma__text_place camera_place;
     double camera[12], fov_deg, lens_radius, focus_distance;
+    bool orthographic, has_window;
+    double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
     int depth;
 } reader;
 
@@ -385,8 +387,9 @@ static koksma_status take_camera(reader *r, source *s)
     const koksma__pbrt_parameters *p = r->parameters;
     KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
-    if (strcmp(type, "perspective") != 0) {
-        return koksma__import_fail(p->place, "camera '%s' is not read; 'perspective' is", type);
+    r->orthographic = !strcmp(type, "orthographic");
+    if (!r->orthographic && strcmp(type, "perspective") != 0) {
+        return koksma__import_fail(p->place, "camera '%s' is not read; 'perspective' and 'orthographic' are", type);
     }
     if (!koksma__import_invert(r->now.matrix, r->camera)) {
         return koksma__import_fail(p->place, "the camera's matrix has no inverse");
@@ -396,7 +399,12 @@ static koksma_status take_camera(reader *r, source *s)
     r->fov_deg = koksma__pbrt_number(p, "fov", 90);
     r->lens_radius = koksma__pbrt_number(p, "lensradius", 0);
     r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
-    if (koksma__pbrt_find(p, "screenwindow") || koksma__pbrt_find(p, "frameaspectratio")) {
+    const koksma__pbrt_parameter *window = koksma__pbrt_find(p, "screenwindow");
+    r->has_window = r->orthographic && window && window->n == 4;
+    if (r->has_window) {
+        memcpy(r->window, window->numbers, sizeof r->window);
+    }
+    if ((window && !r->has_window) || koksma__pbrt_find(p, "frameaspectratio")) {
         KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "the camera's screen window is ignored"));
     }
     return name_space(r, "camera", r->camera);
@@ -588,6 +596,28 @@ static koksma_status read_source(reader *r, source *s)
     }
 }
 
+/* Sets the height of an orthographic camera, and moves it to the middle of its screen window, which is -1 to 1 along
+   the shorter side of the image unless the file has another. */
+static koksma_status set_window(reader *r, double width, double height, koksma__camera *camera)
+{
+    const double *w = r->window, x = (w[0] + w[1]) / 2, y = (w[2] + w[3]) / 2;
+    camera->height = 2 * fmax(height / width, 1);
+    if (!r->has_window) {
+        return KOKSMA_OK;
+    }
+    camera->height = w[3] - w[2];
+    if (!(w[1] > w[0] && w[3] > w[2])) {
+        return koksma__import_fail(r->camera_place, "the screen window is empty; it is x from, x to, y from, y to");
+    }
+    for (int k = 0; k < 3; k++) {
+        r->camera[4 * k + 3] += x * r->camera[4 * k] + y * r->camera[4 * k + 1];
+    }
+    return fabs((w[1] - w[0]) / camera->height - width / height) > 1e-3 * width / height
+               ? koksma__import_unknown(r->im, r->camera_place,
+                                        "the screen window has another shape than the image: its height is kept")
+               : KOKSMA_OK;
+}
+
 /* Sets the camera; pbrt's angle of view is that of the shorter side of the image. */
 static koksma_status set_camera(reader *r)
 {
@@ -595,8 +625,13 @@ static koksma_status set_camera(reader *r)
     if (!r->has_camera) {
         return koksma__import_fail((koksma__text_place){r->im->path, 1}, "no Camera");
     }
-    const double fov = width < height ? 2 * atan(tan(half) * height / width) : 2 * half;
-    return koksma__import_camera(r->im, r->camera_place, r->camera, 1, fov, r->lens_radius, r->focus_distance);
+    koksma__camera camera = {.lens_radius = r->lens_radius, .focus_distance = r->focus_distance};
+    if (r->orthographic) {
+        KOKSMA__TRY(set_window(r, width, height, &camera));
+    } else {
+        camera.fov_rad = width < height ? 2 * atan(tan(half) * height / width) : 2 * half;
+    }
+    return koksma__import_camera(r->im, r->camera_place, r->camera, 1, &camera);
 }
 
 koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t size)

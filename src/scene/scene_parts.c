@@ -32,7 +32,9 @@ static double reach(const koksma__shape *shape, int k)
 static void look(const koksma_scene *scene, koksma_scene_part *part)
 {
     const koksma__camera *camera = &scene->camera;
-    const double half_height = tan(camera->fov_rad / 2), half_width = half_height * scene->width / scene->height;
+    const bool parallel = camera->height > 0;
+    const double half_height = parallel ? camera->height / 2 : tan(camera->fov_rad / 2),
+                 half_width = half_height * scene->width / scene->height;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     int behind = 0, endless = 0;
     for (int corner = 0; corner < 8; corner++) {
@@ -41,20 +43,20 @@ static void look(const koksma_scene *scene, koksma_scene_part *part)
             d[k] = (corner >> k & 1 ? part->high[k] : part->low[k]) - camera->eye[k];
             endless += !isfinite(d[k]);
         }
-        const double z = dot(d, camera->forward);
+        const double z = dot(d, camera->forward), far = parallel ? 1 : z;
         behind += z <= 0;
-        const double at[2] = {dot(d, camera->right) / z / half_width, dot(d, camera->down) / z / half_height};
+        const double at[2] = {dot(d, camera->right) / far / half_width, dot(d, camera->down) / far / half_height};
         for (int k = 0; k < 2; k++) {
             low[k] = fmin(low[k], (1 + at[k]) / 2);
             high[k] = fmax(high[k], (1 + at[k]) / 2);
         }
     }
-    const bool whole = endless || behind % 8;
+    const bool whole = endless || (behind % 8 && !parallel);
     for (int k = 0; k < 2; k++) {
         part->frame[2 * k] = whole ? 0 : fmax(low[k], 0);
         part->frame[2 * k + 1] = whole ? 1 : fmin(high[k], 1);
     }
-    part->in_frame = whole || (!behind && part->frame[0] < part->frame[1] && part->frame[2] < part->frame[3]);
+    part->in_frame = whole || (behind < 8 && part->frame[0] < part->frame[1] && part->frame[2] < part->frame[3]);
 }
 
 bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma_scene_part *out)

@@ -79,6 +79,7 @@ VALID = {
     "koksma_coherence_init.width": "4", "koksma_coherence_init.height": "4", "koksma_coherence_fini.coherence": "a_zero(sizeof(koksma_coherence))",
     "koksma_scene_open.name_or_path": "\"ball\"", "koksma_scene_warning.size": "256", "koksma_scene_unknown.size": "256", "koksma_integrator_find.name": "\"whitted\"",
     "koksma_filter_find.name": "\"tent\"", "koksma_render_warning.size": "256", "koksma_layers_fini.layers": "a_zero(sizeof(koksma_layers))",
+    "koksma_aovs *": "a_zero(sizeof(koksma_aovs))", "koksma_aovs_parse.text": "\"direct,half\"",
     "koksma_scene_close.scene": "open_scene()", "koksma_render.out": "a_buffer(sizeof(koksma_image))",
     "koksma_render_patterns.text": "\"random;pixel+time=scan-time\"",
     "koksma_adaptive_find.name": "\"contrast\"", "koksma_strata_fini.strata": "a_zero(sizeof(koksma_strata))",

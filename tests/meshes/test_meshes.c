@@ -8,7 +8,9 @@
 
 #include <koksma/render.h>
 
+#include "core/random.h"
 #include "meshes.h"
+#include "meshes/mesh.h"
 
 enum { SIDE = 48 };
 
@@ -302,6 +304,114 @@ static void motion_covers_its_share_of_time(void **state)
     unlink("square.ply");
 }
 
+/* A black half plane at the angles 90 to 270 degrees turns by 120 in its own plane before a white sky: it leaves the
+   angle 90 + 120 s after the share s of the time and reaches 270 + 120 s. Of the whole turning disk it covers half. */
+static void rotation_covers_its_share_of_time(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_text("half.ply",
+               "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+               "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+               "-3 0 3\n0 0 3\n0 0 -3\n-3 0 -3\n4 0 1 2 3\n");
+#define TURNING(more)                                                                                                \
+    "{\"camera\": {\"eye\": [%.12g, 5, %.12g], \"target\": [%.12g, 0, %.12g], \"up\": [0, 0, -1], "                  \
+    "\"orthographic_height\": %g}, \"background\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", "     \
+    "\"albedo\": 0}], \"shapes\": [{\"kind\": \"mesh\", \"file\": \"half.ply\", \"to\": {\"rotate_deg\": [0, 120, "  \
+    "0]}" more
+    for (int angle_deg = 7; angle_deg < 360; angle_deg += 16) {
+        const double x = cos(angle_deg * M_PI / 180), z = -sin(angle_deg * M_PI / 180);
+        const int past = angle_deg < 90 ? angle_deg + 360 : angle_deg; /* 90 to 450 */
+        const double covered = past < 210   ? (past - 90) / 120.0
+                               : past < 270 ? 1
+                               : past < 390 ? 1 - (past - 270) / 120.0
+                                            : 0;
+        char text[1024];
+        snprintf(text, sizeof text, TURNING(TAIL), x, z, x, z, 1e-5);
+        assert_near(pixel(text, "distribution"), 1 - covered, 2e-3);
+    }
+    char text[1024];
+    snprintf(text, sizeof text, TURNING(TAIL), 0.0, 0.0, 0.0, 0.0, 2.0);
+    assert_near(pixel(text, "distribution"), 0.5, 2e-3);
+    unlink("half.ply");
+}
+
+/* The poses at both ends have the matrices of their angles; half of the rotation twice is the whole one, and all
+   positions between go straight. */
+static void poses_turn_evenly(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 200; i++) {
+        double angles[2][3], at[2][3], scale[2][3], m[3][12], expected[12];
+        koksma__pose poses[2];
+        for (uint32_t e = 0; e < 2; e++) {
+            for (int k = 0; k < 3; k++) {
+                double u[2];
+                koksma__random_pair(3, e, i, (uint32_t)k, u);
+                angles[e][k] = 720 * u[0] - 360;
+                at[e][k] = 10 * u[1] - 5;
+                scale[e][k] = 0.5 + u[1];
+            }
+            poses[e] = koksma__pose_of(at[e], angles[e], scale[e]);
+        }
+        for (int e = 0; e < 2; e++) {
+            koksma__poses_at(poses, e, m[0]);
+            koksma__placement_matrix(at[e], angles[e], scale[e], expected);
+            for (int k = 0; k < 12; k++) {
+                assert_near(m[0][k], expected[k], 1e-12);
+            }
+        }
+        for (int k = 0; k < 3; k++) {
+            poses[0].scale[k] = poses[1].scale[k] = 1;
+        }
+        for (int t = 0; t < 3; t++) {
+            koksma__poses_at(poses, t / 2.0, m[t]);
+        }
+        const int steps = koksma__pose_steps(poses);
+        double trace = -1;
+        for (int r = 0; r < 3; r++) {
+            assert_near(m[1][4 * r + 3], (at[0][r] + at[1][r]) / 2, 1e-12);
+            for (int c = 0; c < 3; c++) { /* half whole^-1 half = end: half start^T half */
+                double sum = 0;
+                for (int j = 0; j < 3; j++) {
+                    for (int l = 0; l < 3; l++) {
+                        sum += m[1][4 * r + j] * m[0][4 * l + j] * m[1][4 * l + c];
+                    }
+                }
+                assert_near(sum, m[2][4 * r + c], 1e-9);
+                trace += m[0][4 * r + c] * m[2][4 * r + c];
+            }
+        }
+        const double angle_deg = acos(fmax(-1, fmin(1, trace / 2))) * 180 / M_PI; /* of the rotation between */
+        assert_true(steps >= 1 && steps <= KOKSMA__MAX_STEPS && fabs(angle_deg / 1.5 + 0.5 - steps) <= 0.5 + 1e-6);
+    }
+}
+
+/* A ball that turns about itself is a ball; one that is moved by `to` is one that is moved by `motion`, and instances
+   and shadows do the same. */
+static void poses_are_placements(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_ball(6);
+    assert_true(difference(BALL(", \"smooth\": true, \"to\": {\"rotate_deg\": [30, 100, -20]}"),
+                           BALL(", \"smooth\": true")) < 3e-3);
+    assert_true(difference(BALL(", \"translate\": [0.1, 0, 0], \"motion\": [0.3, 0.2, 0]"),
+                           BALL(", \"translate\": [0.1, 0, 0], \"to\": {\"translate\": [0.4, 0.2, 0]}")) < 1e-4);
+    assert_true(
+        difference(BALL(", \"to\": {\"rotate_deg\": [0, 90, 0], \"scale\": 0.5}"), HEAD
+                   "{\"kind\": \"mesh\", \"file\": \"ball.obj\", \"name\": \"b\", \"translate\": [0, 0, 90], "
+                   "\"material\": \"m\"}, {\"kind\": \"instance\", \"of\": \"b\", \"to\": {\"rotate_deg\": [0, 90, "
+                   "0], \"scale\": 0.5}" TAIL) == 0);
+    assert_true(difference(BALL(", \"to\": {\"scale\": 0.5}"), BALL("")) > 1e-2);
+    koksma_scene *scene;
+    write_text("both.json", BALL(", \"motion\": [1, 0, 0], \"to\": {\"scale\": 0.5}"));
+    assert_int_equal(koksma_scene_open("./both.json", &scene), KOKSMA_MALFORMED);
+    assert_non_null(strstr(koksma_error_text(), "it takes one of 'motion' and 'to'"));
+    unlink("both.json");
+    unlink("ball.obj");
+}
+
 static void threads_and_modes_leave_no_trace(void **state)
 {
     (void)state;
@@ -368,6 +478,9 @@ int main(void)
         cmocka_unit_test(convex_bodies_do_not_shade_themselves),
         cmocka_unit_test(light_on_meshes_is_its_form_factor),
         cmocka_unit_test(motion_covers_its_share_of_time),
+        cmocka_unit_test(rotation_covers_its_share_of_time),
+        cmocka_unit_test(poses_turn_evenly),
+        cmocka_unit_test(poses_are_placements),
         cmocka_unit_test(threads_and_modes_leave_no_trace),
         cmocka_unit_test(pictures_of_a_scene_share_its_tree),
     };

@@ -2,6 +2,8 @@
 /* Lens, shutter, pairings, scopes, filters and layers, against closed forms. */
 #include <koksma/adaptive.h>
 
+#include "core/random.h"
+#include "render/lens.h"
 #include "rendering.h"
 
 /* ---- Lens and shutter ----------------------------------------------------------------------------------- */
@@ -46,6 +48,128 @@ static void lens_blurs_to_a_disk(void **state)
         assert_true(inside > 0.2 * total);
         koksma_image_fini(&image);
         koksma_scene_close(scene);
+    }
+}
+
+/* The map from the square to a lens with blades has a constant Jacobian, the polygon's area, by both maps to the disk;
+   points lie inside all edges and reach the corners. With four blades and the concentric map it is a similarity. */
+static void blades_keep_ratios_of_areas(void **state)
+{
+    (void)state;
+    for (int blades = 3; blades <= 9; blades++) {
+        for (int polar = 0; polar < 2; polar++) {
+            const double angle = 0.3 * blades, area = blades / 2.0 * sin(2 * M_PI / blades), h = 1.0 / 512;
+            const koksma__camera camera = {.lens_map = koksma_warp_find(polar ? "polar-disk" : "concentric-disk"),
+                                           .blades = blades,
+                                           .blade_angle_rad = angle};
+            double most = 0, off = 0;
+            for (uint64_t i = 0; i < 400; i++) {
+                double at[2];
+                koksma__random_pair(1, 0, i, 0, at);
+                at[0] = 0.01 + 0.97 * at[0], at[1] = 0.01 + 0.97 * at[1];
+                /* four corners of a small square, filled up to whole lanes */
+                float pairs[2 * KOKSMA__LANE_STEP] = {0}, x[KOKSMA__LANE_STEP], y[KOKSMA__LANE_STEP];
+                for (int c = 0; c < 4; c++) {
+                    pairs[2 * c] = (float)(at[0] + h * (c == 1 || c == 2));
+                    pairs[2 * c + 1] = (float)(at[1] + h * (c >= 2));
+                }
+                koksma__lens_points(&camera, koksma__batch(), pairs, KOKSMA__LANE_STEP, x, y);
+                double twice = 0, sides[2];
+                for (int c = 0; c < 4; c++) {
+                    const int d = (c + 1) % 4;
+                    twice += (double)x[c] * (double)y[d] - (double)x[d] * (double)y[c];
+                    for (int k = 0; k < blades;
+                         k++) { /* the distance beyond the edge k, whose normal is between corners */
+                        const double normal = angle + (2 * k + 1) * M_PI / blades;
+                        const double beyond =
+                            (double)x[c] * cos(normal) - (double)y[c] * sin(normal) - cos(M_PI / blades);
+                        assert_true(beyond <= 1e-6);
+                    }
+                    most = fmax(most, hypot((double)x[c], (double)y[c]));
+                }
+                /* exact but where the small square straddles a crease of the map */
+                off += fabs(fabs(twice / 2) / (h * h) / area - 1) > 0.02;
+                sides[0] = hypot((double)x[1] - (double)x[0], (double)y[1] - (double)y[0]);
+                sides[1] = hypot((double)x[3] - (double)x[0], (double)y[3] - (double)y[0]);
+                if (blades == 4 && !polar) {
+                    assert_near(sides[0] / h, sqrt(2), 1e-3);
+                    assert_near(sides[1] / h, sqrt(2), 1e-3);
+                }
+            }
+            assert_true(off < 400 * 0.06);
+            assert_true(most > 0.9);
+        }
+    }
+}
+
+/* The lamp of lens_blurs_to_a_disk shows the polygon itself, corner 0 at the angle from the right: evenly lit, its
+   light over the polygon's area. */
+static void blades_blur_to_a_polygon(void **state)
+{
+    (void)state;
+    for (int blades = 3; blades <= 6; blades++) {
+        const double angle = 25 * (blades - 3) * M_PI / 180,
+                     area = blades / 2.0 * sin(2 * M_PI / blades) * 0.25 * 0.25;
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "{\"camera\": {\"eye\": [0, 0, 0], \"target\": [0, 0, -1], \"fov_deg\": 53.13010235415598,"
+                 "\"lens_radius\": 0.5, \"focus_distance\": 2, \"lens_blades\": %d, \"lens_angle_deg\": %d}, "
+                 "\"materials\": [], \"shapes\": [],"
+                 "\"lights\": [{\"kind\": \"disk\", \"centre\": [0, 0, -4], \"normal\": [0, 0, 1], \"radius\": 0.05,"
+                 "\"radiance\": 100, \"visible\": true}]}",
+                 blades, 25 * (blades - 3));
+        koksma_scene *scene = scene_of(text);
+        koksma_render_options options = options_of(scene, "n-rooks", "distribution", 4096, 32);
+        koksma_image image;
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        double total = 0, inside = 0;
+        for (int y = 0; y < 32; y++) {
+            for (int x = 0; x < 32; x++) {
+                const double at[2] = {(x + 0.5 - 16) / 16, (16 - y - 0.5) / 16},
+                             value = (double)image.pixels[y * 32 + x];
+                double beyond = -1;
+                for (int k = 0; k < blades; k++) {
+                    const double normal = angle + (2 * k + 1) * M_PI / blades;
+                    beyond = fmax(beyond, at[0] * cos(normal) + at[1] * sin(normal) - 0.25 * cos(M_PI / blades));
+                }
+                total += value;
+                if (beyond > 0.025 + 0.75 / 16) {
+                    assert_true(value == 0);
+                } else if (beyond < -0.025 - 0.75 / 16) {
+                    const double expected = 100 * M_PI * 0.025 * 0.025 / area; /* of 4096 samples at least 41 hit */
+                    assert_near(value / expected, 1, 5 / sqrt(41));
+                    inside += value;
+                }
+            }
+        }
+        assert_near(total / (100 * M_PI * pow(0.05 * 8, 2)), 1, 5 * 0.022);
+        assert_true(inside > 0);
+        koksma_image_fini(&image);
+        koksma_scene_close(scene);
+    }
+}
+
+/* Parallel rays: a black ball of radius 1/2 before a white sky covers pi / 4 of the 4 x 4 that the image shows, wherever it
+   is, by every integrator (to ambient occlusion it is white and sees the whole sky). */
+static void orthographic_images_have_their_scale(void **state)
+{
+    (void)state;
+    for (int far = 1; far <= 100; far *= 10) {
+        for (size_t i = 0; koksma_integrator_at(i); i++) {
+            char text[512];
+            snprintf(text, sizeof text,
+                     "{\"camera\": {\"eye\": [0, 0, 0], \"target\": [0, 0, -1], \"orthographic_height\": 4}, "
+                     "\"background\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0}], "
+                     "\"shapes\": [{\"kind\": \"sphere\", \"centre\": [0.3, 0.2, %d], \"radius\": 0.5, "
+                     "\"material\": \"m\"}]}",
+                     -far);
+            koksma_scene *scene = scene_of(text);
+            const char *name = koksma_integrator_at(i)->name;
+            const bool white = !strcmp(name, "ambient-occlusion");
+            koksma_render_options options = options_of(scene, "jittered", name, 16, 64);
+            assert_near(mean_of(scene, &options, NULL), white ? 1 : 1 - M_PI / 4 / 16, 3e-4);
+            koksma_scene_close(scene);
+        }
     }
 }
 
@@ -265,13 +389,11 @@ static void layers_show_what_is_seen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lens_blurs_to_a_disk),
-        cmocka_unit_test(shutter_sees_the_time),
-        cmocka_unit_test(every_way_of_sampling_has_the_same_mean),
-        cmocka_unit_test(filters_keep_a_constant),
-        cmocka_unit_test(many_splats_are_summed),
-        cmocka_unit_test(filters_are_what_they_say),
-        cmocka_unit_test(filters_weigh_an_edge),
+        cmocka_unit_test(lens_blurs_to_a_disk),      cmocka_unit_test(blades_keep_ratios_of_areas),
+        cmocka_unit_test(blades_blur_to_a_polygon),  cmocka_unit_test(orthographic_images_have_their_scale),
+        cmocka_unit_test(shutter_sees_the_time),     cmocka_unit_test(every_way_of_sampling_has_the_same_mean),
+        cmocka_unit_test(filters_keep_a_constant),   cmocka_unit_test(many_splats_are_summed),
+        cmocka_unit_test(filters_are_what_they_say), cmocka_unit_test(filters_weigh_an_edge),
         cmocka_unit_test(layers_show_what_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -152,6 +152,54 @@ static void one_scene_is_one_picture(void **state)
     koksma_layers_fini(&expected);
 }
 
+/* A square of side 1 at (1.5, 0), 5 before a camera that shows 4 x 3: it covers pixels 30 to 39 of 40 and 10 to 19
+   of 30, rows downwards, at any distance. Both formats scale the camera by its matrix. */
+static void orthographic_cameras_show_their_height(void **state)
+{
+    static const struct {
+        const char *name, *text;
+    } scenes[] = {
+        {"o.json",
+         "{\"image\": {\"width\": 40, \"height\": 30}, \"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], "
+         "\"orthographic_height\": 3}, \"materials\": [], \"shapes\": [], \"lights\": [{\"kind\": \"rectangle\", "
+         "\"centre\": [1.5, 0, 0], \"normal\": [0, 0, 1], \"half\": [0.5, 0.5], \"radiance\": 2, \"visible\": "
+         "true}]}"},
+        {"o.pbrt",
+         "Scale -1 1 1 Scale 0.5 0.5 0.5 LookAt 0 0 5  0 0 0  0 1 0\n"
+         "Camera \"orthographic\" \"float screenwindow\" [-1 1 -0.75 0.75] Film \"rgb\" " SIZE "\nWorldBegin\n"
+         "AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] "
+         "\"point3 P\" [1 -0.5 0  2 -0.5 0  2 0.5 0  1 0.5 0]\n"},
+        {"o.pbrt",
+         "Scale -1 1 1 LookAt 0 0 5  0 0 0  0 1 0\n" /* the window is off the middle, the square is moved with it */
+         "Camera \"orthographic\" \"float screenwindow\" [-1 3 -1.5 1.5] Film \"rgb\" " SIZE "\nWorldBegin\n"
+         "AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] "
+         "\"point3 P\" [2 -0.5 0  3 -0.5 0  3 0.5 0  2 0.5 0]\n"},
+        {"o.xml",
+         "<scene version=\"3.0.0\"><sensor type=\"orthographic\"><transform name=\"to_world\"><scale value=\"2\"/>"
+         "<lookat origin=\"0, 0, 5\" target=\"0, 0, 0\" up=\"0, 1, 0\"/></transform><film type=\"hdrfilm\">"
+         "<integer name=\"width\" value=\"40\"/><integer name=\"height\" value=\"30\"/></film></sensor>"
+         "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.5\"/><translate x=\"1.5\"/>"
+         "</transform><emitter type=\"area\"><rgb name=\"radiance\" value=\"2\"/></emitter></shape></scene>"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        if (strstr(scenes[i].name, ".xml") ? !reads_xml() : i && !koksma_mesh_tracer()) {
+            continue;
+        }
+        koksma_scene *scene = opened(scenes[i].name, scenes[i].text);
+        koksma_render_options options = options_of(scene, "regular", "direct", 1, 40);
+        koksma_image image;
+        options.height = 30;
+        assert_int_equal(scene->n_unknown, 0);
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        for (size_t k = 0; k < 40 * 30; k++) {
+            const bool lit = k % 40 >= 30 && k / 40 >= 10 && k / 40 < 20;
+            assert_near((double)image.pixels[k * (size_t)image.channels], lit ? 2 : 0, 1e-6);
+        }
+        koksma_image_fini(&image);
+        koksma_scene_close(scene);
+    }
+}
+
 /* ---- What is known, and what is said of the rest ----------------------------------------------------------------- */
 
 #define PBRT "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" Film \"rgb\" " SIZE " WorldBegin\n"
@@ -178,6 +226,9 @@ static const struct {
     {"a.pbrt", PBRT "LightSource \"distant\" \"blackbody L\" 5000", NULL},
     {"a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 1 500 2 600 3]", "a.pbrt:2: a sampled spectrum"},
     {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"", "a.pbrt:2: media"},
+    {"a.pbrt", "Camera \"orthographic\" Film \"rgb\" " SIZE " WorldBegin Shape \"sphere\"", NULL},
+    {"a.pbrt", "\nCamera \"orthographic\" \"float screenwindow\" [0 1 0 1] Film \"rgb\" " SIZE " WorldBegin",
+     "a.pbrt:2: the screen window has another shape"},
     {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"wrinkled\" Shape \"sphere\"", "a.pbrt:2: texture 'wrinkled'"},
     {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.gz\"", "a.pbrt:2: a.ply.gz is no file of a mesh"},
     {"a.xml", BALL("<bsdf type=\"diffuse\"/>"), NULL},
@@ -231,7 +282,8 @@ static const struct {
     const char *name, *text, *reason;
 } refused[] = {
     {"b.pbrt", "", "no Camera"},
-    {"b.pbrt", "Camera \"orthographic\"", ":1: camera 'orthographic' is not read; 'perspective' is"},
+    {"b.pbrt", "Camera \"spherical\"", ":1: camera 'spherical' is not read; 'perspective' and 'orthographic' are"},
+    {"b.pbrt", "Camera \"orthographic\" \"float screenwindow\" [1 1 0 1]", ":1: the screen window is empty"},
     {"b.pbrt", "\nCamera \"perspective\" \"float fov\" [ 30", ":2: fov: a list without its closing bracket"},
     {"b.pbrt", "Camera \"perspective\" \"float fov\" [ x ]", ":1: 'x': a number is needed here"},
     {"b.pbrt", "Camera \"perspective", "a text without its closing quotation mark"},
@@ -265,7 +317,7 @@ static const struct {
     {"b.xml", "<scene><include filename=\"b.xml\"/></scene>", "include each other more than 16 deep"},
     {"b.xml", "<scene><include filename=\"../outside.pbrt\"/></scene>", "which is not below the scene's own folder"},
     {"b.xml", "<scene><a b=\"$c\"/></scene>", "no default for '$c'"},
-    {"b.xml", "<scene><sensor type=\"orthographic\"/></scene>", "sensor 'orthographic' is not read"},
+    {"b.xml", "<scene><sensor type=\"fisheye\"/></scene>", "sensor 'fisheye' is not read"},
     {"b.xml", "<scene><shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/></shape></scene>",
      "none.obj: can't"},
     {"b.xml",
@@ -331,9 +383,8 @@ static void cut_texts_are_survived(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_scene_is_one_picture),
-        cmocka_unit_test(unknown_things_are_named),
-        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
+        cmocka_unit_test(one_scene_is_one_picture), cmocka_unit_test(orthographic_cameras_show_their_height),
+        cmocka_unit_test(unknown_things_are_named), cmocka_unit_test(malformed_and_hostile_texts_are_refused),
         cmocka_unit_test(cut_texts_are_survived),
     };
     strcpy(folder, "/tmp/koksma-imports-XXXXXX");

@@ -42,17 +42,34 @@ typedef struct part {
     float *placed; /* owned by Embree; NULL: the mesh's own vertices are used */
     bool is_instance, smooth, moves;
     float matrix[12], normal_matrix[9], motion[3];
+    int steps;         /* number of steps of time between keys, or 0 */
+    float (*keys)[12]; /* matrices at the times i / steps, linear between them; the part is an instance */
     int32_t material, light;
     int32_t first;                       /* index of its first triangle among all primitives */
     const koksma__material *see_through; /* its material, if some rays may pass through its triangles; else NULL */
 } part;
 
-static void place(const part *p, const float v[3], float out[3])
+static void place(const float matrix[12], const float v[3], float out[3])
 {
     for (int k = 0; k < 3; k++) {
-        const float *row = p->matrix + 4 * k;
+        const float *row = matrix + 4 * k;
         out[k] = row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3];
     }
+}
+
+/* The part's matrix at this time: its own, or one that is computed in `room`. */
+static const float *matrix_at(const part *p, float time, float room[12])
+{
+    if (!p->steps) {
+        return p->matrix;
+    }
+    const float at = time * (float)p->steps;
+    const int step = at < 0 ? 0 : at < (float)p->steps ? (int)at : p->steps - 1;
+    const float f = at - (float)step;
+    for (int i = 0; i < 12; i++) {
+        room[i] = (1 - f) * p->keys[step][i] + f * p->keys[step + 1][i];
+    }
+    return room;
 }
 
 /* Prefetches a triangle's indices. Rays hit the triangles of a large mesh in an order that the processor cannot
@@ -86,11 +103,13 @@ static void set_lane(const part *p, uint32_t triangle, float time, int i, koksma
 {
     const uint32_t *index = p->mesh->indices + 3 * (size_t)triangle;
     const float *vertices = p->placed ? p->placed : p->mesh->vertices;
+    float room[12];
+    const float *matrix = matrix_at(p, time, room);
     for (int c = 0; c < 3; c++) {
         const float *v = vertices + 3 * (size_t)index[c];
         float moved[3];
         if (p->is_instance) {
-            place(p, v, moved);
+            place(matrix, v, moved);
             v = moved;
         }
         for (int k = 0; k < 3; k++) {
@@ -104,21 +123,41 @@ static void set_lane(const part *p, uint32_t triangle, float time, int i, koksma
     l->material[i] = p->material;
 }
 
+/* The part's matrix for normals at this time. */
+static const float *normals_at(const part *p, float time, float out[9])
+{
+    float room[12];
+    double matrix[12], normals[9];
+    if (!p->steps) {
+        return p->normal_matrix;
+    }
+    const float *now = matrix_at(p, time, room);
+    for (int i = 0; i < 12; i++) {
+        matrix[i] = (double)now[i];
+    }
+    HOST->normal_matrix(matrix, normals);
+    for (int i = 0; i < 9; i++) {
+        out[i] = (float)normals[i];
+    }
+    return out;
+}
+
 /* Interpolates the vertices' normals, on the same side as the triangle's normal. Returns false if there is no such
    normal, or if it points away from the eye although the triangle faces the eye. A ray that a mirror or glass
    reflects or refracts by this normal may run into the triangle's own mesh, and its light is lost: of a white
    octahedron .014 in mirror, .021 in glass (docs/scenes.md). */
-static bool smooth_normal(const part *p, const uint32_t *index, const float w[3], const float geometric[3],
-                          const float d[3], float out[3])
+static bool smooth_normal(const part *p, const uint32_t *index, float time, const float w[3],
+                          const float geometric[3], const float d[3], float out[3])
 {
-    float n[3] = {0, 0, 0};
+    float n[3] = {0, 0, 0}, turned[9];
+    const float *normals = normals_at(p, time, turned);
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < 3; k++) {
             n[k] += w[c] * p->mesh->normals[3 * (size_t)index[c] + (size_t)k];
         }
     }
     for (int k = 0; k < 3; k++) {
-        const float *row = p->normal_matrix + 3 * k;
+        const float *row = normals + 3 * k;
         out[k] = row[0] * n[0] + row[1] * n[1] + row[2] * n[2];
     }
     if (!(koksma__dot3(out, out) > 1e-12f)) {
@@ -139,7 +178,7 @@ static void refine(const part *p, const koksma__landings *l, const koksma__rays 
     const float w[3] = {1 - l->u[i] - l->v[i], l->u[i], l->v[i]};
     const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]}, n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
     float bent[3];
-    if (p->smooth && smooth_normal(p, index, w, n, d, bent)) {
+    if (p->smooth && smooth_normal(p, index, p->steps ? rays->time[i] : 0, w, n, d, bent)) {
         hits->nx[i] = bent[0];
         hits->ny[i] = bent[1];
         hits->nz[i] = bent[2];
@@ -379,6 +418,12 @@ static int light_of(const koksma__geometry *geometry, int32_t primitive)
     return primitive < e->n_shapes ? e->shapes.light(&e->shapes, primitive) : part_of(e, primitive)->light;
 }
 
+static int object_of(const koksma__geometry *geometry, int32_t primitive)
+{
+    const embree *e = geometry->made;
+    return primitive < e->n_shapes ? primitive : e->n_shapes + (int)(part_of(e, primitive) - e->parts);
+}
+
 /* ---- Texture coordinates of triangles ------------------------------------------------------------------------ */
 
 /* The barycentric coordinates of a position in triangle t, from the areas of the parts into which it divides the
@@ -507,6 +552,9 @@ static void release(koksma__geometry *geometry)
         if (e->shapes.release) {
             e->shapes.release(&e->shapes);
         }
+        for (size_t i = 0; i < e->n_parts; i++) {
+            free(e->parts[i].keys);
+        }
         free(e->shared);
         free(e);
     }
@@ -540,8 +588,9 @@ static part make_part(const koksma_scene *scene, const koksma__placement *from, 
     }
     for (int r = 0; r < 3; r++) {
         p.motion[r] = (float)from->motion[r];
-        p.moves |= from->motion[r] != 0;
     }
+    p.moves = koksma__placement_moves(from);
+    p.steps = from->steps;
     return p;
 }
 
@@ -572,7 +621,7 @@ static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGe
         }
         p->placed = step ? p->placed : v;
         for (size_t i = 0; i < m->n_vertices; i++) {
-            place(p, m->vertices + 3 * i, v + 3 * i);
+            place(p->matrix, m->vertices + 3 * i, v + 3 * i);
             for (size_t k = 0; k < 3; k++) {
                 v[3 * i + k] += step ? p->motion[k] : 0;
             }
@@ -598,16 +647,34 @@ static koksma_status make_shared(embree *e, part *p, size_t m)
     return status ? status : check(e);
 }
 
-static koksma_status make_instance(embree *e, part *p, size_t m, RTCGeometry *out)
+static koksma_status make_keys(const koksma__placement *from, part *p)
 {
+    p->keys = p->steps ? malloc(((size_t)p->steps + 1) * sizeof *p->keys) : NULL;
+    if (p->steps && !p->keys) {
+        return koksma__fail_memory(((size_t)p->steps + 1) * sizeof *p->keys);
+    }
+    for (int i = 0; p->steps && i <= p->steps; i++) {
+        double matrix[12];
+        HOST->poses_at(from->poses, (double)i / p->steps, matrix);
+        for (int k = 0; k < 12; k++) {
+            p->keys[i][k] = (float)matrix[k];
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status make_instance(embree *e, const koksma__placement *from, part *p, size_t m, RTCGeometry *out)
+{
+    const unsigned steps = p->steps ? (unsigned)p->steps : p->moves;
     KOKSMA__TRY(make_shared(e, p, m));
+    KOKSMA__TRY(make_keys(from, p));
     RTCGeometry g = *out = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_INSTANCE);
     p->is_instance = true;
     rtcSetGeometryInstancedScene(g, e->shared[m]);
-    rtcSetGeometryTimeStepCount(g, p->moves ? 2 : 1);
-    for (unsigned step = 0; step < (p->moves ? 2u : 1u); step++) {
+    rtcSetGeometryTimeStepCount(g, steps + 1);
+    for (unsigned step = 0; step <= steps; step++) {
         float rows[12];
-        memcpy(rows, p->matrix, sizeof rows);
+        memcpy(rows, p->steps ? p->keys[step] : p->matrix, sizeof rows);
         for (int k = 0; k < 3; k++) {
             rows[4 * k + 3] += step ? p->motion[k] : 0;
         }
@@ -637,7 +704,8 @@ static koksma_status build(const koksma_scene *scene, embree *e)
         *p = make_part(scene, &scene->placements[i], (int32_t)first);
         e->moves |= p->moves;
         first += scene->meshes[m].n_triangles;
-        status = uses[m] > 1 && !p->see_through ? make_instance(e, p, m, &g) : make_triangles(e, p, true, &g);
+        status = p->steps || (uses[m] > 1 && !p->see_through) ? make_instance(e, &scene->placements[i], p, m, &g)
+                                                              : make_triangles(e, p, true, &g);
         if (g) {
             rtcAttachGeometryByID(e->scene, g, (unsigned)i);
             rtcReleaseGeometry(g);
@@ -655,7 +723,7 @@ static koksma_status make(const koksma_scene *scene, koksma__geometry *out)
 {
     const size_t size = sizeof(embree) + scene->n_placements * sizeof(part);
     embree *e = calloc(1, size);
-    *out = (koksma__geometry){e, NULL, closest, occlude, light_of, triangle_of, release};
+    *out = (koksma__geometry){e, NULL, closest, occlude, light_of, object_of, triangle_of, release};
     KOKSMA__REQUIRE_MEMORY(e, size);
     fenv_t mode; /* Embree may change the floating-point mode while it builds */
     fegetenv(&mode);

@@ -30,6 +30,8 @@ typedef struct koksma__geometry {
                     koksma__shadows *shadows);
     /* The index of the light whose surface the primitive is, or -1. */
     int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
+    /* The index of the shape, or of the placement after all shapes, to which the primitive belongs. */
+    int (*object)(const struct koksma__geometry *geometry, int32_t primitive);
     /* Gives the triangle on which p lies at this time; false: the primitive is an analytic shape. */
     bool (*triangle)(const struct koksma__geometry *geometry, int32_t primitive, const float p[3], float time,
                      koksma__triangle *out);

@@ -47,7 +47,7 @@ typedef struct cache {
     float smallest; /* the size of a cell at level 0; a cell at level k is 2^k times as large */
     bool used[LEVELS];
     int32_t buckets[BUCKETS]; /* the last record of each bucket, or -1 */
-    float pixel;              /* the size of a pixel at distance 1 */
+    float pixel;              /* the size of a pixel, at distance 1 or of an orthographic camera */
 } cache;
 
 static const koksma__integrator_flags path_rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY |
@@ -278,6 +278,7 @@ static bool look(const cache *c, int x, int y, float time, koksma__surface *s, f
     koksma__hits hits;
     const float film[2 * KOKSMA__LANE_STEP] = {(float)x + 0.5f, (float)y + 0.5f};
     f->batch->camera(&f->camera, film, KOKSMA__LANE_STEP, &rays);
+    koksma__move_origins(f, film, 1, &rays);
     for (int i = 0; i < KOKSMA__LANE_STEP; i++) {
         rays.time[i] = time;
     }
@@ -308,7 +309,7 @@ static koksma_status compute_row(void *context, size_t row)
         if (look(c, x, y, g->time, &s, &far) && !look_up(c, s.p, s.n, light)) {
             const uint64_t key = (uint64_t)y * (uint64_t)c->options.width + (uint64_t)x;
             status = compute(c, &d, key, &s, g->time, r);
-            const float pixel = far * c->pixel;
+            const float pixel = c->paths.scene->camera.height > 0 ? c->pixel : far * c->pixel;
             r->reach = fminf(fmaxf(r->reach, LEAST * pixel / ACCURACY), MOST * pixel / ACCURACY);
         }
     }
@@ -368,7 +369,7 @@ koksma_status koksma__irradiance_cache_open(koksma__frame *frame, const koksma_r
     memset(c->options.groups, 0, sizeof c->options.groups);
     c->options.spp = RAYS;
     c->options.pairing = KOKSMA_PAIRING_SHUFFLED;
-    c->pixel = (float)(2 * tan(frame->scene->camera.fov_rad / 2) / c->options.height);
+    c->pixel = (float)koksma__pixel_size(&frame->scene->camera, c->options.height);
     c->smallest = c->pixel * LEAST * 0.01f;
     memset(c->buckets, -1, sizeof c->buckets);
     const koksma__use_list uses = {.lights = frame->light_selection == KOKSMA_LIGHTS_ALL ? (int)frame->lights.n : 1,

@@ -37,9 +37,10 @@
 #include <string.h>
 
 #include <koksma/image.h>
-#include <koksma/warp.h>
 
 #include "core/status.h"
+#include "render/aov.h"
+#include "render/lens.h"
 #include "render/pipelines/pipelines.h"
 #include "render/texture.h"
 #include "render/vector3.h"
@@ -63,27 +64,6 @@ static koksma__lens lens_of(const koksma__camera *camera)
     return lens;
 }
 
-/* Maps pairs to points on a lens of radius 1. */
-static void map_to_lens(const koksma__frame *frame, const float *pairs, int n, koksma__lanes x, koksma__lanes y)
-{
-    const koksma_warp *map = frame->scene->camera.lens_map;
-    for (int i = 0; i < n; i++) {
-        x[i] = pairs[2 * i];
-        y[i] = pairs[2 * i + 1];
-    }
-    if (map == koksma_warp_find("concentric-disk")) {
-        frame->batch->to_disk(n, x, y);
-        return;
-    }
-    for (int i = 0; i < n; i++) {
-        const double square[2] = {(double)x[i], (double)y[i]};
-        double disk[2];
-        map->map(square, disk);
-        x[i] = (float)disk[0];
-        y[i] = (float)disk[1];
-    }
-}
-
 /* Starts paths at the eye. The positions, lens points and times are padded with copies up to whole lanes. */
 static koksma_status start_paths(const koksma__trace *trace, const koksma__values *values, size_t first, size_t end)
 {
@@ -105,13 +85,14 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
         KOKSMA__TRY(koksma__wavefront_reserve(queue));
         koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
         if (points) {
-            map_to_lens(frame, points + 2 * start, whole, x, y);
+            koksma__lens_points(camera, frame->batch, points + 2 * start, whole, x, y);
         }
         for (int i = 0; times && i < whole; i++) {
             u[i] = times[2 * (start + (size_t)i)];
         }
         frame->batch->start(&frame->camera, &lens, values->film + 2 * start, points ? x : NULL, y, times ? u : NULL,
                             whole, to);
+        koksma__move_origins(frame, values->film + 2 * start, whole, &to->rays);
         for (int i = 0; i < whole; i++) {
             to->sample[i] = (uint32_t)(start + (size_t)(i < n ? i : n - 1));
         }
@@ -450,12 +431,23 @@ static void fill_lanes(koksma__paths *p, int n, int whole)
     }
 }
 
+/* Adds the light that was added to the vertices since `before`, which follows, to the AOVs. */
+static void note_aovs(const koksma__trace *trace, const koksma__vertices *v, int reflections, koksma__lanes before[3],
+                      koksma__values *values)
+{
+    if (values->parts) {
+        koksma__aov_add(trace->frame, v, (const koksma__lanes *)before, reflections, values);
+        memcpy(before, v->light, sizeof v->light);
+    }
+}
+
 static koksma_status trace_block(const koksma__trace *trace, koksma__paths *paths, int n, koksma__values *values)
 {
     static const float black[3] = {0, 0, 0};
     const koksma__frame *frame = trace->frame;
     koksma__vertices *v = trace->scratch->vertices;
     koksma__hits *hits = &v->hits;
+    _Alignas(64) koksma__lanes before[3] = {{0}};
     v->paths = paths;
     v->n = n;
     v->whole = (int)koksma__whole_lanes((size_t)n);
@@ -488,8 +480,14 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     for (int i = 0; values->albedo && trace->bounce == trace->first && i < n; i++) {
         note_first(values, v, i);
     }
+    note_aovs(trace, v, trace->bounce, before, values);
+    if (values->parts && !trace->bounce) {
+        koksma__aov_note(frame, v, values);
+    }
     KOKSMA__TRY(add_local(frame, v));
+    note_aovs(trace, v, trace->bounce + 2, before, values);
     KOKSMA__TRY(koksma__wavefront_light(trace, v, values));
+    note_aovs(trace, v, trace->bounce + 1, before, values);
     KOKSMA__TRY(scatter(trace, v));
     for (int i = 0; i < n; i++) {
         float *sum = trace->scratch->sums + 3 * (size_t)paths->sample[i];
@@ -509,6 +507,9 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
         for (int k = 0; k < frame->channels; k++) {
             const float value = sums[3 * i + (size_t)k]; /* a NaN is kept */
             values->rgb[i * (size_t)frame->channels + (size_t)k] = value > clamp ? clamp : value;
+            if (values->parts && value > clamp) {
+                koksma__aov_clamp(frame->aovs, values, i, k, clamp / value);
+            }
         }
     }
 }
@@ -562,6 +563,9 @@ static koksma_status trace_group(const koksma__frame *frame, void *opened, const
         scratch->drawn[i].done = false;
     }
     memset(scratch->sums, 0, 3 * n * sizeof *scratch->sums);
+    if (values->parts) {
+        memset(values->parts, 0, 3 * frame->aovs->n_parts * n * sizeof *values->parts);
+    }
     for (size_t p = 0; group->count > 1 && p < group->count; p++) {
         memset(scratch->pixel_of + group->start[p], (int)p, group->start[p + 1] - group->start[p]);
     }

@@ -26,14 +26,20 @@ static koksma_status parse_scale(const field *f, double scale[3])
     return status;
 }
 
-static koksma_status parse_placement(const field *f, const koksma__mesh *mesh, koksma__placement *p)
+typedef struct transform {
+    double translate[3], rotate_deg[3], scale[3];
+} transform;
+
+static koksma_status parse_transform(const field *f, transform *t)
 {
-    double translate[3] = {0}, rotate_deg[3] = {0}, scale[3] = {1, 1, 1};
-    KOKSMA__TRY(koksma__json_get_numbers(f, "translate", false, -FAR, FAR, 3, translate));
-    KOKSMA__TRY(koksma__json_get_numbers(f, "rotate_deg", false, -360, 360, 3, rotate_deg));
-    KOKSMA__TRY(parse_scale(f, scale));
-    KOKSMA__TRY(koksma__json_get_numbers(f, "motion", false, -FAR, FAR, 3, p->motion));
-    koksma__placement_matrix(translate, rotate_deg, scale, p->matrix);
+    KOKSMA__TRY(koksma__json_get_numbers(f, "translate", false, -FAR, FAR, 3, t->translate));
+    KOKSMA__TRY(koksma__json_get_numbers(f, "rotate_deg", false, -360, 360, 3, t->rotate_deg));
+    return parse_scale(f, t->scale);
+}
+
+/* Computes the box of the placed mesh, which must lie within the coordinates of scenes. */
+static koksma_status set_box(const field *f, const koksma__mesh *mesh, koksma__placement *p)
+{
     koksma__placement_box(mesh, p);
     for (int k = 0; k < 3; k++) {
         KOKSMA__JSON_FAIL_IF(!(p->low[k] >= -FAR && p->high[k] <= FAR), f, "it reaches beyond 1e6");
@@ -41,11 +47,38 @@ static koksma_status parse_placement(const field *f, const koksma__mesh *mesh, k
     return KOKSMA_OK;
 }
 
+/* Reads the field "to": the transform at time 1, whose members default to those at time 0. */
+static koksma_status parse_to(const field *f, const koksma__mesh *mesh, const transform *from, koksma__placement *p)
+{
+    field node;
+    transform to = *from;
+    koksma__placement end = *p;
+    KOKSMA__JSON_FAIL_IF(koksma__json_has(f, "motion"), f, "it takes one of 'motion' and 'to'");
+    KOKSMA__TRY(koksma__json_member(f, "to", &node));
+    KOKSMA__TRY(koksma__json_only(&node, KEYS("translate", "rotate_deg", "scale")));
+    KOKSMA__TRY(parse_transform(&node, &to));
+    p->poses[0] = koksma__pose_of(from->translate, from->rotate_deg, from->scale);
+    p->poses[1] = koksma__pose_of(to.translate, to.rotate_deg, to.scale);
+    p->steps = koksma__pose_steps(p->poses);
+    koksma__placement_matrix(to.translate, to.rotate_deg, to.scale, end.matrix);
+    return set_box(&node, mesh, &end);
+}
+
+static koksma_status parse_placement(const field *f, const koksma__mesh *mesh, koksma__placement *p)
+{
+    transform t = {.scale = {1, 1, 1}};
+    KOKSMA__TRY(parse_transform(f, &t));
+    KOKSMA__TRY(koksma__json_get_numbers(f, "motion", false, -FAR, FAR, 3, p->motion));
+    koksma__placement_matrix(t.translate, t.rotate_deg, t.scale, p->matrix);
+    KOKSMA__TRY(set_box(f, mesh, p));
+    return koksma__json_has(f, "to") ? parse_to(f, mesh, &t, p) : KOKSMA_OK;
+}
+
 static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma__placement *p)
 {
     double radiance[3];
     KOKSMA__TRY(koksma__parse_colour(f, "emission", true, BRIGHT, radiance));
-    KOKSMA__JSON_FAIL_IF(p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth, f,
+    KOKSMA__JSON_FAIL_IF(koksma__placement_moves(p) || p->smooth, f,
                          "a mesh that is a light can be neither smooth nor moving");
     const koksma_status added = koksma__scene_add_glow(scene, p, radiance);
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
@@ -116,7 +149,7 @@ static koksma_status parse_instance(const char *scene_name, const field *f, koks
                     : add_placement(f, scene, mesh, shape->material);
 }
 
-#define PLACEMENT "emission", "translate", "rotate_deg", "scale", "motion", "smooth"
+#define PLACEMENT "emission", "translate", "rotate_deg", "scale", "motion", "to", "smooth"
 
 const koksma__shape_type koksma__shape_mesh = {
     .kind = {.name = "mesh",

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Further images of a render (koksma_render_aovs): parts of its light, object numbers, halves of its samples. */
+#ifndef KOKSMA_RENDER_AOV_H
+#define KOKSMA_RENDER_AOV_H
+
+#include "render/frame.h"
+
+typedef enum koksma__aov_kind {
+    KOKSMA__AOV_LIGHT, /* the light that was reflected `first` to `last` times */
+    KOKSMA__AOV_ID,
+    KOKSMA__AOV_HALF /* the samples first, first + 2, ... of each pixel */
+} koksma__aov_kind;
+
+typedef struct koksma__aov {
+    koksma__aov_kind kind;
+    int first, last;
+    koksma_image *image;
+} koksma__aov;
+
+struct koksma__aovs {
+    size_t n;
+    bool has_id;
+    size_t n_parts; /* number of AOVs of light */
+    koksma__aov items[KOKSMA_MAX_AOVS];
+};
+
+/* Finds the meaning of the names and allocates the images. Errors: MEMORY. */
+koksma_status koksma__aovs_init(const koksma__frame *frame, koksma_aovs *images, koksma__aovs *out);
+
+/* Allocates the AOVs' values of a group's samples. Errors: MEMORY. */
+koksma_status koksma__aov_values_init(const koksma__aovs *aovs, size_t capacity, koksma__values *values);
+
+/* Adds what was added to the light of the vertices since `before` to the parts of light with `reflections`. */
+void koksma__aov_add(const koksma__frame *frame, const koksma__vertices *v, const koksma__lanes before[3],
+                     int reflections, koksma__values *values);
+
+/* Stores the numbers of the objects that the rays hit first. */
+void koksma__aov_note(const koksma__frame *frame, const koksma__vertices *v, koksma__values *values);
+
+/* Reduces the parts of sample i, channel k, by the factor by which the sample was clamped. */
+void koksma__aov_clamp(const koksma__aovs *aovs, koksma__values *values, size_t i, int k, float factor);
+
+/* Adds the samples of a group to the images. weights: of the filter, or NULL. */
+void koksma__aov_film(const koksma__frame *frame, const koksma__group *group, const koksma__values *values,
+                      const float *weights);
+
+#endif
