@@ -238,12 +238,15 @@ def check(status: int) -> None:
 
 
 def call(function: object, *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
-         run_at: int, progress: Optional[Callable[[float], object]] = None) -> None:
+         run_at: int, progress: Optional[Callable[[float], object]] = None, short: bool = False) -> None:
     """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler or `progress` raises
-    stops it, and comes out: KeyboardInterrupt after Ctrl-C."""
+    stops it, and comes out: KeyboardInterrupt after Ctrl-C. A short call is over before anybody could want to stop it, and
+    does without what that costs: Python runs handlers when it has returned."""
     if time_limit is not None and not time_limit > 0:
         raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
     threads = whole("threads", threads, 0, s.MAX_INT)
+    if short and time_limit is None and progress is None:
+        return check(function(*arguments[:run_at], byref(s.Run(threads)), *arguments[run_at:]))
     signals = Signals()
 
     def keep_going(_context: object, fraction_done: float) -> bool:

@@ -17,6 +17,7 @@ from ._library import ArgumentError, allow_exec as allowing_exec, call, check, c
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
+_SHORT_RANGE, _SHORT_SET = 1 << 18, 64  # coordinates made in 30 ms at most, and measured in 1 ms
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
@@ -271,11 +272,12 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         raise ArgumentError("out is a writable, aligned, C-contiguous array of doubles, of shape (n, dim)")
     elif out.shape != (n or out.shape[0], dim or out.shape[1]):
         raise ArgumentError(f"out has the shape {out.shape}, not ({n or out.shape[0]}, {dim or out.shape[1]})")
-    points = view(out)
+    points, member = view(out), parsed.pattern.contents
+    short = bool(member.ranges) and not member.operand and out.size <= _SHORT_RANGE
     if first:
-        call(core().koksma_generate_range, byref(parsed), seed, 0, first, byref(points), threads=threads, run_at=4)
+        call(core().koksma_generate_range, byref(parsed), seed, 0, first, byref(points), threads=threads, run_at=4, short=short)
     else:
-        call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2)
+        call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2, short=short)
     return out
 
 
@@ -331,8 +333,9 @@ def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None,
     array = as_points(points)
     parsed, value, c_points = spec("measure", measure), s.Value(), view(array)
     if warp is None:
+        short = parsed.measure.contents.answer == 0 and ":" not in measure and array.size <= _SHORT_SET
         call(core().koksma_evaluate, byref(parsed), byref(c_points), byref(value), threads=threads,
-             time_limit=time_limit, run_at=2)
+             time_limit=time_limit, run_at=2, short=short)
     else:
         found = core().koksma_warp_find(text(warp))
         if not found:

@@ -145,6 +145,31 @@ class NotRaised(Case):
             koksma.measure([[0.5, 1.5]])
         self.assertIs(signal.getsignal(signal.SIGUSR1), handler)
 
+    def test_short_calls_leave_handlers_alone(self):
+        """Few points of any pattern that has ranges, and any exact measure of few points; nothing else."""
+        class Taken(Exception):
+            pass
+
+        def take():
+            raise Taken
+
+        self.addCleanup(setattr, _library, "Signals", Signals)
+        _library.Signals = take
+        ranged = [m.name for m in koksma.patterns() if not m.operand and koksma.has_ranges(m.name) and m.min_dim <= 2 <= m.max_dim]
+        self.assertGreater(len(ranged), 10)
+        for name in ranged:
+            points = koksma.generate(name, 13 if name == "fibonacci" else 16)
+        self.assertEqual(koksma.generate("sobol", 16, first=1 << 30).shape, (16, 2))
+        for name in ("star", "l2-star", "extreme", "edge", "min-distance"):
+            self.assertGreater(koksma.measure(points, name).value, 0)
+        for longer in (lambda: koksma.generate("best-candidate", 16), lambda: koksma.generate("sobol", 1 << 18),
+                       lambda: koksma.measure(PLANE, "star"), lambda: koksma.measure(points, "star-lower"),
+                       lambda: koksma.measure(points, "extreme:grid=9"), lambda: koksma.measure(points, "star", time_limit=9)):
+            self.assertRaises(Taken, longer)
+        self.on(signal.SIGUSR1, raising(Timeout("after")))
+        with self.assertRaisesRegex(Timeout, "after"):
+            _library.call(lambda _run: signal.raise_signal(signal.SIGUSR1) or 0, run_at=0, short=True)
+
     def test_in_another_thread(self):
         handler, results = self.on(signal.SIGUSR1, raising(Timeout("outside"))), []
         thread = threading.Thread(target=lambda: results.append(koksma.measure(ROWS, "star", time_limit=0.3).exact))
