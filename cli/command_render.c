@@ -296,7 +296,7 @@ const cli_command cli_command_render = {
         "check' lists them, from 1; 0: none), half the means of every second sample, half-even and half-odd.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
-                "koksma render cornell --integrator path --aov direct,indirect,half,id -o parts.exr\n"
+                "koksma render cornell --integrator path --aov direct,half,id -o parts.exr\n"
                 "koksma render cornell --integrator path --filter mitchell --splat -o c.exr\n"
                 "koksma render glossy --adaptive hierarchical --counts counts.png -o glossy.exr\n",
     .options = options,

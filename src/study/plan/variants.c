@@ -224,7 +224,8 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
             words->at[i] = strdup(text);
             status = words->at[i] ? KOKSMA_OK : koksma__fail_memory(strlen(text));
             for (size_t k = 0; !status && k < i; k++) {
-                status = strcmp(words->at[k], text) ? KOKSMA_OK : koksma__json_fail(&item, "'%s' is listed twice", text);
+                status =
+                    strcmp(words->at[k], text) ? KOKSMA_OK : koksma__json_fail(&item, "'%s' is listed twice", text);
             }
         }
     }
