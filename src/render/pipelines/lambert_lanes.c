@@ -152,20 +152,12 @@ static float colour_of_nothing(const koksma__frame *f)
 static bool is_empty(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
 {
     scratch *r = opened;
-    const size_t n = group->start[group->count];
-    if (!f->frustum_cull || f->filter || values->albedo || !n) {
+    if (!f->frustum_cull || f->filter || values->albedo) {
         return false;
     }
     look(f, r, group);
-    if (r->shapes.n) {
-        return false;
-    }
-    const float colour = colour_of_nothing(f);
-    for (size_t i = 0; i < n; i++) {
-        values->rgb[i] = colour;
-    }
-    values->rays += n;
-    return true;
+    values->rgb[0] = colour_of_nothing(f);
+    return !r->shapes.n;
 }
 
 /* ---- Samples ------------------------------------------------------------------------------------------------ */
