@@ -201,6 +201,11 @@ INLINE void some_words(const stream *s, uint64_t first, size_t count, int rounds
     for (; done + LANES <= count; done += LANES) {
         quads(s, first + done, CHAINS, rounds, out + 4 * done);
     }
+    if (room && CHAINS > 2 && done + 2 * LANES64 < count &&
+        count <= done + 3 * LANES64) { /* all that is left, together */
+        quads(s, first + done, 3, rounds, out + 4 * done);
+        return;
+    }
     if (CHAINS > 2 && done + 2 * LANES64 <= count) {
         quads(s, first + done, 2, rounds, out + 4 * done);
         done += 2 * LANES64;

@@ -275,6 +275,17 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
     }
 }
 
+void koksma__film_fill(const koksma__film *film, const koksma__group *group, const float *rgb, size_t channels)
+{
+    for (size_t p = 0; p < group->count; p++) {
+        const size_t pixel = group->first + p, n = group->start[p + 1] - group->start[p];
+        film->layers->samples.pixels[pixel] = (float)n;
+        for (size_t k = 0; n && k < channels; k++) {
+            film->layers->image.pixels[pixel * channels + k] = rgb[k];
+        }
+    }
+}
+
 /* ---- The end ---------------------------------------------------------------------------------------------- */
 
 /* Adds the sums of a finished task to the film, and releases them. */

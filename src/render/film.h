@@ -55,6 +55,9 @@ void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, siz
 void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t task, const koksma__group *group,
                       const koksma__values *values);
 
+/* `koksma__film_add` for samples of one colour, if the film neither splats nor has other layers. */
+void koksma__film_fill(const koksma__film *film, const koksma__group *group, const float *rgb, size_t channels);
+
 /* Called after all tasks have ended: adds the splats in the order of tasks, and, if the image is whole, fills pixels
    without samples from their neighbours; otherwise they are 0. Errors: MEMORY. */
 koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film, bool whole);

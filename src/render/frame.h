@@ -78,8 +78,9 @@ typedef struct koksma__pipeline {
     /* Allocates the scratch of a task. Errors: MEMORY. */
     koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **scratch);
     void (*close)(void *scratch);
-    /* Whether no ray of the group can hit anything, wherever its samples are within the pixels. If so, it sets the
-       colours in values, and no samples need to be drawn or traced. NULL: the pipeline has no such test. */
+    /* Whether no ray of the group can hit anything, wherever its samples are within the pixels, and no filter or other
+       layer needs samples. If so, it sets the colour of all samples in values->rgb[0] and so on, and no samples need to
+       be drawn or traced. NULL: the pipeline has no such test. */
     bool (*is_empty)(const koksma__frame *frame, void *scratch, const koksma__group *group, koksma__values *values);
     /* Fills values, where film and weights are set already. Errors: the sampler's, MEMORY. */
     koksma_status (*trace)(const koksma__frame *frame, void *scratch, const koksma__group *group,

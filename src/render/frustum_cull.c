@@ -20,12 +20,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/status.h"
 #include "render/description.h"
 
-#define UNIT 0x1p-24 /* relative rounding error of a float */
-#define SPARE 64     /* how many such errors are allowed for */
+#define UNIT 0x1p-24   /* relative rounding error of a float */
+#define SPARE 64       /* how many such errors are allowed for */
+#define GRAZING 0x1p-7 /* least sine between a plane and the rays whose footprint there is bounded */
 
 /* a + x b + y c */
 typedef struct linear {
@@ -37,10 +39,15 @@ typedef struct bound {
     size_t n;                 /* number of entries in `out`; the shape is outside where one of them is > 0 */
     linear out[5];
     double a, b, c, aa, ab, bb; /* for a sphere: a + b x + c y + aa x^2 + ab x y + bb y^2 */
+    linear towards;             /* for a flat shape: N above, and the distance of the eye from its plane */
+    double height;
+    double centre[3], radius; /* of a sphere around the shape */
 } bound;
 
 struct koksma__frustum_cull {
-    double widen; /* margin added to the film's rectangles */
+    koksma__batch_camera camera;
+    double longest; /* bound on the length of d */
+    double widen;   /* margin added to the film's rectangles */
     size_t n;
     bound bounds[];
 };
@@ -80,6 +87,8 @@ static bound bound_flat(const koksma__batch_camera *camera, const koksma__batch_
     const double magnitude = distance + length1(s->centre) + length1(camera->eye);
     const linear towards = combine(height > 0 ? -1 : 1, along(camera, n), 0, (linear){0, 0, 0});
     b.sees_all = !(size > SPARE * UNIT * magnitude);
+    b.towards = towards;
+    b.height = size;
     b.out[0] = combine(-1, towards, 0, towards);
     b.out[0].a -= SPARE * UNIT * longest;
     const double half_u = (double)s->half_u, half_v = (double)s->half_v;
@@ -144,10 +153,16 @@ koksma_status koksma__frustum_cull_open(const koksma__batch_camera *camera, cons
     const double x = length1(camera->step_x), y = length1(camera->step_y);
     const double longest = length1(camera->base) + (width + 2) * x + (height + 2) * y;
     cull->n = shapes->n;
+    cull->camera = *camera;
+    cull->longest = longest;
     cull->widen = 0x1p-10 + SPARE * UNIT * longest / (x < y ? x : y);
     for (size_t i = 0; i < shapes->n; i++) {
         const koksma__batch_shape *s = &shapes->shapes[i];
         cull->bounds[i] = s->is_flat ? bound_flat(camera, s, longest) : bound_sphere(camera, s);
+        for (int k = 0; k < 3; k++) {
+            cull->bounds[i].centre[k] = (double)s->centre[k];
+        }
+        cull->bounds[i].radius = sqrt((double)s->radius2);
     }
     return KOKSMA_OK;
 }
@@ -194,4 +209,29 @@ size_t koksma__frustum_cull_shapes(const koksma__frustum_cull *cull, const doubl
         }
     }
     return n;
+}
+
+bool koksma__frustum_cull_footprint(const koksma__frustum_cull *cull, size_t i, const double x[2], const double y[2],
+                                    koksma__footprint *out)
+{
+    const bound *b = &cull->bounds[i];
+    const koksma__batch_camera *c = &cull->camera;
+    *out = (koksma__footprint){.n = 1, .radius = b->radius};
+    if (b->is_sphere) {
+        memcpy(out->at[0], b->centre, sizeof b->centre);
+        return !b->sees_all;
+    }
+    bool all = !b->sees_all;
+    *out = (koksma__footprint){.n = 4};
+    for (int corner = 0; corner < 4; corner++) {
+        const double px = corner & 1 ? x[1] + cull->widen : x[0] - cull->widen;
+        const double py = corner & 2 ? y[1] + cull->widen : y[0] - cull->widen;
+        const double towards = b->towards.a + px * b->towards.b + py * b->towards.c;
+        all &= towards > GRAZING * cull->longest;
+        for (int k = 0; k < 3; k++) {
+            const double d = (double)c->base[k] + px * (double)c->step_x[k] + py * (double)c->step_y[k];
+            out->at[corner][k] = (double)c->eye[k] + b->height / towards * d;
+        }
+    }
+    return all;
 }

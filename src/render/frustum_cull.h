@@ -5,6 +5,7 @@
 #define KOKSMA_RENDER_FRUSTUM_CULL_H
 
 #include "render/pipelines/batch.h"
+#include "render/shadow_cull.h"
 
 typedef struct koksma__frustum_cull koksma__frustum_cull;
 
@@ -17,5 +18,10 @@ void koksma__frustum_cull_close(koksma__frustum_cull *cull);
    their indices in ascending order to `seen`, which has capacity for all shapes, and returns their number. */
 size_t koksma__frustum_cull_shapes(const koksma__frustum_cull *cull, const double x[2], const double y[2],
                                    size_t *seen);
+
+/* Bounds the positions where rays through this part of the film hit shape i. Returns false if they have no bound: some
+   rays graze the shape's plane or miss it. */
+bool koksma__frustum_cull_footprint(const koksma__frustum_cull *cull, size_t i, const double x[2], const double y[2],
+                                    koksma__footprint *out);
 
 #endif

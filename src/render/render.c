@@ -38,19 +38,18 @@ typedef struct job {
 static koksma_status render_group(job *j, size_t task, const koksma__group *group, koksma__task_scratch *r)
 {
     const koksma__frame *f = j->frame;
-    koksma_status status = KOKSMA_OK;
-    const bool empty = j->pipeline->is_empty && j->pipeline->is_empty(f, r->pipeline_scratch, group, &r->values);
-    if (!empty) {
-        status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
+    if (j->pipeline->is_empty && j->pipeline->is_empty(f, r->pipeline_scratch, group, &r->values)) {
+        r->values.rays += group->start[group->count];
+        koksma__film_fill(&j->film, group, r->values.rgb, (size_t)f->channels);
+        return KOKSMA_OK;
     }
-    if (!status && !empty && group->start[group->count]) {
+    KOKSMA__TRY(koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film));
+    if (group->start[group->count]) {
         koksma__film_place(f, group, true, &r->values);
-        status = j->pipeline->trace(f, r->pipeline_scratch, group, &r->values);
+        KOKSMA__TRY(j->pipeline->trace(f, r->pipeline_scratch, group, &r->values));
     }
-    if (!status) {
-        koksma__film_add(f, &j->film, task, group, &r->values);
-    }
-    return status;
+    koksma__film_add(f, &j->film, task, group, &r->values);
+    return KOKSMA_OK;
 }
 
 /* ---- Tasks --------------------------------------------------------------------------------------------- */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Shapes that a part of the film is said not to see are met by none of its rays: places all over random parts,
    through random cameras (narrow and wide, far from and almost in the plane of a shape, far from the origin), traced
-   with all shapes and with those in sight, to the last bit. */
+   with all shapes and with those in sight, to the last bit. Shapes that are said to be clear of shadow rays block none
+   of them. */
 #include <string.h>
 
 #include "core/random.h"
@@ -207,9 +208,80 @@ static void grazing_shapes_are_not_forgotten(void **state)
     assert_true(sum.hidden > 0);
 }
 
+/* Shadow rays from the hits on one shape to a light, past each other shape alone: one said to be clear blocks none. */
+static void check_shadows(const koksma__frustum_cull *sight, const koksma__batch_camera *camera,
+                          const koksma__batch_shapes *shapes, double offset, tally *sum)
+{
+    const koksma__batch_table *batch = koksma__batch();
+    const double side = pow(2, uniform(-3, 4)), left = uniform(0, SIDE - side), top = uniform(0, SIDE - side);
+    const double x[2] = {left, left + side}, y[2] = {top, top + side};
+    _Alignas(64) float xy[2 * KOKSMA__BLOCK];
+    float u[3], v[3];
+    koksma__batch_light light = {.power = 1};
+    koksma__rays rays;
+    koksma__hits hits;
+    koksma__footprint part;
+    const size_t on = (size_t)uniform(0, SHAPES);
+    const koksma__batch_shapes own = {1, &shapes->shapes[on]};
+    frame(light.normal, u, v);
+    for (int k = 0; k < 3; k++) {
+        light.corner[k] = (float)(offset + uniform(-6, 6));
+        light.edge_x[k] = u[k] * (float)uniform(0, 2);
+        light.edge_y[k] = v[k];
+    }
+    make_places(x, y, xy);
+    batch->camera(camera, xy, KOKSMA__BLOCK, &rays);
+    if (!batch->closest(&own, &rays, NULL, KOKSMA__BLOCK, &hits) ||
+        !koksma__frustum_cull_footprint(sight, on, x, y, &part)) {
+        return;
+    }
+    for (int i = 0; i < 2 * KOKSMA__BLOCK; i++) {
+        xy[i] = (float)(i % 8 < 4 ? i / 2 % 2 : uniform(0, 1));
+    }
+    for (size_t k = 0; k < SHAPES; k++) {
+        const koksma__batch_shapes one = {1, &shapes->shapes[k]};
+        koksma__shadows before, after;
+        if (k == on || !batch->aim(&light, &hits, xy, KOKSMA__BLOCK, &before)) {
+            continue;
+        }
+        after = before;
+        batch->occlude(&one, &hits, KOKSMA__BLOCK, &after);
+        const bool clear = koksma__shadow_cull_clear(&part, &light, &shapes->shapes[k]);
+        const bool same = !memcmp(after.light, before.light, sizeof after.light);
+        assert_true(same || !clear);
+        sum->hidden += clear;
+        sum->missed += same;
+    }
+}
+
+static void clear_shapes_cast_no_shadow(void **state)
+{
+    (void)state;
+    static const double offsets[] = {0, 0, 30, 1000};
+    for (int o = 0; o < 4; o++) {
+        tally sum = {0};
+        for (int round = 0; round < 4 * ROUNDS; round++) {
+            koksma__batch_shape list[SHAPES];
+            koksma__batch_camera camera;
+            koksma__frustum_cull *sight;
+            make_shapes(offsets[o], list);
+            make_camera(list, offsets[o], o == 1 ? pow(10, uniform(-3, 0)) : 0, &camera);
+            const koksma__batch_shapes shapes = {SHAPES, list};
+            assert_ok(koksma__frustum_cull_open(&camera, &shapes, SIDE, SIDE, &sight));
+            for (int i = 0; i < PARTS; i++) {
+                check_shadows(sight, &camera, &shapes, offsets[o], &sum);
+            }
+            koksma__frustum_cull_close(sight);
+        }
+        assert_true(sum.missed > 1000);
+        assert_true(offsets[o] > 100 || sum.hidden > sum.missed / 2); /* most are known to be clear */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clear_shapes_cast_no_shadow),
         cmocka_unit_test(hidden_shapes_are_not_met),
         cmocka_unit_test(grazing_shapes_are_not_forgotten),
     };

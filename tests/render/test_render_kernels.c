@@ -245,6 +245,8 @@ static void run_all(const koksma__batch_table *batch, world *w, float out[3][KOK
     double xs[2 * KOKSMA__BLOCK];
     uint32_t words[KOKSMA__BLOCK];
     float places[2 * KOKSMA__BLOCK], shuffled[2 * KOKSMA__BLOCK];
+    float sums[KOKSMA__BLOCK];
+    koksma__shadows unblocked;
     const float offset[2] = {7, 11};
     for (int i = 0; i < 2 * KOKSMA__BLOCK; i++) {
         xs[i] = uniform(0, 1);
@@ -256,7 +258,14 @@ static void run_all(const koksma__batch_table *batch, world *w, float out[3][KOK
     batch->camera(&camera, shuffled, n, &w->rays);
     batch->closest(&w->shapes, &w->rays, NULL, n, &w->hits);
     batch->albedo(materials, &w->hits, n, out[0]);
-    batch->aim(&light, &w->hits, places, n, &w->shadows);
+    const int lit = batch->aim(&light, &w->hits, places, n, &w->shadows);
+    for (int i = 0; i < n; i++) {
+        sums[i] = 0.1f;
+        out[1][i] = 0.1f + w->shadows.light[i];
+    }
+    assert_int_equal(batch->light(&light, &w->hits, places, n, &unblocked, sums), lit);
+    assert_memory_equal(unblocked.light, w->shadows.light, (size_t)n * sizeof *sums);
+    assert_memory_equal(sums, out[1], (size_t)n * sizeof *sums);
     batch->occlude(&w->shapes, &w->hits, n, &w->shadows);
     for (int i = 0; i < n; i++) {
         out[1][i] = 0.1f;

@@ -723,7 +723,7 @@ static koksma_status make(const koksma_scene *scene, koksma__geometry *out)
 {
     const size_t size = sizeof(embree) + scene->n_placements * sizeof(part);
     embree *e = calloc(1, size);
-    *out = (koksma__geometry){e, NULL, closest, occlude, light_of, object_of, triangle_of, release};
+    *out = (koksma__geometry){e, NULL, NULL, closest, occlude, light_of, object_of, triangle_of, release};
     KOKSMA__REQUIRE_MEMORY(e, size);
     fenv_t mode; /* Embree may change the floating-point mode while it builds */
     fegetenv(&mode);

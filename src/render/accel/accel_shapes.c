@@ -120,6 +120,6 @@ koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *
     }
     s->batch = koksma__batch();
     s->scene = scene;
-    *out = (koksma__geometry){s, &s->all, closest, occlude, light_of, object_of, NULL, release};
+    *out = (koksma__geometry){s, &s->all, &s->occluders, closest, occlude, light_of, object_of, NULL, release};
     return KOKSMA_OK;
 }

@@ -20,7 +20,8 @@ typedef struct koksma__triangle {
 
 typedef struct koksma__geometry {
     void *made;
-    const koksma__batch_shapes *shapes; /* the analytic shapes, if the scene has no meshes; else NULL */
+    /* the analytic shapes, and those of them that can block shadow rays, if the scene has no meshes; else NULL */
+    const koksma__batch_shapes *shapes, *occluders;
     /* Finds the closest hits of n rays and returns the number of lanes with a hit. from: the primitive on which each
        ray starts (-1: none), or NULL if no ray starts on a primitive. */
     int (*closest)(const struct koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,

@@ -24,4 +24,14 @@
 /* Forces inlining of functions that are compiled once for each value of a constant argument. */
 #define INLINE static inline __attribute__((always_inline))
 
+/* Returns how many of the first n rays hit the primitive. */
+INLINE int koksma__batch_count_hits(const koksma__hits *h, int32_t id, int n)
+{
+    int count = 0;
+    for (int i = 0; i < STEP(n); i++) {
+        count += h->primitive[i] == id;
+    }
+    return count;
+}
+
 #endif

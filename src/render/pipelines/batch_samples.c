@@ -62,9 +62,12 @@ INLINE void walk(const uint32_t *words, int bits, int vectors, shorts *x)
         for (int v = 0; v < vectors; v++) {
             const shorts y = x[v] * factor + add;
             const longs z = (longs)y ^ ((longs)(y >> 2) & (longs)quarter);
-            const longs low = (longs)((shorts)z >> turn), high = (longs)((shorts)z << back) & (longs)mask;
+            const longs low = (longs)((shorts)z >> turn), high = (longs)((shorts)z << back);
             x[v] = (shorts)((low & (longs)turned) | high);
         }
+    }
+    for (int v = 0; v < vectors; v++) {
+        x[v] = x[v] & mask;
     }
 }
 

@@ -62,8 +62,9 @@ void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__h
     }
 }
 
-int BATCH_NAME(aim)(const koksma__batch_light *light, const koksma__hits *h, const float *xy, int n,
-                    koksma__shadows *s)
+/* The loop of `aim`, or of `light` if there are sums. */
+INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h, const float *restrict xy, int n,
+                koksma__shadows *restrict s, float *restrict sum)
 {
     const koksma__batch_light l = *light;
     int lit = 0;
@@ -77,13 +78,29 @@ int BATCH_NAME(aim)(const koksma__batch_light *light, const koksma__hits *h, con
         const float at_light = -(l.normal[0] * dx + l.normal[1] * dy + l.normal[2] * dz);
         const int facing = (at_hit > 0) & (at_light > 0);
         const float value = l.power * at_hit * at_light / (square * square);
-        s->dx[i] = dx;
-        s->dy[i] = dy;
-        s->dz[i] = dz;
         s->light[i] = facing ? value : 0;
         lit += facing;
+        if (sum) {
+            sum[i] += s->light[i];
+        } else {
+            s->dx[i] = dx;
+            s->dy[i] = dy;
+            s->dz[i] = dz;
+        }
     }
     return lit;
+}
+
+int BATCH_NAME(aim)(const koksma__batch_light *light, const koksma__hits *h, const float *xy, int n,
+                    koksma__shadows *s)
+{
+    return send(light, h, xy, n, s, NULL);
+}
+
+int BATCH_NAME(light)(const koksma__batch_light *light, const koksma__hits *h, const float *xy, int n,
+                      koksma__shadows *s, float *sum)
+{
+    return send(light, h, xy, n, s, sum);
 }
 
 void BATCH_NAME(add)(const koksma__shadows *shadows, int n, float *sum)

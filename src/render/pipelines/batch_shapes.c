@@ -46,15 +46,6 @@ INLINE void finish_flat(const koksma__batch_shape *s, const koksma__rays *restri
     }
 }
 
-static int count_hits(const koksma__hits *h, int32_t id, int n)
-{
-    int count = 0;
-    for (int i = 0; i < STEP(n); i++) {
-        count += h->primitive[i] == id;
-    }
-    return count;
-}
-
 static void finish_shape(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits, bool all)
 {
     if (types[s->kind]->finish) {
@@ -92,13 +83,13 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
     for (size_t k = 0; k < shapes->n; k++) {
         types[shapes->shapes[k].kind]->hit(&shapes->shapes[k], rays, from ? from : nowhere, n, hits);
     }
-    int done = count_hits(hits, -1, n), count = 0;
+    int done = koksma__batch_count_hits(hits, -1, n), count = 0;
     const int hit = STEP(n) - done;
     if (hit < STEP(n)) {
         clear(hits, n);
     }
     for (size_t k = 0; k < shapes->n && done < STEP(n); k++, done += count) {
-        count = count_hits(hits, shapes->shapes[k].id, n);
+        count = koksma__batch_count_hits(hits, shapes->shapes[k].id, n);
         if (count) {
             finish_shape(&shapes->shapes[k], rays, n, hits, count == STEP(n));
         }

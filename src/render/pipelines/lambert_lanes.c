@@ -20,12 +20,15 @@ typedef struct scratch {
     koksma__sample_scratch draw;
     float *positions; /* sampled positions on lights, one array per light */
     size_t capacity;
-    /* The shapes that a group of pixels may see (`shapes`, copied to `list`), their indices (`seen`), and that
-       group (`first`, `count`). */
-    koksma__batch_shapes shapes;
+    /* The shapes that pixels first .. end - 1 may see (`shapes`, copied to `list`), their indices (`seen`), and for
+       each light those that may block its rays to these pixels. */
+    koksma__batch_shapes shapes, *blockers;
     koksma__batch_shape *list;
-    size_t *seen, first, count;
+    size_t *seen, first, end, mixed; /* mixed: the end of a tile that sees several shapes */
 } scratch;
+
+/* Decisions for this many pixels of a row hold for each of them. */
+enum { TILE = 16 };
 
 static bool takes(const koksma__frame *frame)
 {
@@ -47,7 +50,7 @@ static void close_scratch(void *opened)
     scratch *r = opened;
     if (r) {
         koksma__sample_scratch_fini(&r->draw);
-        KOKSMA__FREE(r->positions, r->list, r->seen, r);
+        KOKSMA__FREE(r->positions, r->list, r->blockers, r->seen, r);
     }
 }
 
@@ -63,10 +66,12 @@ static koksma_status open_scratch(const koksma__frame *frame, size_t capacity, v
         status = koksma__fail_memory(2 * capacity * (frame->lights.n + 1) * sizeof *r->positions);
     }
     if (!status && frame->frustum_cull) {
-        const size_t n = frame->geometry.shapes->n + 1;
-        r->list = malloc(n * sizeof *r->list);
+        const size_t n = frame->geometry.shapes->n + 1, lights = frame->lights.n;
+        r->list = malloc(n * (lights + 1) * sizeof *r->list);
         r->seen = malloc(n * sizeof *r->seen);
-        status = r->list && r->seen ? KOKSMA_OK : koksma__fail_memory(n * sizeof *r->list);
+        r->blockers = malloc((lights + 1) * sizeof *r->blockers);
+        status =
+            r->list && r->seen && r->blockers ? KOKSMA_OK : koksma__fail_memory(n * (lights + 1) * sizeof *r->list);
     }
     if (status) {
         close_scratch(r);
@@ -77,31 +82,66 @@ static koksma_status open_scratch(const koksma__frame *frame, size_t capacity, v
 
 /* ---- What a group sees ------------------------------------------------------------------------------------ */
 
-/* Finds the shapes that the group of pixels may see, including the margin by which the filter moves samples. */
-static void look(const koksma__frame *f, scratch *r, const koksma__group *group)
+/* Finds the shapes that may block rays from the only shape in sight, of index i, to each light. */
+static void find_blockers(const koksma__frame *f, scratch *r, size_t i, const double x[2], const double y[2])
 {
-    if (r->count && r->first == group->first && r->count == group->count) {
-        return;
+    const koksma__batch_shapes *all = f->geometry.occluders;
+    koksma__batch_shape *list = r->list + f->geometry.shapes->n;
+    koksma__footprint part;
+    const bool bounded = koksma__frustum_cull_footprint(f->frustum_cull, i, x, y, &part);
+    for (size_t l = 0; l < f->lights.n; l++, list += f->geometry.shapes->n) {
+        r->blockers[l] = (koksma__batch_shapes){0, list};
+        for (size_t k = 0; k < all->n; k++) {
+            const koksma__batch_shape *s = &all->shapes[k];
+            const bool own = (size_t)s->id == i;
+            if (own ? !s->is_flat : !bounded || !koksma__shadow_cull_clear(&part, &f->lights.rectangles[l], s)) {
+                list[r->blockers[l].n++] = *s;
+            }
+        }
     }
+}
+
+/* Finds the shapes that pixels first .. end - 1 may see, including the margin by which the filter moves samples. */
+static void look_at(const koksma__frame *f, scratch *r, size_t first, size_t end)
+{
     const double reach = f->filter && !f->options->splat ? f->options->filter->radius : 0;
-    const size_t width = (size_t)f->options->width, last = group->first + group->count - 1;
-    const size_t row = group->first / width, end_row = last / width + 1;
-    const size_t column = row + 1 == end_row ? group->first % width : 0;
+    const size_t width = (size_t)f->options->width, last = end - 1;
+    const size_t row = first / width, end_row = last / width + 1;
+    const size_t column = row + 1 == end_row ? first % width : 0;
     const size_t end_column = row + 1 == end_row ? last % width + 1 : width;
     const double x[2] = {(double)column - reach, (double)end_column + reach};
     const double y[2] = {(double)row - reach, (double)end_row + reach};
-    const size_t n = koksma__frustum_cull_shapes(f->frustum_cull, x, y, r->seen);
-    bool same = n == r->shapes.n;
-    for (size_t i = 0; i < n; i++) {
-        const koksma__batch_shape *shape = &f->geometry.shapes->shapes[r->seen[i]];
-        same = same && r->list[i].id == shape->id;
-        if (!same) {
-            r->list[i] = *shape;
-        }
+    r->shapes = (koksma__batch_shapes){koksma__frustum_cull_shapes(f->frustum_cull, x, y, r->seen), r->list};
+    for (size_t i = 0; i < r->shapes.n; i++) {
+        r->list[i] = f->geometry.shapes->shapes[r->seen[i]];
     }
-    r->shapes = (koksma__batch_shapes){n, r->list};
-    r->first = group->first;
-    r->count = group->count;
+    r->first = first;
+    r->end = end;
+    if (r->shapes.n == 1) {
+        find_blockers(f, r, r->seen[0], x, y);
+    }
+    for (size_t l = 0; r->shapes.n > 1 && l < f->lights.n; l++) {
+        r->blockers[l] = *f->geometry.occluders;
+    }
+}
+
+/* Looks at the tile of a group, and at the group alone if the tile may see several shapes. */
+static void look(const koksma__frame *f, scratch *r, const koksma__group *group)
+{
+    const size_t first = group->first, end = first + group->count, width = (size_t)f->options->width;
+    const size_t column = first % width / TILE * TILE, tile = first - first % width + column;
+    const size_t end_tile = tile + (width - column < TILE ? width - column : TILE);
+    if (first >= r->first && end <= r->end) {
+        return;
+    }
+    if (end <= end_tile && r->mixed != end_tile) {
+        look_at(f, r, tile, end_tile);
+        if (r->shapes.n < 2) {
+            return;
+        }
+        r->mixed = end_tile;
+    }
+    look_at(f, r, first, end);
 }
 
 static float colour_of_nothing(const koksma__frame *f)
@@ -113,20 +153,12 @@ static float colour_of_nothing(const koksma__frame *f)
 static bool is_empty(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
 {
     scratch *r = opened;
-    const size_t n = group->start[group->count];
-    if (!f->frustum_cull || f->filter || values->albedo || !n) {
+    if (!f->frustum_cull || f->filter || values->albedo) {
         return false;
     }
     look(f, r, group);
-    if (r->shapes.n) {
-        return false;
-    }
-    const float colour = colour_of_nothing(f);
-    for (size_t i = 0; i < n; i++) {
-        values->rgb[i] = colour;
-    }
-    values->rays += n;
-    return true;
+    values->rgb[0] = colour_of_nothing(f);
+    return !r->shapes.n;
 }
 
 /* ---- Samples ------------------------------------------------------------------------------------------------ */
@@ -172,10 +204,19 @@ static void shade_block(const koksma__frame *f, const koksma__rays *rays, const 
     f->batch->albedo(f->materials, hits, n, albedo);
     for (size_t l = 0; l < f->lights.n; l++) {
         const float *positions = r->positions + 2 * (l * r->capacity + start);
-        const int lit = f->batch->aim(&f->lights.rectangles[l], hits, positions, n, &shadows);
+        const koksma__batch_light *light = &f->lights.rectangles[l];
+        const bool clear = f->frustum_cull && !r->blockers[l].n;
+        const int lit = clear ? f->batch->light(light, hits, positions, n, &shadows, sum)
+                              : f->batch->aim(light, hits, positions, n, &shadows);
         if (lit) {
             values->rays += (uint64_t)(lit - (shadows.light[n - 1] != 0 ? copies : 0));
-            f->geometry.occlude(&f->geometry, hits, n, &shadows);
+        }
+        if (lit && !clear) {
+            if (f->frustum_cull) {
+                f->batch->occlude(&r->blockers[l], hits, n, &shadows);
+            } else {
+                f->geometry.occlude(&f->geometry, hits, n, &shadows);
+            }
             f->batch->add(&shadows, n, sum);
         }
     }

@@ -93,6 +93,22 @@ INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restr
     }
 }
 
+/* The same for a sphere at rest on which all rays start: the rays that go inwards are blocked. */
+static void shade_own(const koksma__batch_shape *s, const koksma__hits *restrict h, const int32_t *aimed, int n,
+                      koksma__shadows *restrict r)
+{
+    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
+    const int32_t id = s->id;
+    for (int i = 0; i < STEP(n); i++) {
+        const float ex = h->px[i] - cx, ey = h->py[i] - cy, ez = h->pz[i] - cz;
+        const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
+        const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
+        const float start = b * b, last = a * KOKSMA__SHADOW_END + b, end = last * last;
+        const int crosses = (end >= start) & (b < 0) & (last > 0) & (start > 0);
+        r->light[i] *= (aimed[i] != id) & crosses ? 0.0f : 1.0f;
+    }
+}
+
 /* The loops are compiled twice, for moving spheres and for others. */
 static void hit(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
                 koksma__hits *hits)
@@ -120,6 +136,8 @@ static void shade(const koksma__batch_shape *s, const koksma__hits *hits, const 
 {
     if (s->moves) {
         shade_sphere(s, hits, aimed, n, shadows, true);
+    } else if (koksma__batch_count_hits(hits, s->id, n) == STEP(n)) {
+        shade_own(s, hits, aimed, n, shadows);
     } else {
         shade_sphere(s, hits, aimed, n, shadows, false);
     }
