@@ -202,6 +202,9 @@ koksma_status koksma__modifiers_check(const char *pattern, const double *values)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; koksma_modifier_at(i) && !status; i++) {
+        if (values[i] == 0) { /* not applied: always accepted */
+            continue;
+        }
         const koksma_param params[] = {koksma__modifier_param(i), {0}};
         status = koksma__params_check(pattern, params, &values[i]);
     }

@@ -15,6 +15,8 @@
 
 #include "api/generate.h"
 #include "core/capacity.h"
+#include "core/csv.h"
+#include "core/hash.h"
 #include "core/status.h"
 #include "image/coherence.h"
 #include "study/run/references.h"
@@ -23,6 +25,26 @@
 
 /* The limit of jobs in a plan. Two bits per job (done; in the store) then take 256 MiB. */
 static const long long MOST_JOBS = 1 << 30;
+
+/* A job's seed is the hash of the task's key and the trial. The options are not part of it, so that different options
+   use the same points. */
+static uint64_t key_of(const koksma__task *t)
+{
+    char text[8192]; /* a path, a pattern and numbers */
+    if (t->image) {
+        snprintf(text, sizeof text, "image|%s|%s|%s|%lld|%dx%d|", t->scene->name, t->scene->hash, t->pattern, t->n,
+                 t->width, t->height);
+    } else {
+        snprintf(text, sizeof text, "discrepancy|%s|%lld|%d|", t->pattern, t->n, t->discrepancy->dim);
+    }
+    return koksma__hash_more(KOKSMA__HASH_START, text, strlen(text));
+}
+
+uint64_t koksma__task_seed(const koksma__task *t, long long trial)
+{
+    char digits[KOKSMA__CSV_NUMBER];
+    return koksma__hash_end(koksma__hash_more(t->key, digits, koksma__csv_whole((uint64_t)trial, digits)));
+}
 
 static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
 {
@@ -33,6 +55,7 @@ static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
     KOKSMA__TRY(t ? KOKSMA_OK : KOKSMA_MEMORY);
     *t = *task;
     t->place = tasks->n - 1;
+    t->key = key_of(t);
     t->series = calloc(t->n_series, sizeof *t->series);
     t->references = calloc(t->n_series, sizeof *t->references);
     t->done = calloc(((size_t)t->trials + 7) / 8, 1);
@@ -424,14 +447,6 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
         status ? status : find_coherence(&image, &study->references[t->references[last]].image, results[last].values);
     koksma_image_fini(&image);
     return status;
-}
-
-/* The seed of a job: the hash of its key without the options, so that different options use the same points. */
-uint64_t koksma__task_seed(const koksma__task *t, long long trial)
-{
-    return t->image ? koksma__job_seed("image|%s|%s|%s|%lld|%dx%d|%lld", t->scene->name, t->scene->hash, t->pattern,
-                                       t->n, t->width, t->height, trial)
-                    : koksma__job_seed("discrepancy|%s|%lld|%d|%lld", t->pattern, t->n, t->discrepancy->dim, trial);
 }
 
 /* Puts the job's name, such as "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417: ", before the error

@@ -18,6 +18,7 @@ typedef struct koksma__task {
     const koksma__study_scene *scene;
     long long n, trials; /* n: points, or samples per pixel */
     int width, height;
+    uint64_t key; /* the hash of what the seeds of its jobs have in common (core/hash.h), without an end */
     size_t place; /* index of the task in the plan's order */
     /* Number of results of a job: one per measure; or, for an image, its error against each reference and the
        coherence of its error against the last reference. */
