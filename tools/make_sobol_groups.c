@@ -19,7 +19,7 @@
  * d is the rank that is lacking: the first k_j rows of matrix j, all dimensions together, are m rows of m bits, and
  * where these have rank m - d, only 2^-d of the intervals of that shape have points, 2^d each. P = 0 is t = 0.
  * The best of RESTARTS is refined, once the star discrepancies D* of its two pairs, measured exactly, and those of the
- * quadruple for up to 2^MOST_STAR_4D points, count, too, in units of those of the first pair and quadruple.
+ * quadruple for up to 2^MOST_STAR_4D points, count, too: three times each, in units of the first pair and quadruple.
  */
 #include <koksma/koksma.h>
 #include <koksma/sampler.h>
@@ -191,14 +191,14 @@ static void change(group *g, int c)
 
 static double energy(const group *g)
 {
-    double sum = 3 * g->quadruple;
+    double e = 3 * g->quadruple;
     for (int b = 0; b < GROUP; b++) {
         for (int a = 0; a < b; a++) {
-            sum += (b % 2 && a == b - 1 ? 2 : 0.5) * g->pairs[a][b];
+            e += (b % 2 && a == b - 1 ? 2 : 0.5) * g->pairs[a][b];
         }
-        sum += g->before[b];
+        e += g->before[b];
     }
-    return sum;
+    return e;
 }
 
 /* Sum over m of D* of the dimensions a .. a + dims - 1 of the group, in units of `units` (which it sets if `set`). */

@@ -1,22 +1,30 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the tables of docs/findings/pairs-and-quadruples.md: pairs_and_quadruples.py KOKSMA [evenness|integrals|images]
+"""Prints the tables of docs/findings/pairs-and-quadruples.md:
+
+    pairs_and_quadruples.py KOKSMA evenness|scrambled|all-pairs|integrals
+    pairs_and_quadruples.py KOKSMA images STUDY
 
 Evenness: D* and t of the coordinates 2k, 2k + 1 (24 pairs) and 4k .. 4k + 3 (12 quadruples) of 48 dimensions, mean and worst,
-as `koksma measure` gives them. Integrals: RMS errors of `koksma integrate` in two and four coordinates, Owen-scrambled. Images:
-root mean square errors against a reference, mean of SEEDS renders with its standard error.
+as `koksma measure` gives them. Scrambled: D* of SETS Owen scramblings, the mean over groups with its standard error over sets,
+and the worst. All pairs: t of all 1,128 pairs of 48 dimensions, by ranks of matrices. Integrals: RMS errors of `koksma integrate`
+in two and four coordinates, Owen-scrambled. Images: root mean square errors of the study's images, those of Joe & Kuo's
+numbers and the differences of the others from them with 95 % intervals; the last row has the geometric means.
 """
+import csv
+import io
 import json
+import math
 import os
 import subprocess
 import sys
 import tempfile
 
-PATTERNS = "sobol", "sz", "cascaded-sobol"
+PATTERNS = "sobol", "sobol:numbers=groups", "sz", "cascaded-sobol"
 SIZES = [2 ** m for m in range(4, 13)]
 MOST_STAR_4D = 1024  # more take hours
-DIM, SEEDS = 48, 6
-SCENES, SPP = ("ball", "balls", "glossy"), (4, 16, 64)
+DIM, SETS = 48, 10
+BASE = "sobol:scramble=owen"
 program = sys.argv[1]
 
 
@@ -28,56 +36,140 @@ def values(lines, key="value"):
     return [json.loads(line)[key] for line in lines.splitlines()]
 
 
+def mean_and_error(numbers):
+    mean = sum(numbers) / len(numbers)
+    return f"{mean:.4g} ± {(sum((x - mean) ** 2 for x in numbers) / (len(numbers) - 1) / len(numbers)) ** .5:.1g}"
+
+
 def summary(numbers):
     return f"{sum(numbers) / len(numbers):.4g}, {max(numbers):.4g}"
 
 
+def groups(folder, pattern, n, group, *options):
+    """Writes the coordinates of each group of one set to a file of its own and returns the files."""
+    text = run("generate", pattern, "-d", str(DIM), "-n", str(n), "-q", *options)
+    rows = [line.split() for line in text.splitlines() if line[:1] != "#"]
+    files = []
+    for k in range(0, DIM, group):
+        files.append(os.path.join(folder, f"{k}.txt"))
+        with open(files[-1], "w", encoding="ascii") as out:
+            out.writelines(" ".join(row[k:k + group]) + "\n" for row in rows)
+    return files
+
+
+def measured(files, measure):
+    return values(run("measure", *files, "-m", measure, "--json", "-q"))
+
+
+def heading(text):
+    print(f"\n| n | {' | '.join(f'`{p}`{text}' for p in PATTERNS)} |\n|---|{'---|' * len(PATTERNS)}")
+
+
 def evenness(folder):
     for group in 2, 4:
-        print(f"\n| n | {' | '.join(f'`{p}` t: mean, worst; D*' for p in PATTERNS)} |\n|---|{'---|' * len(PATTERNS)}")
+        heading(" t: mean, worst; D*")
         for n in SIZES:
             cells = []
             for pattern in PATTERNS:
-                rows = [line.split() for line in run("generate", pattern, "-d", str(DIM), "-n", str(n), "-q").splitlines() if line[:1] != "#"]
-                files = []
-                for k in range(0, DIM, group):
-                    files.append(os.path.join(folder, f"{k}.txt"))
-                    with open(files[-1], "w", encoding="ascii") as out:
-                        out.writelines(" ".join(row[k:k + group]) + "\n" for row in rows)
-                cell = summary(values(run("measure", *files, "-m", "t-value", "--json", "-q")))
+                files = groups(folder, pattern, n, group)
+                cell = summary(measured(files, "t-value"))
                 if group == 2 or n <= MOST_STAR_4D:
-                    cell += "; " + summary(values(run("measure", *files, "-m", "star", "--json", "-q")))
+                    cell += "; " + summary(measured(files, "star"))
                 cells.append(cell)
             print(f"| {n} | {' | '.join(cells)} |", flush=True)
+
+
+def scrambled(folder):
+    for group, sizes in (2, (16, 64, 256, 1024, 4096)), (4, (16, 64, 256)):
+        heading("")
+        for n in sizes:
+            cells = []
+            for pattern in PATTERNS:
+                spec = pattern + ("," if ":" in pattern else ":") + "owen=1"
+                sets = [measured(groups(folder, spec, n, group, "-s", str(seed)), "star") for seed in range(SETS)]
+                means = [sum(stars) / len(stars) for stars in sets]
+                cells.append(f"{mean_and_error(means)}; {max(map(max, sets)):.4g}")
+            print(f"| {n} | {' | '.join(cells)} |", flush=True)
+
+
+def t_of_pair(a, b, m):
+    """t of the first 2^m points: a and b hold the rows of the generator matrices, bit c the digit of column c."""
+    mask, least, upper = (1 << m) - 1, m, []
+    for k in range(m + 1):
+        basis, count = list(upper), k
+        while count < m:
+            rest = b[count - k] & mask
+            for v in basis:
+                rest = min(rest, rest ^ v)
+            if not rest:
+                least = min(least, count)
+                break
+            basis.append(rest)
+            count += 1
+        if k < m:
+            rest = a[k] & mask
+            for v in upper:
+                rest = min(rest, rest ^ v)
+            if not rest:
+                return m - min(least, k)
+            upper.append(rest)
+    return m - least
+
+
+def all_pairs(_):
+    most = 12
+    heading(" t: mean, worst")
+    cells = {m: [] for m in range(4, most + 1)}
+    for pattern in PATTERNS:
+        for m in cells:
+            text = run("generate", pattern, "-d", str(DIM), "-n", str(2 ** m), "-q")
+            points = [line.split() for line in text.splitlines() if line[:1] != "#"]
+            columns = [[int(float(points[2 ** c][k]) * 2 ** m) for c in range(m)] for k in range(DIM)]
+            rows = [[sum((column[c] >> (m - 1 - r) & 1) << c for c in range(m)) for r in range(m)] for column in columns]
+            cells[m].append(summary([t_of_pair(rows[i], rows[j], m) for j in range(DIM) for i in range(j)]))
+    for m, some in cells.items():
+        print(f"| {2 ** m} | {' | '.join(some)} |", flush=True)
 
 
 def integrals(_):
     for dim, functions in (2, "disk,triangle,quarter-gaussian,bilinear"), (4, "genz-gaussian,genz-corner-peak,genz-continuous,bernoulli"):
         for n in 64, 256, 1024, 4096:
             for pattern in PATTERNS:
-                text = run("integrate", functions, "-p", pattern + ":owen=1", "-n", str(n), "-d", str(dim), "-t", "100", "--json", "-q")
+                text = run("integrate", functions, "-p", pattern + ("," if ":" in pattern else ":") + "owen=1", "-n", str(n), "-d", str(dim), "-t", "100", "--json", "-q")
                 cells = [f"{r['rmse']:.3g}" for r in map(json.loads, text.splitlines())]
                 print(f"| {dim} | {n} | `{pattern}` | {' | '.join(cells)} |", flush=True)
 
 
-def images(folder):
-    size = ("--size", "48x36", "--pairing", "native")
-    for scene in SCENES:
-        reference = os.path.join(folder, "reference.pfm")
-        run("render", scene, "-p", "sobol:scramble=owen", "-n", "1024", "--size", "48x36", "-s", "99", "-o", reference, "-q")
-        for spp in SPP:
-            cells = []
-            for pattern in PATTERNS:
-                files = [os.path.join(folder, f"{seed}.pfm") for seed in range(SEEDS)]
-                for seed, file in enumerate(files):
-                    run("render", scene, "-p", pattern + ":owen=1", "-n", str(spp), *size, "-s", str(seed), "-o", file, "-q")
-                errors = values(run("compare", *files, reference, "--json", "-q"), "rmse")
-                mean = sum(errors) / SEEDS
-                deviation = (sum((e - mean) ** 2 for e in errors) / (SEEDS - 1) / SEEDS) ** .5
-                cells.append(f"{mean:.4f} ± {deviation:.4f}")
-            print(f"| `{scene}` | {spp} | {' | '.join(cells)} |", flush=True)
+def images(_):
+    """From the rows that `koksma study run ./docs/findings/pairs-and-quadruples.json -o STUDY` made."""
+    errors, logs = {}, {}
+    for row in csv.DictReader(io.StringIO(run("study", "export", sys.argv[3], "-q"))):
+        if row["kind"] == "image":
+            column = row["pattern"] if "pairing=native" in row["options"] else "padded"
+            errors.setdefault((row["scene"], int(row["n"])), {}).setdefault(column, []).append(float(row["rmse"]))
+    columns = list(next(iter(errors.values())))
+    print(f"| scene | samples | {' | '.join(columns)} |\n|---|---|{'---|' * len(columns)}")
+    for (scene, spp), of in sorted(errors.items()):
+        base, cells = relative(of[BASE]), []
+        for column in columns:
+            mean, variance = relative(of[column])
+            logs.setdefault(column, []).append((math.log(mean / base[0]), variance + base[1]))
+            cells.append(f"{mean:.5f}" if column == BASE else percent(*logs[column][-1]))
+        print(f"| `{scene}` | {spp} | {' | '.join(cells)} |")
+    means = ["" if c == BASE else percent(*(sum(part) / len(logs[c]) ** (1 + i) for i, part in enumerate(zip(*logs[c]))))
+             for c in columns]
+    print(f"| all | | {' | '.join(means)} |")
+
+
+def relative(numbers):
+    """The mean, and the variance of its logarithm."""
+    mean = sum(numbers) / len(numbers)
+    return mean, sum((x / mean - 1) ** 2 for x in numbers) / (len(numbers) - 1) / len(numbers)
+
+
+def percent(log, variance):
+    return f"{100 * math.expm1(log):+.1f} % ± {100 * 1.96 * variance ** .5:.1f}"
 
 
 with tempfile.TemporaryDirectory() as work:
-    for table in sys.argv[2:] or ("evenness", "integrals", "images"):
-        {"evenness": evenness, "integrals": integrals, "images": images}[table](work)
+    {"evenness": evenness, "scrambled": scrambled, "all-pairs": all_pairs, "integrals": integrals, "images": images}[sys.argv[2]](work)
