@@ -245,7 +245,9 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
     koksma__material *m = &scene->materials[scene->n_materials];
     *out = (int)scene->n_materials++;
     snprintf(m->name, sizeof m->name, "%d", *out);
-    m->bsdf = from->kind == KOKSMA__METAL && from->alpha < 1e-6 ? &koksma__bsdf_mirror : kinds[from->kind];
+    m->bsdf = from->kind == KOKSMA__METAL && from->alpha < 1e-6   ? &koksma__bsdf_mirror
+              : from->kind == KOKSMA__GLASS && from->alpha > 1e-6 ? &koksma__bsdf_rough_dielectric
+                                                                  : kinds[from->kind];
     switch (from->kind) {
     case KOKSMA__METAL:
         memcpy(koksma__material_value(m, "reflectance"), from->colour.rgb, sizeof from->colour.rgb);
@@ -260,8 +262,10 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
         double *tint = koksma__material_value(m, "tint");
         tint[0] = tint[1] = tint[2] = 1;
         *koksma__material_value(m, "ior") = fmin(fmax(from->ior, 1.0001), 10);
-        return from->alpha > 1e-6 ? koksma__import_unknown(im, place, "rough glass is replaced by smooth glass")
-                                  : KOKSMA_OK;
+        if (m->bsdf == &koksma__bsdf_rough_dielectric) {
+            *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 0.03), 1);
+        }
+        return KOKSMA_OK;
     }
     case KOKSMA__COATED:
         return set_coated(im, place, from, m);
