@@ -152,20 +152,20 @@ void koksma__import_black_body(double kelvin, double rgb[3])
 
 bool koksma__import_metal(const char *name, double rgb[3])
 {
-    /* linear sRGB of the reflectance along the normal: rounded common values, not computed from spectra here */
+    /* linear sRGB of the reflectance along the normal in daylight, by tools/metals.py from published constants */
     static const struct {
         const char *name;
         double rgb[3];
-    } metals[] = {{"Au", {1.000, 0.782, 0.344}},
-                  {"Ag", {0.972, 0.960, 0.915}},
-                  {"Cu", {0.955, 0.638, 0.538}},
-                  {"Al", {0.913, 0.922, 0.924}},
-                  {"Cr", {0.549, 0.556, 0.554}},
-                  {"W", {0.504, 0.498, 0.478}},
-                  {"Ni", {0.660, 0.609, 0.526}},
-                  {"Ti", {0.542, 0.497, 0.449}},
-                  {"CuZn", {0.910, 0.778, 0.423}},
-                  {"Ir", {0.743, 0.722, 0.684}},
+    } metals[] = {{"Au", {1.000, 0.730, 0.365}},
+                  {"Ag", {0.989, 0.984, 0.978}},
+                  {"Cu", {0.927, 0.624, 0.522}},
+                  {"Al", {0.908, 0.916, 0.922}},
+                  {"Cr", {0.550, 0.556, 0.554}},
+                  {"W", {0.516, 0.496, 0.467}},
+                  {"Ni", {0.696, 0.641, 0.563}},
+                  {"Ti", {0.618, 0.580, 0.543}},
+                  {"CuZn", {0.907, 0.779, 0.424}},
+                  {"Ir", {0.745, 0.732, 0.701}},
                   {"none", {1, 1, 1}}};
     for (size_t i = 0; i < sizeof metals / sizeof *metals; i++) {
         if (!strcmp(name, metals[i].name)) {
