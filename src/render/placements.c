@@ -51,7 +51,7 @@ koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, 
         light->visible = true;
         memcpy(light->radiance, radiance, sizeof light->radiance);
         p->light = (int)(light - scene->lights);
-        p->material = -1;
+        scene->glows |= p->material >= 0;
     }
     return status;
 }

@@ -10,7 +10,7 @@
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
 
-/* Makes the placement a light. Errors: MALFORMED (too many lights, or the placed mesh has no area). */
+/* Makes the placement a light; one that has a material reflects as well. Errors: MALFORMED (too many lights, or the placed mesh has no area). */
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *placement, const double radiance[3]);
 
 #endif

@@ -152,20 +152,20 @@ void koksma__import_black_body(double kelvin, double rgb[3])
 
 bool koksma__import_metal(const char *name, double rgb[3])
 {
-    /* linear sRGB of the reflectance along the normal: rounded common values, not computed from spectra here */
+    /* linear sRGB of the reflectance along the normal in daylight, by tools/metals.py from published constants */
     static const struct {
         const char *name;
         double rgb[3];
-    } metals[] = {{"Au", {1.000, 0.782, 0.344}},
-                  {"Ag", {0.972, 0.960, 0.915}},
-                  {"Cu", {0.955, 0.638, 0.538}},
-                  {"Al", {0.913, 0.922, 0.924}},
-                  {"Cr", {0.549, 0.556, 0.554}},
-                  {"W", {0.504, 0.498, 0.478}},
-                  {"Ni", {0.660, 0.609, 0.526}},
-                  {"Ti", {0.542, 0.497, 0.449}},
-                  {"CuZn", {0.910, 0.778, 0.423}},
-                  {"Ir", {0.743, 0.722, 0.684}},
+    } metals[] = {{"Au", {1.000, 0.730, 0.365}},
+                  {"Ag", {0.989, 0.984, 0.978}},
+                  {"Cu", {0.927, 0.624, 0.522}},
+                  {"Al", {0.908, 0.916, 0.922}},
+                  {"Cr", {0.550, 0.556, 0.554}},
+                  {"W", {0.516, 0.496, 0.467}},
+                  {"Ni", {0.696, 0.641, 0.563}},
+                  {"Ti", {0.618, 0.580, 0.543}},
+                  {"CuZn", {0.907, 0.779, 0.424}},
+                  {"Ir", {0.745, 0.732, 0.701}},
                   {"none", {1, 1, 1}}};
     for (size_t i = 0; i < sizeof metals / sizeof *metals; i++) {
         if (!strcmp(name, metals[i].name)) {
@@ -245,7 +245,9 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
     koksma__material *m = &scene->materials[scene->n_materials];
     *out = (int)scene->n_materials++;
     snprintf(m->name, sizeof m->name, "%d", *out);
-    m->bsdf = from->kind == KOKSMA__METAL && from->alpha < 1e-6 ? &koksma__bsdf_mirror : kinds[from->kind];
+    m->bsdf = from->kind == KOKSMA__METAL && from->alpha < 1e-6   ? &koksma__bsdf_mirror
+              : from->kind == KOKSMA__GLASS && from->alpha > 1e-6 ? &koksma__bsdf_rough_dielectric
+                                                                  : kinds[from->kind];
     switch (from->kind) {
     case KOKSMA__METAL:
         memcpy(koksma__material_value(m, "reflectance"), from->colour.rgb, sizeof from->colour.rgb);
@@ -260,8 +262,10 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
         double *tint = koksma__material_value(m, "tint");
         tint[0] = tint[1] = tint[2] = 1;
         *koksma__material_value(m, "ior") = fmin(fmax(from->ior, 1.0001), 10);
-        return from->alpha > 1e-6 ? koksma__import_unknown(im, place, "rough glass is replaced by smooth glass")
-                                  : KOKSMA_OK;
+        if (m->bsdf == &koksma__bsdf_rough_dielectric) {
+            *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 0.03), 1);
+        }
+        return KOKSMA_OK;
     }
     case KOKSMA__COATED:
         return set_coated(im, place, from, m);

@@ -5,7 +5,8 @@
  * the reader, or made from a basic shape (a sphere of 64 x 32 rectangles, a disk or cylinder with 64 sides). A
  * mesh is placed by a matrix as often as the scene contains it. A placement whose matrix mirrors, or whose fronts
  * and backs are swapped, uses a copy of the mesh that is turned inside out, for the reason in glTF 2.0, section
- * 3.7.4.
+ * 3.7.4. A light whose surface reflects is a mesh, too: Koksma's own lights do not reflect. Round ones stay as they
+ * are, with a warning, because flat sides would send less light than they should.
  */
 #include "scene/import_shapes.h"
 
@@ -274,7 +275,7 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
     }
     p->mesh = mesh;
     p->material = surface.material;
-    p->smooth = scene->meshes[mesh].normals != NULL && !surface.emits;
+    p->smooth = scene->meshes[mesh].normals != NULL && !(surface.emits && surface.material < 0);
     memcpy(p->matrix, matrix, sizeof p->matrix);
     koksma__placement_box(&scene->meshes[mesh], p);
     for (int k = 0; k < 3; k++) {
@@ -330,7 +331,7 @@ static const koksma__shape_type *own_shape(const koksma__import *im, const koksm
     }
     switch (item->form) {
     case KOKSMA__FORM_SQUARE:
-        return shape_type("rectangle");
+        return m && item->surface.emits ? NULL : shape_type("rectangle");
     case KOKSMA__FORM_DISK:
         return is_close(length[0], length[1]) ? shape_type("disk") : NULL;
     case KOKSMA__FORM_SPHERE:
@@ -389,12 +390,25 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
     return koksma__import_fail_at(item->place, koksma__scene_add_shape(im->scene, &shape, &added));
 }
 
+/* Whether a surface reflects nothing. */
+static bool is_black(const koksma__material *m)
+{
+    return m->bsdf == &koksma__bsdf_lambert && !m->image &&
+           m->albedo[0][0] + m->albedo[0][1] + m->albedo[0][2] <= 0 && !m->checker;
+}
+
 koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12])
 {
     double matrix[12], length[3];
     int mesh = item->mesh;
     if (item->surface.material < 0 && !item->surface.emits) {
         return KOKSMA_OK; /* no surface: light passes through */
+    }
+    if (item->surface.emits && item->surface.material >= 0 &&
+        is_black(&im->scene->materials[item->surface.material])) {
+        koksma__import_item dark = *item;
+        dark.surface.material = -1; /* a light that reflects nothing is one of Koksma's own */
+        return koksma__import_put(im, &dark, outer);
     }
     koksma__matrix_multiply(outer ? outer : koksma__import_identity, item->matrix, matrix);
     for (int i = 0; i < 12; i++) {
@@ -404,6 +418,9 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     }
     const koksma__shape_type *own = item->form == KOKSMA__FORM_MESH ? NULL : own_shape(im, item, matrix, length);
     if (own) {
+        if (item->surface.emits && item->surface.material >= 0) {
+            KOKSMA__TRY(koksma__import_unknown(im, item->place, "what a round light reflects is left out"));
+        }
         return put_own(im, item, own, matrix, length);
     }
     if (item->form != KOKSMA__FORM_MESH) {

@@ -424,6 +424,10 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     const double u = number(r, n, "alpha_u", both), v = number(r, n, "alpha_v", both);
     m.alpha = sqrt(fmax(u * v, 0));
     m.ior = index_of(r, n, "int_ior", m.kind == KOKSMA__COATED ? 1.49 : 1.5046) / index_of(r, n, "ext_ior", 1.000277);
+    if (!strncmp(type, "rough", 5) && m.kind != KOKSMA__MATTE && m.kind != KOKSMA__COATED &&
+        strcmp(text(r, n, "distribution", "beckmann"), "ggx") != 0) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "Beckmann's distribution is replaced by GGX"));
+    }
     if (u != v) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "anisotropic roughness is replaced by its mean"));
     }

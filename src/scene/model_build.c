@@ -295,16 +295,12 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
 static koksma_status add_glow(builder *build, koksma__placement *p, const double glow[3])
 {
     koksma_scene *scene = build->scene;
-    const int material = p->material;
     if (scene->n_lights + build->file->lights.n + 2 >= KOKSMA__MAX_LIGHTS) {
         return build->n_dark++
                    ? KOKSMA_OK
                    : koksma__scene_note(scene, "more meshes emit light than there is room for lights: some are dark");
     }
-    KOKSMA__TRY(koksma__scene_add_glow(scene, p, glow));
-    p->material = material;
-    scene->glows = true;
-    return KOKSMA_OK;
+    return koksma__scene_add_glow(scene, p, glow);
 }
 
 static koksma_status place(builder *build, const koksma__file_placement *from)

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes that Mitsuba 3 renders and that `koksma render` reads, by blocks: Mitsuba's own Cornell box; ours, written for
+Mitsuba from its JSON file; and scenes of glass, rough metal, rough glass, textures, environments and lights that reflect.
+Every block's means of independent pictures must agree within their standard errors, and so must the whole picture's.
+Exit code 77: Mitsuba is not installed. KOKSMA_MITSUBA_PICTURES: pictures of each renderer (8 when left out)."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import mitsuba as mi
+except ModuleNotFoundError:
+    print("skipped: Mitsuba is not installed")
+    sys.exit(77)
+
+import numpy as np
+
+import koksma
+
+mi.set_variant("scalar_rgb")
+PROGRAM = os.environ["KOKSMA"]
+PICTURES = int(os.environ.get("KOKSMA_MITSUBA_PICTURES", "8"))
+SIDE, BLOCK = 32, 8
+SCENES = pathlib.Path(__file__).parents[2] / "scenes"
+
+
+def scene(inside, depth=64, eye="0, 1, 6", target="0, 1, 0", fov=39):
+    return f"""<scene version="3.0.0"><integrator type="path"><integer name="max_depth" value="{depth}"/></integrator>
+<sensor type="perspective"><float name="fov" value="{fov}"/><transform name="to_world"><lookat origin="{eye}" target="{target}"
+ up="0, 1, 0"/></transform><film type="hdrfilm"><integer name="width" value="{SIDE}"/><integer name="height" value="{SIDE}"/>
+<rfilter type="box"/></film></sensor>{inside}</scene>"""
+
+
+def rgb(name, value):
+    return f'<rgb name="{name}" value="{value}"/>'
+
+
+def diffuse(value):
+    return f'<bsdf type="twosided"><bsdf type="diffuse">{rgb("reflectance", value)}</bsdf></bsdf>'
+
+
+def rectangle(inside, *operations):
+    return f'<shape type="rectangle"><transform name="to_world">{"".join(operations)}</transform>{inside}</shape>'
+
+
+def turn(axis, angle):
+    return f'<rotate {axis}="1" angle="{angle}"/>'
+
+
+def move(x=0, y=0, z=0):
+    return f'<translate x="{x}" y="{y}" z="{z}"/>'
+
+
+def ball(bsdf):
+    return f'<shape type="sphere"><float name="radius" value="0.6"/><point name="center" x="0" y="0.7" z="0"/>{bsdf}</shape>'
+
+
+def emitter(value):
+    return f'<emitter type="area">{rgb("radiance", value)}</emitter>'
+
+
+ROOM = "".join([rectangle(diffuse("0.7, 0.6, 0.5"), turn("x", -90)),
+                rectangle(diffuse("0.6, 0.7, 0.7"), move(y=1, z=-1)),
+                rectangle(diffuse("0.6, 0.1, 0.1"), turn("y", 90), move(x=-1, y=1)),
+                rectangle(diffuse("0.1, 0.5, 0.1"), turn("y", -90), move(x=1, y=1))])
+PANEL = rectangle(emitter("5, 4, 3"), turn("x", 90), move(y=2.5))
+WHITE = '<string name="material" value="none"/>'
+GGX = '<string name="distribution" value="ggx"/>'
+
+
+class Agreement(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def ours(self, path, spp, seed, depth):
+        out = self.path("ours.pfm")
+        subprocess.run([PROGRAM, "render", path, "--integrator", "path", "--depth", str(depth), "--spp", str(spp), "--seed",
+                        str(seed), "--size", f"{SIDE}x{SIDE}", "-p", "random", "-q", "-o", out, "--unknown", "refuse"], check=True, stdout=subprocess.DEVNULL)
+        return koksma.read_image(out)
+
+    def agree(self, theirs, path, spp=256, depth=62, floor=1e-4):
+        """Welch's statistic of every block and channel, and of the whole picture."""
+        def blocks(image):
+            image = np.asarray(image, dtype=float)[:, :, :3]
+            image = np.broadcast_to(image, image.shape[:2] + (3,))
+            return image.reshape(SIDE // BLOCK, BLOCK, SIDE // BLOCK, BLOCK, 3).mean((1, 3))
+        a = np.array([blocks(mi.render(theirs, spp=spp, seed=s)) for s in range(PICTURES)])
+        b = np.array([blocks(self.ours(path, spp, s, depth)) for s in range(PICTURES)])
+        for x, y, limit in ((a, b, 6.5), (a.mean((1, 2)), b.mean((1, 2)), 5)):
+            error = np.sqrt((x.var(0, ddof=1) + y.var(0, ddof=1)) / PICTURES) + floor * np.abs(x.mean(0)) + 1e-7
+            z = (y.mean(0) - x.mean(0)) / error
+            self.assertLess(np.abs(z).max(), limit, f"theirs {x.mean(0)}\nours {y.mean(0)}\nerrors {error}")
+        mean, error = a.mean(), a.mean((1, 2, 3)).std(ddof=1) / np.sqrt(PICTURES)
+        self.assertLess(error, .01 * mean)  # the comparison has the power to see differences of a few percent
+
+    def of_text(self, text, **more):
+        path = self.path("scene.xml")
+        pathlib.Path(path).write_text(text, encoding="utf-8")
+        self.agree(mi.load_file(path), path, **more)
+
+    def test_mitsubas_cornell_box(self):
+        """Its light has a white surface, which reflects 1 % of the picture."""
+        given = mi.cornell_box()
+        given["sensor"]["film"].update(width=SIDE, height=SIDE, rfilter={"type": "box"})
+        path = self.path("cornell.xml")
+        config = mi.parser.ParserConfig(mi.variant())
+        mi.parser.write_file(mi.parser.parse_dict(config, given), path)
+        self.agree(mi.load_dict(given), path, depth=6)  # its max_depth is 8
+
+    def test_our_cornell_box(self):
+        """scenes/cornell.json, written for Mitsuba, cut after 1, 2 and 6 bounces and hardly ever."""
+        given = json.loads((SCENES / "cornell.json").read_text(encoding="utf-8"))
+        T = mi.ScalarTransform4f
+        theirs = {"type": "scene"}
+        for m in given["materials"]:
+            theirs[m["name"]] = {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": m["albedo"]}}}
+
+        def placed(s):  # a rectangle of v = up made square to the normal, u = v x normal
+            n = np.array(s["normal"], float)
+            up = np.array([0, 0, -1.0] if abs(n[1]) > .9 else [0, 1.0, 0])
+            u = np.cross(up, n)
+            matrix = np.eye(4)
+            matrix[:3, 0], matrix[:3, 1], matrix[:3, 2], matrix[:3, 3] = u * s["half"][0], up * s["half"][1], n, s["centre"]
+            return {"type": "rectangle", "to_world": T(matrix)}
+        for i, s in enumerate(given["shapes"]):
+            shape = placed(s) if s["kind"] == "rectangle" else {"type": "cube", "to_world":
+                T().translate(s["centre"]).rotate([0, 1, 0], s["angle_deg"]).scale(s["half"])}
+            theirs[f"shape{i}"] = {**shape, "bsdf": {"type": "ref", "id": s["material"]}}
+        light, camera = given["lights"][0], given["camera"]
+        theirs["light"] = {**placed(light), "emitter": {"type": "area", "radiance": {"type": "rgb", "value": light["radiance"]}}}
+        theirs["sensor"] = {"type": "perspective", "fov": camera["fov_deg"], "to_world": T().look_at(camera["eye"], camera["target"], [0, 1, 0]),
+                            "film": {"type": "hdrfilm", "width": SIDE, "height": SIDE, "rfilter": {"type": "box"}}}
+        for depth in (0, 1, 6, 62):
+            with self.subTest(depth=depth):
+                self.agree(mi.load_dict({**theirs, "integrator": {"type": "path", "max_depth": depth + 2}}), str(SCENES / "cornell.json"), depth=depth)
+
+    def test_materials(self):
+        """A ball of each material that has an exact counterpart, in a room under a square light."""
+        for name, bsdf in (
+                ("diffuse", diffuse("0.5, 0.6, 0.7")),
+                ("conductor", f'<bsdf type="conductor">{WHITE}</bsdf>'),
+                ("roughconductor", f'<bsdf type="roughconductor">{WHITE}{GGX}<float name="alpha" value="0.3"/></bsdf>'),
+                ("roughdielectric", f'<bsdf type="roughdielectric">{GGX}<float name="alpha" value="0.3"/><float name="int_ior" value="1.5"/>'
+                                    '<float name="ext_ior" value="1"/></bsdf>'),
+                ("dielectric", '<bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>')):
+            with self.subTest(material=name):
+                self.of_text(scene(ROOM + PANEL + ball(bsdf)))
+
+    def test_lights(self):
+        for name, light in (
+                ("a square that reflects", rectangle(diffuse("0.9") + emitter("5, 4, 3"), turn("x", 90), move(y=2.2))),
+                ("sphere", '<shape type="sphere"><float name="radius" value="0.2"/><point name="center" x="0" y="1.7" z="0.5"/>' + emitter("9, 8, 7") + "</shape>"),
+                ("disk", f'<shape type="disk"><transform name="to_world"><scale value="0.5"/>{turn("x", 90)}{move(y=2.2)}</transform>{emitter("5, 4, 3")}</shape>'),
+                ("cube", f'<shape type="cube"><transform name="to_world"><scale value="0.2"/>{move(y=1.6)}</transform>{emitter("5, 4, 3")}</shape>'),
+                ("constant", f'<emitter type="constant">{rgb("radiance", "1, 0.8, 0.6")}</emitter>'),
+                ("point", f'<emitter type="point"><point name="position" x="0.3" y="1.8" z="1"/>{rgb("intensity", "2, 2, 1")}</emitter>'),
+                ("directional", f'<emitter type="directional"><vector name="direction" x="-0.5" y="-1" z="-0.7"/>{rgb("irradiance", "2, 2, 1")}</emitter>')):
+            with self.subTest(light=name):
+                self.of_text(scene(ROOM + light + ball(diffuse("0.5"))))
+
+    def test_environment(self):
+        """A smooth image of the sky, with a bright side, turned about y. Mitsuba interpolates between pixels, and its first
+        row is at the pole, not half a pixel below it: a floor of 0.2 %, half of what a shift by one pixel makes."""
+        y, x = np.mgrid[0:256, 0:512]
+        up, around = np.cos((y + .5) / 256 * np.pi), (x + .5) / 512 * 2 * np.pi
+        image = np.stack([1 + up, 1 + .5 * up + .8 * np.sin(around) * np.sqrt(1 - up ** 2), 1 + .5 * np.cos(around) * np.sqrt(1 - up ** 2)], 2)
+        mi.util.write_bitmap(self.path("sky.exr"), image.astype(np.float32), write_async=False)
+        for angle in (0, 90):
+            with self.subTest(angle=angle):
+                sky = (f'<emitter type="envmap"><string name="filename" value="sky.exr"/><float name="scale" value="0.7"/><transform '
+                       f'name="to_world">{turn("y", angle)}</transform></emitter>')
+                ground = rectangle(diffuse("0.7, 0.6, 0.5"), '<scale value="3"/>', turn("x", -90))
+                self.of_text(scene(sky + ground + ball(f'<bsdf type="conductor">{WHITE}</bsdf>')), floor=2e-3)
+
+    def test_texture(self):
+        """An image on a floor, seen from above, whose four corners differ."""
+        y, x = np.mgrid[0:64, 0:64] / 64
+        mi.util.write_bitmap(self.path("floor.exr"), np.stack([.1 + .8 * x, .1 + .8 * y, .5 + .4 * (x > .5) * (y > .5)], 2).astype(np.float32), write_async=False)
+        texture = ('<bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value="floor.exr"/>'
+                   '<boolean name="raw" value="true"/></texture></bsdf>')
+        self.of_text(scene(rectangle(texture, '<scale value="1.5"/>', turn("x", -90)) + '<emitter type="constant"/>' +
+                           ball(diffuse("0.5")), eye="0.5, 5, 2", target="0, 0, 0"))
+
+
+if __name__ == "__main__":
+    unittest.main()
