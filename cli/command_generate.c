@@ -2,9 +2,10 @@
 /*
  * `koksma generate`: generates one point set of a pattern, or a range of its points, maps it by --warp, and writes it
  * to a file or to standard output. Patterns that can generate ranges are written piece by piece, unless --warp is
- * given. The comment in the file has the pattern, the seed and the warp, and for blue-noise patterns the smallest
+ * given. --density and --on generate points of varying density and points on a model. The comment in the file has the pattern, the seed and the warp, and for blue-noise patterns the smallest
  * distance of two points.
  */
+#include <koksma/density.h>
 #include <koksma/verify.h>
 
 #include <stdio.h>
@@ -54,6 +55,35 @@ static int stream(const cli_arguments *arguments, const cli_source *source, uint
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+/* Generates points whose density follows the image `density`, or points on the model `on`; one of them is NULL. */
+static int generate_in(const cli_arguments *arguments, const cli_source *source, const char *density, const char *on,
+                       uint64_t seed, const koksma_run *run)
+{
+    char text[KOKSMA_MAX_SPEC], comment[2 * KOKSMA_MAX_SPEC + 128];
+    koksma_points points;
+    koksma_image map = {0};
+    koksma_status status = koksma_points_init(&points, source->n, on && source->dim == 2 ? 3 : source->dim);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    if (on) {
+        status = koksma_generate_on(&source->spec, seed, on, run, &points);
+    } else {
+        status = koksma_image_read(density, &map);
+        status = status ? status : koksma_generate_density(&source->spec, seed, &map, run, &points);
+        koksma_image_fini(&map);
+    }
+    if (!status) {
+        koksma_spec_text(&source->spec, text);
+        snprintf(comment, sizeof comment, "pattern %s\nseed %llu\n%s %s", text, (unsigned long long)seed,
+                 on ? "on" : "density", on ? on : density);
+        status = (on ? koksma_points_write_mapped : koksma_points_write)(cli_text(arguments, "output", "-"), &points,
+                                                                         comment, run);
+    }
+    koksma_points_fini(&points);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
 static int run(const cli_arguments *arguments)
 {
     cli_source source;
@@ -85,6 +115,17 @@ static int run(const cli_arguments *arguments)
     if (first && (name || !source.n)) {
         return cli_usage_error(arguments, "--first takes -n N, and no --warp");
     }
+    const char *density = cli_text(arguments, "density", NULL), *on = cli_text(arguments, "on", NULL);
+    if (density || on) {
+        if (!source.n || first || warp || (density && on)) {
+            return cli_usage_error(arguments,
+                                   "--density and --on exclude each other, and take -n N, no --first and no "
+                                   "--warp");
+        }
+        code = generate_in(arguments, &source, density, on, seed, &work.run);
+        cli_work_end();
+        return code;
+    }
     if (source.n && !warp && (first || koksma_has_ranges(&source.spec))) {
         code = stream(arguments, &source, first, seed, &work.run);
         cli_work_end();
@@ -109,6 +150,8 @@ static const cli_option options[] = {
     {0, "first", "I", "index of the first point, for patterns that have ranges (default: 0)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
+    {0, "density", "FILE.png|.exr|.pfm", "the points' density follows the luminance of this image"},
+    {0, "on", "FILE.obj|.ply|.off|.gltf|.glb", "points on this model: x y z; with -d 6 normals too, -d 7 triangles"},
     {'o', "output", "FILE.txt|.csv|.npy", "the file (default: text on stdout)"},
     CLI_RUN_OPTIONS,
     {0},
@@ -127,13 +170,18 @@ const cli_command cli_command_generate = {
         "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N; all others "
         "are\n"
         "made whole in memory, where at most 2^28 coordinates fit.\n"
+        "With --density and --on the pattern is random, sample-elimination, progressive-elimination or "
+        "poisson-disk;\n"
+        "on a model d is in the model's units, and distances are those of space.\n"
         "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
         "uniform-jittered and most of orthogonal-array.\n",
     .examples = "koksma generate sobol:scramble=owen -n 64 --seed 1 -o points.csv\n"
                 "koksma generate n-rooks -n 16\n"
                 "koksma generate sobol -n 1000000 --first 4000000000 -o far.npy\n"
-                "koksma generate jittered -n 64 --warp concentric-disk -o disk.txt\n",
+                "koksma generate jittered -n 64 --warp concentric-disk -o disk.txt\n"
+                "koksma generate sample-elimination -n 2000 --density photo.png -o stipples.csv\n"
+                "koksma generate sample-elimination -n 500 --on model.obj -o on.txt\n",
     .options = options,
     .run = run,
 };

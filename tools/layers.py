@@ -42,6 +42,7 @@ MAY_USE = {
     "modules": "core",
     "image": "core kernels stats modules",
     "meshes": "core json image",
+    "domains": "core patterns warps api image meshes",
     "plot": "core patterns measures image api modules",
     "render": "core modules json kernels stats patterns warps image meshes api",
     "scene": "core json image meshes warps render",
@@ -53,7 +54,7 @@ MAY_USE = {
     "study/report": "core stats patterns measures warps integrands image plot render study/plan study/store study/run "
                     "api",
     "study/sheet": "core stats patterns measures integrands verify api image scene render study/plan study/ranking study/report",
-    "cli": "core kernels stats patterns measures warps integrands api verify optimise image scene plot render "
+    "cli": "core kernels stats patterns measures warps integrands api verify optimise image domains scene plot render "
            "study/plan study/run study/ranking study/images study/report study/sheet",
 }
 
@@ -325,7 +326,7 @@ ABOUT = {
     "stats": "statistics", "patterns": "one file a pattern", "measures": "one file a measure",
     "api": "generate, evaluate", "verify": "proved properties",
     "integrands": "functions, errors", "optimise": "searches for points", "image": "images, formats, spectra",
-    "meshes": "mesh readers", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
+    "meshes": "mesh readers", "domains": "points by density, on models", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
     "study/plan": "what to run", "study/store": "results (SQLite)", "study/run": "jobs, threads, MPI",
     "study/ranking": "order of patterns", "study/images": "images of a study", "study/report": "the report", "study/sheet": "the datasheet",
     "cli": "the program, one file a command; uses all by the public headers",

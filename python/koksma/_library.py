@@ -193,6 +193,8 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_image_init", image, c_int, c_int, c_int)
     _declare(library, None, "koksma_image_fini", image)
     _declare(library, c_int, "koksma_image_read", c_char_p, image)
+    _declare(library, c_int, "koksma_generate_density", POINTER(s.Spec), c_uint64, image, POINTER(s.Run), POINTER(s.Points))
+    _declare(library, c_int, "koksma_generate_on", POINTER(s.Spec), c_uint64, c_char_p, POINTER(s.Run), POINTER(s.Points))
     _declare(library, c_int, "koksma_image_png_bytes", image, POINTER(POINTER(c_ubyte)), POINTER(c_size_t))
     _declare(library, c_int, "koksma_image_write", c_char_p, image, c_char_p)
     _declare(library, c_int, "koksma_image_compare", image, image, POINTER(s.ImageError))

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, allow_exec as allowing_exec, call, check, core, spec, text, whole, without_zero
+from ._library import ArgumentError, allow_exec as allowing_exec, call, check, core, lab, spec, text, whole, without_zero
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
@@ -230,7 +230,9 @@ def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes
 
 def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[SupportsIndex] = None,
              seed: SupportsIndex = 0, *, first: SupportsIndex = 0, threads: SupportsIndex = 0,
-             out: Optional[PointArray] = None, allow_exec: bool = False) -> PointArray:
+             out: Optional[PointArray] = None, allow_exec: bool = False,
+             density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]] = None,
+             on: Optional[Union[str, "os.PathLike[str]"]] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
@@ -240,12 +242,21 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     out: an aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one; n and dim may be left
     out, or are those of its shape.
     allow_exec: run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
+    density: an image, as a file or an array of shape (height, width), whose luminance the density follows; its bottom
+    row is at y = 0.
+    on: a model (.obj, .ply, .off, .gltf, .glb) whose surface the points lie on, in its coordinates. dim 3: x y z; 6: also
+    the normals; 7: also the numbers of the triangles.
 
-    Equal arguments give equal bits, and the same as `koksma generate`.
+    density and on are for "random", "sample-elimination", "progressive-elimination" and "poisson-disk". Equal arguments
+    give equal bits, and the same as `koksma generate`.
     """
     if allow_exec:
         with allowing_exec():
-            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out)
+            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on)
+    if density is not None or on is not None:
+        if n is None or first or out is not None or (density is not None and on is not None):
+            raise ArgumentError("density and on exclude each other, and take n, neither first nor out")
+        return _generate_in(pattern, n, dim, seed, density, on, threads)
     parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
     first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
@@ -278,6 +289,26 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         call(core().koksma_generate_range, byref(parsed), seed, 0, first, byref(points), threads=threads, run_at=4, short=short)
     else:
         call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2, short=short)
+    return out
+
+
+def _generate_in(pattern: str, n: SupportsIndex, dim: Optional[SupportsIndex], seed: SupportsIndex,
+                 density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]],
+                 on: Optional[Union[str, "os.PathLike[str]"]], threads: SupportsIndex) -> PointArray:
+    from ._compare import as_image, view_image
+    from ._render import read_image
+
+    parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
+    dim = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
+    n = whole("n", n, 1, s.MAX_COORDINATES // dim)
+    out = np.zeros((n, dim))
+    points = view(out)
+    if on is not None:
+        call(lab().koksma_generate_on, byref(parsed), seed, text(os.fspath(on)), byref(points), threads=threads, run_at=3)
+    else:
+        array = read_image(density) if isinstance(density, (str, os.PathLike)) else as_image(density)
+        call(lab().koksma_generate_density, byref(parsed), seed, byref(view_image(array)), byref(points), threads=threads,
+             run_at=3)
     return out
 
 

@@ -22,7 +22,7 @@ static koksma_status check_spec(const koksma_spec *spec, const koksma_pattern *p
                               KOKSMA_MAX_SPEC - 1);
 }
 
-static koksma_status check_generate(const koksma_spec *spec, const koksma_pattern *p, int dim)
+koksma_status koksma__generate_check(const koksma_spec *spec, const koksma_pattern *p, int dim)
 {
     koksma_status status = koksma__dim_check(p->name, dim, p->min_dim, p->max_dim);
     status = status ? status : check_spec(spec, p);
@@ -69,7 +69,7 @@ static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, 
     koksma_args args = koksma__spec_arguments(spec, run);
     args.n = n;
     args.first = first;
-    KOKSMA__TRY(check_generate(spec, p, out->dim));
+    KOKSMA__TRY(koksma__generate_check(spec, p, out->dim));
     KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
     KOKSMA__TRY(p->runs_code ? check_permission(spec, p, run) : KOKSMA_OK);
     KOKSMA__TRY(p->generate(seed, &args, out));
@@ -139,7 +139,7 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     if (!p->whole) {
         return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
     }
-    koksma_status status = dim || !p->operand ? check_generate(spec, p, dim) : check_spec(spec, p);
+    koksma_status status = dim || !p->operand ? koksma__generate_check(spec, p, dim) : check_spec(spec, p);
     const koksma_args args = koksma__spec_arguments(spec, run);
     if (!status) {
         out->dim = dim;

@@ -12,7 +12,7 @@
 
 /* An error unless dim is a valid number of dimensions and n points of that dimension fit into one set. Errors:
    ARGUMENT, DIM. */
-koksma_status koksma__points_fit(size_t n, int dim);
+KOKSMA__LAB koksma_status koksma__points_fit(size_t n, int dim);
 
 /* An error unless the set has points, its size is within the limits, and each coordinate is in [0,1] (NaN is not).
    Every public function that takes points, unless it documents another rule, makes this check first. Errors:

@@ -66,6 +66,8 @@ VALID = {
     "koksma_spectrum_init.half": "4", "koksma_spectrum_init.spectrum": "a_buffer(sizeof(koksma_spectrum))",
     "koksma_spectrum_fini.spectrum": "a_zero(sizeof(koksma_spectrum))",
     "koksma_spectrum_power.kx": "1", "koksma_spectrum_power.ky": "1", "koksma_pair_correlation.bins": "16",
+    "koksma_generate_density.spec": "a_pattern(\"sample-elimination\")", "koksma_generate_on.spec": "a_pattern(\"sample-elimination\")",
+    "koksma_generate_on.path": "work_path(\"in.off\")", "koksma_generate_on.out": "points_in_space()",
     "koksma_warp_find.name": "\"triangle\"", "koksma_warp_evaluate.measure": "a_measure(\"edge\")",
     "koksma_plot_format_of.path": "\"a.svg\"", "koksma_plot_panels.n": "2", "koksma_plot_panels.size": "64", "koksma_plot_strata.n": "1",
     "koksma_plot_strata.size": "64", "koksma_plot_write.size": "16",

@@ -24,6 +24,7 @@ static void asserted(const char *condition);
 
 #include <koksma/adaptive.h>
 #include <koksma/datasheet.h>
+#include <koksma/density.h>
 #include <koksma/integrate.h>
 #include <koksma/keys.h>
 #include <koksma/mask.h>
@@ -107,6 +108,12 @@ static void *a_run(void)
 static void *points_of(size_t n)
 {
     koksma_points points = test_points("jittered", n, 2, 1);
+    return a_copy(&points, sizeof points);
+}
+
+static void *points_in_space(void)
+{
+    koksma_points points = test_points("jittered", 8, 3, 1);
     return a_copy(&points, sizeof points);
 }
 
@@ -606,6 +613,10 @@ static void make_inputs(void)
     must(koksma_study_close(study));
     must(koksma_points_write(work_path("in.npy"), points_of(16), NULL, NULL));
     must(koksma_image_write(work_path("in.pfm"), an_image(), NULL));
+    FILE *off = fopen(work_path("in.off"), "w");
+    if (!off || fputs("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", off) < 0 || fclose(off)) {
+        abort();
+    }
     must(koksma_image_write(work_path("in_1.pfm"), an_image(), NULL));
 }
 

@@ -52,6 +52,8 @@ typedef struct elimination {
     int dim, grid_dims;
     size_t all, keep, count; /* numbers of points: given, to keep, in the heap */
     double d_max, d_min;
+    bool plain;             /* distances are those of the cube, not of the torus */
+    double *scale;          /* unit of distance at each renumbered point; NULL: 1 */
     bool all_images;        /* all images of a point contribute, not only the nearest */
     double *xs;             /* coordinates of the renumbered points */
     uint32_t *origin;       /* the number that a point had when it was given */
@@ -133,12 +135,13 @@ static size_t cell_of(const elimination *e, const double *x)
     return cell;
 }
 
-/* Chooses as many cells on a side as d_max allows, but no more cells than points. Returns the number of cells. */
-static size_t size_cells(elimination *e)
+/* Chooses as many cells on a side as d_max allows, but no more cells than points; with units of distance, about as many
+   as points. Returns the number of cells. */
+static size_t size_cells(elimination *e, bool scaled)
 {
     e->grid_dims = e->dim < GRID_DIMS ? e->dim : GRID_DIMS;
     e->reach = e->dim <= 3 ? 2 : 1;
-    const double wanted = floor((double)e->reach / e->d_max * (1 - 1e-9));
+    const double wanted = scaled ? (double)INFINITY : floor((double)e->reach / e->d_max * (1 - 1e-9));
     e->cells = 1;
     for (;;) {
         size_t count = 1;
@@ -158,7 +161,7 @@ static size_t size_cells(elimination *e)
 }
 
 /* Renumbers the points cell by cell; within a cell they stay in the given order. */
-static void sort_into_cells(elimination *e, const double *points, size_t cells)
+static void sort_into_cells(elimination *e, const double *points, const double *scale, size_t cells)
 {
     const size_t dim = (size_t)e->dim;
     memset(e->cell_count, 0, cells * sizeof *e->cell_count);
@@ -175,6 +178,9 @@ static void sort_into_cells(elimination *e, const double *points, size_t cells)
         const uint32_t at = e->cell_start[c] + e->cell_count[c]++;
         memcpy(e->xs + at * dim, points + i * dim, dim * sizeof *points);
         e->origin[at] = (uint32_t)i;
+        if (e->scale) {
+            e->scale[at] = scale[i];
+        }
         e->members[at] = e->member_place[at] = at;
     }
 }
@@ -229,18 +235,21 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     e->looks += e->cell_count[cell];
     for (uint32_t m = 0; m < e->cell_count[cell]; m++) {
         const double *y = e->xs + member[m] * dim;
+        const double unit = e->scale ? fmin(e->scale[point], e->scale[member[m]]) : 1;
+        const double limit2 = d_max2 * (unit * unit);
         double square = 0;
-        for (size_t k = 0; k < dim && square < d_max2; k++) {
-            const double t = koksma__torus_difference(x[k], y[k]);
+        for (size_t k = 0; k < dim && square < limit2; k++) {
+            const double t = e->plain ? y[k] - x[k] : koksma__torus_difference(x[k], y[k]);
             square += t * t;
             if (e->all_images) {
                 across[k] = t;
             }
         }
-        if (!(square < d_max2) || member[m] == point) {
+        if (!(square < limit2) || member[m] == point) {
             continue;
         }
-        const double weight = e->all_images ? weight_of_images(e, across, 0, square) : weight_at(e, square);
+        const double weight =
+            e->all_images ? weight_of_images(e, across, 0, square) : weight_at(e, square / (unit * unit));
         if (relieve) {
             const size_t at = e->heap_place[member[m]];
             e->heap[at].weight -= weight;
@@ -251,6 +260,12 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     }
 }
 
+/* How many cells away neighbours of a point can be: with units of distance, as far as its own unit reaches. */
+static size_t reach_of(const elimination *e, uint32_t point)
+{
+    return e->scale ? (size_t)fmin(ceil(e->d_max * e->scale[point] * (double)e->cells), (double)e->cells) : e->reach;
+}
+
 /* Calls weigh_cell for each cell that can hold neighbours of `point`, by recursion over the dimensions. */
 static void weigh_from(elimination *e, int k, size_t row, uint32_t point, bool relieve)
 {
@@ -259,8 +274,8 @@ static void weigh_from(elimination *e, int k, size_t row, uint32_t point, bool r
         return;
     }
     const size_t own = cell_along(e, e->xs[(size_t)point * (size_t)e->dim + (size_t)k]);
-    const size_t some = 2 * e->reach + 1 < e->cells ? 2 * e->reach + 1 : e->cells;
-    size_t cell = some < e->cells ? (own + e->cells - e->reach) % e->cells : 0;
+    const size_t reach = reach_of(e, point), some = 2 * reach + 1 < e->cells ? 2 * reach + 1 : e->cells;
+    size_t cell = some < e->cells ? (own + e->cells - reach) % e->cells : 0;
     for (size_t i = 0; i < some; i++) {
         weigh_from(e, k + 1, row * e->cells + cell, point, relieve);
         cell = cell + 1 < e->cells ? cell + 1 : 0;
@@ -322,20 +337,29 @@ static void list_kept(const elimination *e, uint32_t *order)
 koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,
                                 const koksma_run *run, uint32_t *order)
 {
-    elimination e = {.dim = dim, .all = count, .keep = keep, .d_max = d_max, .d_min = d_min};
-    e.all_images = dim >= MIN_IMAGE_DIMS && dim <= MAX_IMAGE_DIMS && d_max > 0.5;
-    const size_t cells = size_cells(&e), words = 4 * count + 2 * cells;
-    const size_t bytes = count * ((size_t)dim * sizeof *e.xs + sizeof *e.heap) + words * sizeof *e.members;
+    return koksma__eliminate_scaled(count, dim, points, NULL, true, keep, d_max, d_min, run, order);
+}
+
+koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points, const double *scale, bool torus,
+                                       size_t keep, double d_max, double d_min, const koksma_run *run,
+                                       uint32_t *order)
+{
+    elimination e = {.dim = dim, .all = count, .keep = keep, .d_max = d_max, .d_min = d_min, .plain = !torus};
+    e.all_images = !scale && torus && dim >= MIN_IMAGE_DIMS && dim <= MAX_IMAGE_DIMS && d_max > 0.5;
+    const size_t cells = size_cells(&e, scale != NULL), words = 4 * count + 2 * cells;
+    const size_t numbers = (size_t)dim + (scale ? 1 : 0);
+    const size_t bytes = count * (numbers * sizeof *e.xs + sizeof *e.heap) + words * sizeof *e.members;
     e.xs = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(e.xs, bytes);
-    e.heap = (entry *)(e.xs + count * (size_t)dim);
+    e.scale = scale ? e.xs + count * (size_t)dim : NULL;
+    e.heap = (entry *)(e.xs + count * numbers);
     e.origin = (uint32_t *)(e.heap + count);
     e.heap_place = e.origin + count;
     e.members = e.heap_place + count;
     e.member_place = e.members + count;
     e.cell_start = e.member_place + count;
     e.cell_count = e.cell_start + cells;
-    sort_into_cells(&e, points, cells);
+    sort_into_cells(&e, points, scale, cells);
     const koksma_status status = take_out(&e, run, order);
     if (!status) {
         list_kept(&e, order);

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * koksma_generate_on: points on the triangles of a model, uniform in area. A candidate is uniform in a triangle that is
+ * drawn in proportion to its area, by bisection of the sums of all areas before it; the warp `triangle` maps the unit
+ * square to the triangle. Methods see positions in the smallest cube about the model, scaled to the unit cube.
+ */
+#include <koksma/density.h>
+#include <koksma/warp.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/points_io.h"
+#include "core/random.h"
+#include "core/status.h"
+#include "domains/choose.h"
+#include "meshes/mesh_read.h"
+
+typedef struct surface {
+    koksma__mesh mesh;
+    double *sums; /* of the areas of all triangles up to this one */
+    double side;  /* of the cube */
+    const koksma_warp *warp;
+} surface;
+
+/* The corner of a triangle, its two edges from there, and their cross product. */
+typedef struct triangle {
+    double corner[3], edge[2][3], normal[3];
+} triangle;
+
+static triangle triangle_of(const koksma__mesh *mesh, size_t t)
+{
+    triangle a;
+    const float *p[3];
+    for (size_t c = 0; c < 3; c++) {
+        p[c] = mesh->vertices + 3 * (size_t)mesh->indices[3 * t + c];
+    }
+    for (int k = 0; k < 3; k++) {
+        a.corner[k] = (double)p[0][k];
+        a.edge[0][k] = (double)p[1][k] - (double)p[0][k];
+        a.edge[1][k] = (double)p[2][k] - (double)p[0][k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int u = (k + 1) % 3, v = (k + 2) % 3;
+        a.normal[k] = a.edge[0][u] * a.edge[1][v] - a.edge[0][v] * a.edge[1][u];
+    }
+    return a;
+}
+
+static double length(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* Candidate i in the model's coordinates; returns its triangle's number. */
+static size_t place(const surface *s, uint64_t seed, uint64_t i, double *x)
+{
+    double which[2], within[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 0, which);
+    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 1, within);
+    const size_t n = s->mesh.n_triangles, t = koksma__domain_find(s->sums, n, which[0] * s->sums[n - 1]);
+    const triangle a = triangle_of(&s->mesh, t);
+    s->warp->map(within, within);
+    for (int k = 0; k < 3; k++) {
+        x[k] = a.corner[k] + within[0] * a.edge[0][k] + within[1] * a.edge[1][k];
+    }
+    return t;
+}
+
+static void draw(const void *data, uint64_t seed, uint64_t i, double *x, double *unit)
+{
+    const surface *s = data;
+    place(s, seed, i, x);
+    *unit = 1;
+    for (int k = 0; k < 3; k++) {
+        x[k] = fmin(fmax((x[k] - s->mesh.low[k]) / s->side, 0), 1 - 0x1p-53);
+    }
+}
+
+static void write_points(const surface *s, uint64_t seed, const uint64_t *chosen, koksma_points *out)
+{
+    for (size_t i = 0; i < out->n; i++) {
+        double *x = out->xs + i * (size_t)out->dim;
+        const size_t t = place(s, seed, chosen[i], x);
+        if (out->dim >= 6) {
+            const triangle a = triangle_of(&s->mesh, t);
+            for (int k = 0; k < 3; k++) {
+                x[3 + k] = a.normal[k] / length(a.normal);
+            }
+        }
+        if (out->dim == 7) {
+            x[6] = (double)t;
+        }
+    }
+}
+
+static koksma_status choose(surface *s, const koksma_spec *spec, uint64_t seed, const koksma_run *run,
+                            koksma_points *out)
+{
+    const size_t n = s->mesh.n_triangles, bytes = n * sizeof *s->sums + out->n * sizeof(uint64_t);
+    double area = 0;
+    s->sums = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(s->sums, bytes);
+    uint64_t *chosen = (uint64_t *)(s->sums + n);
+    for (size_t t = 0; t < n; t++) {
+        const triangle a = triangle_of(&s->mesh, t);
+        s->sums[t] = area += 0.5 * length(a.normal);
+    }
+    for (int k = 0; k < 3; k++) {
+        s->side = fmax(s->side, s->mesh.high[k] - s->mesh.low[k]);
+    }
+    const koksma__point_domain domain = {.what = "on a model",
+                                         .dim = 3,
+                                         .area = area / s->side / s->side,
+                                         .unit = 1 / s->side,
+                                         .data = s,
+                                         .draw = draw};
+    const koksma_status status = koksma__domain_choose(&domain, spec, seed, out->n, run, chosen);
+    if (!status) {
+        write_points(s, seed, chosen, out);
+    }
+    free(s->sums);
+    return status;
+}
+
+koksma_status koksma_generate_on(const koksma_spec *spec, uint64_t seed, const char *path, const koksma_run *run,
+                                 koksma_points *out)
+{
+    KOKSMA__REQUIRE(spec, path, out);
+    KOKSMA__REQUIRE_RUN(run);
+    KOKSMA__FAIL_IF(!out->xs || !out->n, KOKSMA_ARGUMENT, "%s: it takes initialised points", __func__);
+    KOKSMA__FAIL_IF(
+        out->dim != 3 && out->dim != 6 && out->dim != 7, KOKSMA_DIM,
+        "points on a model have dim = 3, or 6 with their normal, or 7 with their triangle as well; not %d", out->dim);
+    KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
+    surface s = {.warp = koksma_warp_find("triangle")};
+    koksma_status status = koksma__mesh_read(path, &s.mesh);
+    status = status ? status : choose(&s, spec, seed, run, out);
+    koksma__mesh_fini(&s.mesh);
+    return status;
+}

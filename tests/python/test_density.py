@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Points with a density and on models from Python: the program's bits, shapes, refusals."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import koksma
+
+
+class Density(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.map = np.ones((8, 8), np.float32)
+        self.map[:, 4:] = 3
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def program(self, *arguments):
+        out = self.path("out.npy")
+        subprocess.run([os.environ["KOKSMA"], "generate", *arguments, "-q", "-o", out], check=True)
+        return np.load(out)
+
+    def test_the_programs_bits(self):
+        file, model = self.path("map.pfm"), self.path("model.off")
+        koksma.write_image(file, self.map)
+        with open(model, "w", encoding="ascii") as f:
+            f.write("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n")
+        for pattern in ("random", "sample-elimination", "progressive-elimination", "poisson-disk:d=0.01,torus=1"):
+            ours = koksma.generate(pattern, 200, seed=3, density=self.map)
+            np.testing.assert_array_equal(ours, koksma.generate(pattern, 200, seed=3, density=file, threads=2))
+            np.testing.assert_array_equal(ours, self.program(pattern, "-n", "200", "-s", "3", "--density", file))
+            self.assertTrue(120 < (ours[:, 0] > 0.5).sum() < 180)
+            pattern = pattern.replace(",torus=1", "")
+            ours = koksma.generate(pattern, 200, 7, seed=3, on=model)
+            np.testing.assert_array_equal(ours, self.program(pattern, "-n", "200", "-d", "7", "-s", "3", "--on", model))
+            np.testing.assert_array_equal(ours[:, :3], koksma.generate(pattern, 200, seed=3, on=model))
+            np.testing.assert_array_equal(ours[:, 3:6], np.where(ours[:, 6:] == 0, [0, 0, 1], [1, 0, 0]))
+
+    def test_refusals(self):
+        for error, said, arguments in (
+                (koksma.ArgumentError, "exclude each other", {"n": None, "density": self.map}),
+                (koksma.ArgumentError, "exclude each other", {"on": "x.obj", "density": self.map}),
+                (koksma.MissingError, "none.obj", {"on": self.path("none.obj")}),
+                (koksma.MissingError, "none.pfm", {"density": self.path("none.pfm")}),
+                (koksma.ArgumentError, "2 dimensions", {"dim": 3, "density": self.map}),
+                (koksma.MalformedError, "0 everywhere", {"density": 0 * self.map})):
+            with self.assertRaisesRegex(error, said):
+                koksma.generate("random", **{"n": 5, **arguments})
+        with self.assertRaisesRegex(koksma.UnsupportedError, "no form with a density"):
+            koksma.generate("sobol", 5, density=self.map)
+
+
+if __name__ == "__main__":
+    unittest.main()
