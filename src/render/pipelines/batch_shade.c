@@ -62,9 +62,9 @@ void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__h
     }
 }
 
-/* The loop of `aim`, or of `light` if there are sums. */
+/* The loop of `aim`; rays: whether shadow rays are needed beside their light. */
 INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h, const float *restrict xy, int n,
-                koksma__shadows *restrict s, float *restrict sum)
+                bool rays, koksma__shadows *restrict s)
 {
     const koksma__batch_light l = *light;
     int lit = 0;
@@ -80,9 +80,7 @@ INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h
         const float value = l.power * at_hit * at_light / (square * square);
         s->light[i] = facing ? value : 0;
         lit += facing;
-        if (sum) {
-            sum[i] += s->light[i];
-        } else {
+        if (rays) {
             s->dx[i] = dx;
             s->dy[i] = dy;
             s->dz[i] = dz;
@@ -94,13 +92,15 @@ INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h
 int BATCH_NAME(aim)(const koksma__batch_light *light, const koksma__hits *h, const float *xy, int n,
                     koksma__shadows *s)
 {
-    return send(light, h, xy, n, s, NULL);
+    return send(light, h, xy, n, true, s);
 }
 
 int BATCH_NAME(light)(const koksma__batch_light *light, const koksma__hits *h, const float *xy, int n,
                       koksma__shadows *s, float *sum)
 {
-    return send(light, h, xy, n, s, sum);
+    const int lit = send(light, h, xy, n, false, s);
+    BATCH_NAME(add)(s, n, sum);
+    return lit;
 }
 
 void BATCH_NAME(add)(const koksma__shadows *shadows, int n, float *sum)
