@@ -37,11 +37,17 @@ static double beta(const job *j)
 static void find_corrections(job *j)
 {
     const double b = beta(j);
+    double z[NODES], height[NODES], slope[NODES];
+    for (int i = 0; i < NODES; i++) {
+        const double angle = M_PI * (i + 0.5) / NODES;
+        z[i] = cos(angle);
+        slope[i] = sin(angle);
+        height[i] = exp(b * (slope[i] - 1));
+    }
     for (int k = 0; k <= j->half; k++) {
         double sum = 0;
         for (int i = 0; i < NODES; i++) {
-            const double angle = M_PI * (i + 0.5) / NODES, z = cos(angle);
-            sum += exp(b * (sin(angle) - 1)) * cos(M_PI * WIDTH * k * z / (double)j->m) * sin(angle);
+            sum += height[i] * cos(M_PI * WIDTH * k * z[i] / (double)j->m) * slope[i];
         }
         j->corrections[k] = 1 / (sum * M_PI / NODES * WIDTH / 2);
     }
@@ -62,8 +68,14 @@ static void spread(job *j, const double *point)
     }
     for (size_t y = 0; y < WIDTH; y++) {
         double *row = j->grid + ((first[1] + y) & (j->m - 1)) * j->m;
-        for (size_t x = 0; x < WIDTH; x++) {
-            row[(first[0] + x) & (j->m - 1)] += weights[1][y] * weights[0][x];
+        if (first[0] + WIDTH <= j->m) { /* in vectors */
+            for (size_t x = 0; x < WIDTH; x++) {
+                row[first[0] + x] += weights[1][y] * weights[0][x];
+            }
+        } else {
+            for (size_t x = 0; x < WIDTH; x++) {
+                row[(first[0] + x) & (j->m - 1)] += weights[1][y] * weights[0][x];
+            }
         }
     }
 }
@@ -104,10 +116,13 @@ static koksma_status transform_rows(void *context, size_t block)
 {
     job *j = context;
     const size_t m = j->m, room = LANES * m;
-    double *memory = calloc(4 * room, sizeof *memory);
+    double *memory = aligned_alloc(64, 4 * room * sizeof *memory);
     KOKSMA__REQUIRE_MEMORY(memory, 4 * room * sizeof *memory);
     double *re = memory, *im = re + room;
     const size_t first = LANES * block, left = (size_t)j->half + 1 - first, count = left < LANES ? left : LANES;
+    if (count < LANES) {
+        memset(memory, 0, 2 * room * sizeof *memory);
+    }
     for (size_t l = 0; l < count; l++) {
         for (size_t x = 0; x < m; x++) {
             re[LANES * x + l] = j->re[(first + l) * m + x];

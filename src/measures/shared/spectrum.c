@@ -46,11 +46,13 @@ void koksma_spectrum_fini(koksma_spectrum *spectrum)
     }
 }
 
-/* A loop over the frequencies (kx, ky) of the rings 1 .. half, with one of k and -k. */
+/* A loop over the frequencies (kx, ky) of the rings 1 .. half, with one of k and -k. No distance is near a half, as
+   (r + 1/2)^2 is not a whole number. */
 #define FOR_EACH_FREQUENCY(half, kx, ky, ring)                                                                       \
     for (int ky = 0; ky <= (half); ky++)                                                                             \
         for (int kx = ky ? -(half) : 1; kx <= (half); kx++)                                                          \
-            for (int ring = (int)floor(hypot(kx, ky) + 0.5), once_ = 1; once_ && ring <= (half); once_ = 0)
+            for (int ring = (int)(sqrt((double)(kx * kx + ky * ky)) + 0.5), once_ = 1; once_ && ring <= (half);      \
+                 once_ = 0)
 
 static double power_at(int half, const double *power, int kx, int ky)
 {
