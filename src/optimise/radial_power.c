@@ -252,7 +252,7 @@ static koksma_status read_profile(const char *path, double root, int rings, doub
     return status;
 }
 
-/* The mean over SETS sets of n points, or the one set of a deterministic pattern without modifiers. */
+/* The mean over SETS sets of n points. */
 static koksma_status power_of_pattern(const koksma_spec *pattern, size_t n, int rings, const koksma_run *run,
                                       double *power)
 {
