@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma optimise`: searches for a point set with a small value of a measure, and writes the best set to a file
    after each improvement. Under mpirun the ranks share the search; rank 0 writes the file and prints. */
+#include <koksma/spectrum.h>
 #include <koksma/study.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +25,8 @@ typedef struct job {
     uint64_t projections[MOST_PROJECTIONS];
     double weights[MOST_PROJECTIONS];
     koksma_processes ranks;
-    double first; /* the value of the initial set */
+    double *power; /* --power at each frequency; NULL: a measure */
+    double first;  /* the value of the initial set */
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
 
@@ -196,6 +199,29 @@ static bool parse(job *j)
            cli_real(arguments, "time-limit", j->options.steps ? 0 : 60, 0, 1e9, &j->work.run.time_limit_s);
 }
 
+/* Reads --power, whose frequencies end at --band times the root of the number of points. Returns the exit code. */
+static int target(job *j)
+{
+    const char *text = cli_text(j->arguments, "power", NULL);
+    double band;
+    if (!cli_real(j->arguments, "band", 2, 0.1, 64, &band)) {
+        return CLI_USAGE;
+    }
+    if (!text) {
+        return cli_text(j->arguments, "band", NULL)
+                   ? cli_usage_error(j->arguments, "--band has an effect with --power only")
+                   : CLI_YES;
+    }
+    j->options.rings = (int)ceil(fmin(band * sqrt((double)j->options.n), KOKSMA_SPECTRUM_MAX_HALF));
+    j->power = malloc((size_t)j->options.rings * sizeof *j->power);
+    j->options.power = j->power;
+    if (!j->power) {
+        return cli_no_memory();
+    }
+    const koksma_status status = koksma_radial_power(text, j->options.n, j->options.rings, &j->work.run, j->power);
+    return status ? cli_fail(j->arguments, status) : CLI_YES;
+}
+
 static int run(const cli_arguments *arguments)
 {
     koksma_spec measure;
@@ -211,13 +237,15 @@ static int run(const cli_arguments *arguments)
             return cli_usage_error(arguments, "--%s has an effect with --scene only", of_scenes[i]);
         }
     }
-    if (arguments->n_operands != 1) {
-        return cli_usage_error(arguments, "it takes one measure, such as star or l2-disk:r=0.25");
+    const char *power = cli_text(arguments, "power", NULL);
+    if (arguments->n_operands != !power) {
+        return cli_usage_error(arguments, power ? "it takes a measure or --power, not both"
+                                                : "it takes one measure, such as star or l2-disk:r=0.25");
     }
     if (!cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments, "-o FILE, where the best set is kept, is missing");
     }
-    koksma_status status = koksma_measure_spec(arguments->operands[0], &measure);
+    koksma_status status = power ? KOKSMA_OK : koksma_measure_spec(arguments->operands[0], &measure);
     if (status) {
         return cli_fail(arguments, status);
     }
@@ -225,18 +253,23 @@ static int run(const cli_arguments *arguments)
     if (!counted && !given) {
         return cli_usage_error(arguments, "-n N, the number of points, is missing");
     }
-    koksma_spec_text(&measure, j.name);
+    if (power) {
+        snprintf(j.name, sizeof j.name, "power %s", power);
+    } else {
+        koksma_spec_text(&measure, j.name);
+    }
     if (!parse(&j)) {
         return CLI_USAGE;
     }
     int code = first_set(&j, counted, &from);
+    code = code ? code : target(&j);
     if (!code) {
         j.work.what = j.line;
         j.gained_s = cli_seconds();
         j.options.processes = &j.ranks;
         status = koksma_study_mpi_processes(&j.ranks);
         j.work.run.keep_going = j.ranks.rank > 0 ? NULL : j.work.run.keep_going;
-        status = status ? status : koksma_optimise(&measure, &j.options, &j.work.run, &best);
+        status = status ? status : koksma_optimise(power ? NULL : &measure, &j.options, &j.work.run, &best);
         cli_work_end();
         status = j.written ? j.written : status;
         if (best.points.n && !j.written && j.ranks.rank == 0) {
@@ -246,6 +279,7 @@ static int run(const cli_arguments *arguments)
     }
     koksma_optimum_fini(&best);
     koksma_points_fini(&from);
+    free(j.power);
     return code;
 }
 
@@ -262,6 +296,9 @@ static const cli_option options[] = {
     {0, "time-limit", "SECONDS", "end after the step in which this time is up (default: 60; with --steps: no limit)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
     {'o', "output", "FILE.txt|.csv|.npy", "the best set; the file is rewritten after each gain"},
+    {0, "power", "step|gaussian|PATTERN|FILE",
+     "in place of MEASURE: a target for the radial mean of the power spectrum in the plane"},
+    {0, "band", "B", "with --power: frequencies up to B sqrt(n) (default: 2)"},
     {0, "scene", "SCENE", "search for a set for this scene's image with -n samples a pixel, to use as file:FILE"},
     {0, "held-out", "SCENE,..", "with --scene: other scenes to test the set in (default: six of the library)"},
     {0, "against", "PATTERN,..|all", "with --scene: patterns to compare the set with (default: 17)"},
@@ -278,7 +315,8 @@ const cli_command cli_command_optimise = {
     .name = "optimise",
     .summary = "search for points with a small value of a measure",
     .synopsis = "MEASURE -n N [-d DIM] [--from FILE] [--keep WHAT] [--projections LIST] [--steps K] -o FILE | "
-                "--scene SCENE -n SPP [--held-out SCENE,..] [--against PATTERN,..] -o FILE",
+                "--power TARGET -n N [--band B] -o FILE | --scene SCENE -n SPP [--held-out SCENE,..] [--against "
+                "PATTERN,..] -o FILE",
     .details =
         "MEASURE is any measure with exact values, such as star or l2-disk:law=area; distances are made large,\n"
         "all other measures small. Equal arguments with --steps give equal sets, on any number of threads. After\n"
@@ -289,6 +327,9 @@ const cli_command cli_command_optimise = {
         "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2;\n"
         "the value is then the geometric mean of the measure over the first 2, 4, .., n points, and net-file:FILE\n"
         "reads FILE. Under mpirun the ranks share the work.\n"
+        "--power makes the root mean square difference to a target small, over the plane of frequencies. step is 0\n"
+        "below sqrt(n / pi) and 1 above, gaussian 1 - exp(-pi f^2 / n), a PATTERN the mean of 16 sets; FILE has\n"
+        "lines of a frequency, in units of sqrt(n), and a power. The search starts from gaussian-blue-noise.\n"
         "--scene SCENE renders. Candidates are sets of low L2 discrepancy, with weights from the scene for x, for\n"
         "y and for both, and shifts of these sets. The confidence intervals of koksma rank eliminate candidates;\n"
         "the best one is compared with listed patterns in SCENE and in held-out scenes.\n"
@@ -299,6 +340,7 @@ const cli_command cli_command_optimise = {
                 "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
                 "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n"
                 "koksma optimise star -n 256 --keep sequence --steps 4 -o net.txt\n"
+                "koksma optimise --power step -n 256 --steps 2 -o step.txt\n"
                 "koksma optimise --scene ball -n 16 -o ball.txt\n",
     .options = options,
     .run = run,

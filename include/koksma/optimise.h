@@ -78,6 +78,11 @@ typedef struct koksma_optimise_options {
     size_t n_projections;
     const koksma_processes *processes; /* processes that share the search; NULL: this process does all of the
                                           work */
+    /* A target in place of a measure: the mean power at the frequencies 1 .. rings (koksma_spectrum_rings), in the
+       plane. The value is the root of the mean square difference, in which ring r counts r times. The search then
+       starts from gaussian-blue-noise. NULL, and rings = 0: a measure */
+    const double *power;
+    int rings;
 } koksma_optimise_options;
 
 /* A method of search: one line of `koksma list methods`. */
@@ -98,12 +103,21 @@ KOKSMA_API const koksma_method *koksma_method_at(size_t i);
 KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 
 /* Searches for points with a small value of a measure (a large value if the measure is a distance). Allocates out.
-     measure  a measure whose answer is KOKSMA_ANSWER_EXACT
+     measure  a measure whose answer is KOKSMA_ANSWER_EXACT; NULL with options->power
      run      if the time limit passes during a step, the search ends after that step; at least one step is done
    Errors: ARGUMENT (a bad option or measure), N, DIM, MEMORY, INTERRUPTED (run->keep_going returned false; out then
    has the best set so far). */
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                                          const koksma_run *run, koksma_optimum *out);
+
+/* Computes a target for options->power: the radial power of n points at the frequencies 1 .. rings.
+     text   "step" (0 below the frequency sqrt(n / pi), else 1), "gaussian" (1 - exp(-pi f^2 / n)), a pattern (the mean
+            of 16 sets), or a file of lines with a frequency in units of sqrt(n) and a power
+     rings  1 to KOKSMA_SPECTRUM_MAX_HALF
+     power  receives rings numbers
+   Errors: ARGUMENT, N, MISSING, MALFORMED, MEMORY, INTERRUPTED, and those of koksma_generate. */
+KOKSMA_API koksma_status koksma_radial_power(const char *text, size_t n, int rings, const koksma_run *run,
+                                             double *power);
 
 /* Computes the generator matrices of a digital sequence from its first 2^m points and writes them to a file for the
    pattern net-file. Errors: N (the number of points is not a power of two), ARGUMENT (the points are not those of a

@@ -39,10 +39,10 @@ def _optimum(best: s.Optimum) -> Optimum:
     return Optimum(points, best.value, best.lower, best.steps, best.last_gain, best.method.decode())
 
 
-def optimise(measure: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, *,
+def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, *,
              start: Optional[npt.ArrayLike] = None, keep: str = "none",
              projections: Sequence[Sequence[SupportsIndex]] = (),
-             weights: Optional[Sequence[float]] = None, seed: SupportsIndex = 0,
+             weights: Optional[Sequence[float]] = None, power: Optional[Sequence[float]] = None, seed: SupportsIndex = 0,
              steps: SupportsIndex = 0, time_limit: Optional[float] = None, threads: SupportsIndex = 0,
              progress: Optional[Callable[[Optimum], object]] = None) -> Optimum:
     """Searches for n points in [0,1)^dim with a small value of a measure (a large one of a distance).
@@ -54,6 +54,8 @@ def optimise(measure: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex
     its first 2, 4, .., n points.
     projections: the coordinates in which points are measured, as [(0, 1), (0, 2)]; empty: all together. The value is the
     root of the mean of the squares, with weights, one of each projection, if they are given.
+    power: with measure None, a target for the mean power at the frequencies 1, 2, .. in the plane; the value is the root
+    mean square difference, in which ring r counts r times.
     steps: of a fixed amount of work; equal steps and seed give equal sets. 0: until time_limit, in seconds.
     progress: called with the first set and after each step; returns False to stop.
     """
@@ -69,6 +71,8 @@ def optimise(measure: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex
         raise ArgumentError("the search has no end: it takes steps, time_limit or progress")
     if weights is not None and len(weights) != len(projections):
         raise ArgumentError(f"{len(weights)} weights: it takes one of each of {len(projections)} projections")
+    if (measure is None) == (power is None):
+        raise ArgumentError("it takes a measure or a target power, and not both")
     raised = []
 
     def tell(_context: object, best: object) -> bool:
@@ -79,13 +83,14 @@ def optimise(measure: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex
             return False
 
     bits = [sum(1 << k for k in {whole("projections", k, 0, 63) for k in u}) for u in projections]
-    parsed, best = spec("measure", measure), s.Optimum()
+    parsed, best = None if measure is None else byref(spec("measure", measure)), s.Optimum()
     c_first = None if first is None else ctypes.pointer(view(first))
     options = s.OptimiseOptions(n, dim, c_first, _KEEP.index(keep), whole("seed", seed, 0, s.MAX_SEED), steps,
                                 s.OptimiseProgress(tell), None, (c_uint64 * len(bits))(*bits),
-                                None if weights is None else (c_double * len(bits))(*weights), len(bits), None)
+                                None if weights is None else (c_double * len(bits))(*weights), len(bits), None, None if power is None else (c_double * len(power))(*power),
+                                0 if power is None else len(power))
     try:
-        call(core().koksma_optimise, byref(parsed), byref(options), byref(best), threads=threads,
+        call(core().koksma_optimise, parsed, byref(options), byref(best), threads=threads,
              time_limit=time_limit, run_at=2)
         if raised:
             raise raised[0]

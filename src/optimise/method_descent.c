@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "optimise/descent.h"
+#include "optimise/radial_power.h"
 #include "optimise/value.h"
 
 typedef struct job {
@@ -22,9 +23,9 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     const job j = {measure, o};
     koksma__stream random = {.seed = seed};
     koksma__descent d;
-    const double n = (double)points->n;
-    koksma_status status = koksma__descent_init(
-        &d, points, o->keep, o->keep == KOKSMA_KEEP_NET || !measure->measure->on_torus, n * n * points->dim + 1000);
+    const double n = (double)points->n, cost = o->power ? koksma__radial_power_cost(o) : n * n * points->dim + 1000;
+    koksma_status status =
+        koksma__descent_init(&d, points, o->keep, o->keep == KOKSMA_KEEP_NET || !measure->measure->on_torus, cost);
     double best = value * value;
     d.function = square_of;
     d.context = &j;
@@ -44,12 +45,14 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
 
 static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 {
-    return measure->measure->gradient && (o->keep == KOKSMA_KEEP_NONE || o->keep == KOKSMA_KEEP_NET) ? 5 : 0;
+    return (measure->measure->gradient || o->power) && (o->keep == KOKSMA_KEEP_NONE || o->keep == KOKSMA_KEEP_NET)
+               ? 5
+               : 0;
 }
 
 const koksma_method koksma__method_descent = {
     .name = "descent",
-    .title = "L-BFGS from many starts (measures with a gradient)",
+    .title = "L-BFGS from many starts (measures with a gradient, target power)",
     .cite = "nocedal1980 nocedal2006",
     .serves = serves,
     .search = search,

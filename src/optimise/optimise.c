@@ -19,6 +19,7 @@
 #include "core/status.h"
 #include "measures/measures.h"
 #include "optimise/methods.h"
+#include "optimise/radial_power.h"
 #include "optimise/sequence.h"
 #include "optimise/value.h"
 
@@ -132,8 +133,11 @@ static koksma_status first_set(const koksma_optimise_options *o, const koksma_ru
         memcpy(points->xs, o->first->xs, o->n * (size_t)o->dim * sizeof(double));
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma_pattern_spec(
-        o->keep == KOKSMA_KEEP_NET || o->keep == KOKSMA_KEEP_SEQUENCE ? "sobol" : "latin-hypercube", &spec);
+    const koksma_status status =
+        koksma_pattern_spec(o->keep == KOKSMA_KEEP_NET || o->keep == KOKSMA_KEEP_SEQUENCE ? "sobol"
+                            : o->power && o->keep == KOKSMA_KEEP_NONE                     ? "gaussian-blue-noise"
+                                                                                          : "latin-hypercube",
+                            &spec);
     return status ? status : koksma_generate(&spec, o->seed, run, points);
 }
 
@@ -187,7 +191,10 @@ static koksma_status run_steps(step *s, koksma_optimum *best)
 koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                               const koksma_run *run, koksma_optimum *out)
 {
-    KOKSMA__REQUIRE(measure, options, out);
+    static const koksma_spec to_power = {.measure = &koksma__measure_radial_power};
+    KOKSMA__REQUIRE(options, out);
+    measure = options->power ? &to_power : measure;
+    KOKSMA__REQUIRE(measure);
     KOKSMA__REQUIRE_RUN(run);
     static const koksma_run unlimited = {0};
     step s = {.measure = measure,

@@ -16,6 +16,7 @@
 
 #include "core/spec.h"
 #include "core/status.h"
+#include "optimise/radial_power.h"
 
 static const koksma_run one_thread = {.threads = 1};
 
@@ -24,6 +25,7 @@ koksma_status koksma__search_check(const koksma_optimise_options *o)
     KOKSMA__FAIL_IF((o->n_projections && !o->projections) || (o->weights && !o->n_projections), KOKSMA_ARGUMENT,
                     "options->projections is NULL or empty, and %s",
                     o->weights ? "there are weights" : "n_projections is not 0");
+    KOKSMA__TRY(koksma__radial_power_check(o));
     KOKSMA__FAIL_IF(o->n_projections && o->dim > 64, KOKSMA_DIM, "dim = %d: projections are of at most 64 dimensions",
                     o->dim);
     for (size_t p = 0; p < o->n_projections; p++) {
@@ -92,6 +94,11 @@ koksma_status koksma__search_value(const koksma_spec *measure, const koksma_opti
     double mean = 0, weights = 0;
     koksma_value whole = {.value = NAN};
     koksma_status status = KOKSMA_OK;
+    if (o->power) {
+        status = koksma__radial_power_square(o, points, &mean, NULL);
+        *value = sqrt(mean);
+        return status;
+    }
     if (!o->n_projections && o->keep != KOKSMA_KEEP_SEQUENCE) {
         status = koksma_evaluate(measure, points, &one_thread, &whole);
         *value = whole.value;
@@ -124,6 +131,9 @@ koksma_status koksma__search_square(const koksma_spec *measure, const koksma_opt
     koksma_points projected;
     koksma_status status = KOKSMA_OK;
     double weights = 0;
+    if (o->power) {
+        return koksma__radial_power_square(o, points, square, gradient);
+    }
     if (!o->n_projections) {
         return measure->measure->gradient(points, &args, square, gradient);
     }

@@ -94,7 +94,8 @@ VALID = {
     "koksma_text_escape.size": "9", "koksma_entry *": "a_buffer(sizeof(koksma_entry))", "koksma_scene_kind_at.member": "\"lights\"",
     "koksma_method_find.name": "\"descent\"", "koksma_optimise_options *": "optimise_options()", "koksma_optimise.measure": "a_measure(\"l2-disk\")",
     "koksma_processes *": "a_buffer(sizeof(koksma_processes))", "koksma_net_write.path": "work_path(\"net.txt\")",
-    "koksma_net_write.points": "digital_points()",
+    "koksma_net_write.points": "digital_points()", "koksma_radial_power.text": "\"step\"", "koksma_radial_power.rings": "4",
+    "koksma_radial_power.n": "16",
     "koksma_optimum *": "a_buffer(sizeof(koksma_optimum))", "koksma_optimum_fini.best": "a_zero(sizeof(koksma_optimum))",
     "koksma_datasheet_options *": "datasheet_options()", "char **": "a_buffer(sizeof(char *))",
     "koksma_datasheet_page.json": "\"{\\\"format\\\":\\\"koksma-datasheet\\\"}\"",
@@ -167,7 +168,7 @@ ALLOWED = [
     r"\w+ options->(columns|rows) = 0 .*", r"\w+ \S*(size|white|level|errors|warp|witness|splits|strata|curves) = (0|NULL) .*", r"\w+ \S*n(_splits|_curves)? = 0 .*",
     r"koksma_study_images folder = NULL .*", r"koksma_closest_name table = NULL.*", r"koksma_optimise options->first = NULL .*", r"koksma_optimise options->first.*absent.*",
     r"koksma_study_audit options->(rows = LLONG_MAX|rows = 0|differs.*) .*", r"koksma_text_escape (size|text) = .*", r"koksma_optimise options->(steps|seed|first) = .*",
-    r"koksma_optimise options->(projections = NULL|n_projections = 0|weights = NULL|processes = NULL) .*",
+    r"koksma_optimise options->(projections = NULL|n_projections = 0|weights = NULL|processes = NULL|power = NULL|rings = 0) .*",
     r"koksma_rank_by_command picture->(scene|pattern) = (\"|long_text).*", r"koksma_rank_by_command picture->(spp|width|height|seed) = .*",  # its affair
     r"koksma_rank_patterns options->(render|render_context|reference) = .*",
     r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0|metric = NULL) .*",

@@ -2,6 +2,7 @@
 /* Searches: gradients against differences of the measure, sets that do not depend on threads, what is kept, optima that are
    proven. All methods and all measures with a gradient are walked. */
 #include <koksma/optimise.h>
+#include <koksma/spectrum.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -320,6 +321,114 @@ static void values_of_projections(void **state)
     }
 }
 
+/* The root mean square difference to a target, ring r counted r times, from the spectrum's own radial mean. */
+static double distance_to(const double *power, int rings, const koksma_points *points)
+{
+    koksma_spectrum spectrum;
+    koksma_ring found[16];
+    double sum = 0;
+    assert_ok(koksma_spectrum_init(&spectrum, rings));
+    assert_ok(koksma_spectrum_add(&spectrum, points, KOKSMA_SPECTRUM_EXACT, NULL));
+    assert_ok(koksma_spectrum_rings(&spectrum, found));
+    for (int r = 1; r <= rings; r++) {
+        sum += r * (found[r - 1].power - power[r - 1]) * (found[r - 1].power - power[r - 1]);
+    }
+    koksma_spectrum_fini(&spectrum);
+    return sqrt(sum / (rings * (rings + 1) / 2.0));
+}
+
+/* The value is the distance by definition, for any number of threads; descents nearly reach targets that exist. */
+static void target_powers(void **state)
+{
+    (void)state;
+    enum { N = 24, RINGS = 10 };
+    static const char *const targets[] = {"step", "gaussian", "jittered"};
+    double power[RINGS];
+    for (size_t t = 0; t < 3; t++) {
+        const size_t n = t == 2 ? 25 : N;
+        assert_ok(koksma_radial_power(targets[t], n, RINGS, NULL, power));
+        koksma_points before = test_points("gaussian-blue-noise", n, 2, 0);
+        koksma_optimise_options o = {.n = n, .dim = 2, .steps = 1, .power = power, .rings = RINGS};
+        koksma_optimum best[2];
+        for (int k = 0; k < 2; k++) {
+            assert_ok(koksma_optimise(NULL, &o, &(koksma_run){.threads = 1 + 2 * k}, &best[k]));
+        }
+        assert_memory_equal(best[0].points.xs, best[1].points.xs, 2 * n * sizeof(double));
+        assert_near(best[0].value, distance_to(power, RINGS, &best[0].points), 1e-9);
+        assert_true(best[0].value < 0.1 * distance_to(power, RINGS, &before));
+        assert_string_equal(best[0].method, "descent");
+        koksma_points_fini(&before);
+        koksma_optimum_fini(&best[0]);
+        koksma_optimum_fini(&best[1]);
+    }
+}
+
+/* Named targets are their formulas, a file's lines are joined by lines, a pattern's is the mean of its spectra. */
+static void profiles_of_targets(void **state)
+{
+    (void)state;
+    enum { N = 16, RINGS = 8 };
+    double power[RINGS];
+    const char path[] = "profile.txt";
+    assert_ok(koksma_radial_power("step", N, RINGS, NULL, power));
+    for (int r = 1; r <= RINGS; r++) {
+        assert_true(power[r - 1] == (r > sqrt(N / M_PI)));
+    }
+    assert_ok(koksma_radial_power("gaussian", N, RINGS, NULL, power));
+    for (int r = 1; r <= RINGS; r++) {
+        assert_near(power[r - 1], 1 - exp(-M_PI * r * r / N), 1e-15);
+    }
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("# f/sqrt(n) power\n0.5 0\n1,2 # a peak\n\n1.5\t1\n", file);
+    assert_int_equal(fclose(file), 0);
+    static const double joined[RINGS] = {0, 0, 1, 2, 1.5, 1, 1, 1};
+    assert_ok(koksma_radial_power(path, N, RINGS, NULL, power));
+    for (int r = 0; r < RINGS; r++) {
+        assert_near(power[r], joined[r], 1e-15);
+    }
+    static const char *const wrong[] = {"0.5\n",    "1 1\n0.5 1\n", "a b\n",  "0.5 -1\n",
+                                        "# none\n", "1 2 3\n",      "0 inf\n"};
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+        file = fopen(path, "w");
+        assert_non_null(file);
+        fputs(wrong[w], file);
+        assert_int_equal(fclose(file), 0);
+        assert_int_equal(koksma_radial_power(path, N, RINGS, NULL, power), KOKSMA_MALFORMED);
+    }
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(koksma_radial_power(path, N, RINGS, NULL, power), KOKSMA_MISSING);
+    double mean[RINGS] = {0};
+    for (uint64_t seed = 0; seed < 16; seed++) {
+        koksma_points points = test_points("jittered", N, 2, seed);
+        koksma_spectrum spectrum;
+        koksma_ring found[RINGS];
+        assert_ok(koksma_spectrum_init(&spectrum, RINGS));
+        assert_ok(koksma_spectrum_add(&spectrum, &points, KOKSMA_SPECTRUM_EXACT, NULL));
+        assert_ok(koksma_spectrum_rings(&spectrum, found));
+        for (int r = 0; r < RINGS; r++) {
+            mean[r] += found[r].power / 16;
+        }
+        koksma_spectrum_fini(&spectrum);
+        koksma_points_fini(&points);
+    }
+    assert_ok(koksma_radial_power("jittered", N, RINGS, NULL, power));
+    for (int r = 0; r < RINGS; r++) {
+        assert_near(power[r], mean[r], 1e-12);
+    }
+    koksma_optimum best;
+    koksma_optimise_options o = {.n = N, .dim = 3, .steps = 1, .power = power, .rings = RINGS};
+    assert_int_equal(koksma_optimise(NULL, &o, NULL, &best), KOKSMA_DIM);
+    o.dim = 2;
+    o.keep = KOKSMA_KEEP_SEQUENCE;
+    assert_int_equal(koksma_optimise(NULL, &o, NULL, &best), KOKSMA_ARGUMENT);
+    o.keep = KOKSMA_KEEP_NONE;
+    power[3] = -1;
+    assert_int_equal(koksma_optimise(NULL, &o, NULL, &best), KOKSMA_ARGUMENT);
+    o.power = NULL;
+    assert_int_equal(koksma_optimise(NULL, &o, NULL, &best), KOKSMA_ARGUMENT);
+}
+
 static bool stop_at_once(void *context, const koksma_optimum *best)
 {
     *(koksma_optimum *)context = *best;
@@ -358,9 +467,14 @@ static void ends_when_asked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gradients_are_differences), cmocka_unit_test(torus_is_where_it_is_said),
-        cmocka_unit_test(methods_gain_and_keep),     cmocka_unit_test(optima_of_the_star_discrepancy),
-        cmocka_unit_test(sequences_of_projections),  cmocka_unit_test(values_of_projections),
+        cmocka_unit_test(gradients_are_differences),
+        cmocka_unit_test(torus_is_where_it_is_said),
+        cmocka_unit_test(methods_gain_and_keep),
+        cmocka_unit_test(optima_of_the_star_discrepancy),
+        cmocka_unit_test(sequences_of_projections),
+        cmocka_unit_test(values_of_projections),
+        cmocka_unit_test(target_powers),
+        cmocka_unit_test(profiles_of_targets),
         cmocka_unit_test(ends_when_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

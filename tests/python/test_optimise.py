@@ -46,6 +46,19 @@ class Optimise(unittest.TestCase):
         squares = [float(koksma.measure(best.points[:, u], "l2-star")) ** 2 for u in ([0], [1], [0, 1])]
         self.assertAlmostEqual(best.value, float(np.dot([1, 2, 5], squares) / 8) ** 0.5, 12)
 
+    def test_target_power(self):
+        target = [0.0] * 3 + [1.0] * 5
+        best = koksma.optimise(None, 16, power=target, steps=1)
+        k = np.arange(-8, 9)
+        waves = np.exp(-2j * np.pi * (best.points @ np.stack([g.ravel() for g in np.meshgrid(k, k)])))
+        power = abs(waves.sum(axis=0)) ** 2 / 16
+        ring = np.floor(np.hypot(*[g.ravel() for g in np.meshgrid(k, k)]) + 0.5)
+        means = np.array([power[ring == r].mean() for r in range(1, 9)])
+        weights = np.arange(1, 9)
+        self.assertAlmostEqual(best.value, float((weights * (means - target) ** 2).sum() / 36) ** 0.5, 9)
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.optimise("star", 16, power=target, steps=1)
+
     def test_errors(self):
         with self.assertRaises(koksma.ArgumentError):
             koksma.optimise("l2-star", 8, projections=[(0,), (1,)], weights=[1], steps=1)

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The distance of a set's radial power from a target. */
+#ifndef KOKSMA_OPTIMISE_RADIAL_POWER_H
+#define KOKSMA_OPTIMISE_RADIAL_POWER_H
+
+#include <koksma/optimise.h>
+
+/* The measure that a search for a target power has in place of one of the table. */
+extern const koksma_measure koksma__measure_radial_power;
+
+/* Fails unless the options of a search for a target power are valid. Errors: ARGUMENT, DIM. */
+koksma_status koksma__radial_power_check(const koksma_optimise_options *options);
+
+/* The work of one gradient, in points times frequencies. */
+double koksma__radial_power_cost(const koksma_optimise_options *options);
+
+/* The square of the distance and its derivatives with respect to the coordinates (NULL: the square only). Errors:
+   MEMORY. */
+koksma_status koksma__radial_power_square(const koksma_optimise_options *options, const koksma_points *points,
+                                          double *square, double *gradient);
+
+#endif
