@@ -5,6 +5,8 @@ import re
 
 from docs_site import ROOT
 
+GALLERY = ("random", "jittered", "n-rooks", "multi-jittered", "sobol:scramble=owen")  # the patterns of the page `gallery`
+PATH_TRACED = ("mirror-block", "cornell", "cornell-glossy", "veach-plates", "ajar")  # scenes made for the integrator `path`
 
 def sections(site, kind, title, what, members):
     """One page for the members of a small table: (name, line, source keys, path, picture or "")."""
@@ -31,6 +33,14 @@ def small_tables(site):
     def render(name, scene, *options):
         return program.picture(f"{name}.png", "render", scene, *spp, *size, *options, alt=f"{scene} rendered")
 
+    def gallery(scene):
+        """A scene by five patterns at 16 samples a pixel."""
+        size = ["--size", "24x18" if program.quick else "96x72"]
+        return "<div class='row'>" + "".join(
+            program.picture(f"gallery-{scene}-{pattern.split(':')[0]}.png", "render", scene, "-p", pattern, *spp, *size,
+                            *(["--integrator", "path"] if scene in PATH_TRACED else []), alt=f"{scene} by {pattern}")
+            for pattern in GALLERY) + "</div>"
+
     def of(kind, key):
         return [(r, r[key]) for r in site.lists[kind]]
 
@@ -41,6 +51,8 @@ def small_tables(site):
 
     add("scenes", "Scenes", "those that ship; <a href='../guide/scenes.html'>scene files</a> says how to write one",
         lambda: [(n, r["what"], "", "", render(f"scene-{n}", n)) for r, n in of("scenes", "scene")])
+    add("gallery", "Gallery", "every scene by five patterns at 16 samples a pixel",
+        lambda: [(n, r["what"], "", "", gallery(n)) for r, n in of("scenes", "scene")])
     add("integrators", "Integrators", "how light is followed: <code>koksma render --integrator</code>",
         lambda: [(n, r["what"], r["source"], integrator_source(n),
           render(f"integrator-{n}", "cornell", "--integrator", n)) for r, n in of("integrators", "integrator")])
