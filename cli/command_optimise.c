@@ -263,6 +263,7 @@ static const cli_option options[] = {
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
     {'o', "output", "FILE.txt|.csv|.npy", "the best set; the file is rewritten after each gain"},
     {0, "scene", "SCENE", "search for a set for this scene's image with -n samples a pixel, to use as file:FILE"},
+    CLI_UNKNOWN_OPTION,
     {0, "held-out", "SCENE,..", "with --scene: other scenes to test the set in (default: six of the library)"},
     {0, "against", "PATTERN,..|all", "with --scene: patterns to compare the set with (default: 17)"},
     {0, "candidates", "N", "with --scene: sets to choose from (default: 8)"},
