@@ -70,6 +70,13 @@ const cli_command *cli_command_find(const char *name);
         'q', "quiet", NULL, "print only errors to stderr"                                                            \
     }
 
+/* Read before a command runs, as it applies to every scene that the command opens. */
+#define CLI_UNKNOWN_OPTION                                                                                           \
+    {                                                                                                                \
+        0, "unknown", "approximate|refuse",                                                                          \
+            "what an unknown part of a pbrt or Mitsuba scene gives: a warning (approximate, default) or an error"    \
+    }
+
 /* cli_text returns the text of an option, or `fallback` when the option is not given; cli_flag returns whether a flag
    is set. The option table must have the name. */
 const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback);

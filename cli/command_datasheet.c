@@ -99,6 +99,7 @@ static const cli_option options[] = {
     {'b', "beside", "PATTERN,..|none",
      "samplers to compare with, up to 7 (default: random,jittered,sobol:scramble=owen)"},
     {0, "scenes", "SCENE,..|none", "scenes to render (default: ball,checker,cornell)"},
+    CLI_UNKNOWN_OPTION,
     {'m', "metric", "METRIC", "metric of the errors in scenes: mae (default), relmse, ldr-flip, ..."},
     {0, "quick", NULL, "fewer sets, sizes and images: under a minute"},
     {0, "json", NULL, "the data on stdout, instead of a page"},

@@ -300,6 +300,7 @@ static const cli_option options[] = {
      "in place of MEASURE: a target for the radial mean of the power spectrum in the plane"},
     {0, "band", "B", "with --power: frequencies up to B sqrt(n) (default: 2)"},
     {0, "scene", "SCENE", "search for a set for this scene's image with -n samples a pixel, to use as file:FILE"},
+    CLI_UNKNOWN_OPTION,
     {0, "held-out", "SCENE,..", "with --scene: other scenes to test the set in (default: six of the library)"},
     {0, "against", "PATTERN,..|all", "with --scene: patterns to compare the set with (default: 17)"},
     {0, "candidates", "N", "with --scene: sets to choose from (default: 8)"},

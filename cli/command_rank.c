@@ -310,6 +310,7 @@ static const cli_option options[] = {
     {'m', "metric", "METRIC",
      "the error that ranks: mae (default), rmse, relmse, smape, ldr-flip or hdr-flip, with parameters"},
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
+    CLI_UNKNOWN_OPTION,
     {0, "max-trials", "N", "images of each pattern at each size, 8 to 65536 (default: 4096)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,

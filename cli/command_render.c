@@ -229,11 +229,10 @@ static int run(const cli_arguments *arguments)
     if (!cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments, "-o FILE, the image, is missing");
     }
-    const koksma_status status = koksma_image_check_path(cli_text(arguments, "output", ""));
-    const int failed =
-        status ? cli_fail(arguments, status) : cli_scene_open(arguments, arguments->operands[0], &scene);
-    if (failed) {
-        return failed;
+    koksma_status status = koksma_image_check_path(cli_text(arguments, "output", ""));
+    status = status ? status : koksma_scene_open(arguments->operands[0], &scene);
+    if (status) {
+        return cli_fail(arguments, status);
     }
     int code = CLI_USAGE;
     koksma_render_options_init(&options, scene);
@@ -296,7 +295,7 @@ const cli_command cli_command_render = {
         "check' lists them, from 1; 0: none), half the means of every second sample, half-even and half-odd.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
-                "koksma render cornell --integrator path --aov direct,half,id -o parts.exr\n"
+                "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"
                 "koksma render cornell --integrator path --filter mitchell --splat -o c.exr\n"
                 "koksma render glossy --adaptive hierarchical --counts counts.png -o glossy.exr\n",
     .options = options,

@@ -56,9 +56,9 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands != 2 || strcmp(arguments->operands[0], "check") != 0) {
         return cli_usage_error(arguments, "it takes check FILE");
     }
-    const int failed = cli_scene_open(arguments, arguments->operands[1], &scene);
-    if (failed) {
-        return failed;
+    const koksma_status status = koksma_scene_open(arguments->operands[1], &scene);
+    if (status) {
+        return cli_fail(arguments, status);
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const koksma_scene_counts counts = koksma_scene_count(scene);

@@ -457,7 +457,7 @@ static int images(const cli_arguments *arguments)
    options, with blanks between them. */
 static bool takes_options(const cli_arguments *arguments, const char *own)
 {
-    static const char common[] = " threads progress quiet allow-exec exec-seconds help ";
+    static const char common[] = " threads progress quiet allow-exec exec-seconds unknown help ";
     for (int i = 0; arguments->command->options[i].name; i++) {
         char name[32];
         snprintf(name, sizeof name, " %s ", arguments->command->options[i].name);
@@ -499,6 +499,7 @@ static const cli_option options[] = {
     {0, "integrands", "INTEGRAND,..", "quick: integrands, whose errors are measured, too (default: none)"},
     {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
     {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
+    CLI_UNKNOWN_OPTION,
     {0, "spp", "LIST", "quick: samples a pixel in the scenes (default: 4,16,64)"},
     {'o', "output", "PATH", "run, quick, images: the folder; new, export: the file (default: -, standard output)"},
     {0, "trials", "T", "run, quick, estimate: trials of everything instead of the plan's own numbers"},

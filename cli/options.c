@@ -245,6 +245,13 @@ static int read_shared_options(cli_arguments *arguments)
         }
         koksma_allow_exec(allowed ? seconds : 0);
     }
+    if (has_option(arguments->command, "unknown")) {
+        const char *unknown = cli_text(arguments, "unknown", "approximate");
+        if (strcmp(unknown, "approximate") != 0 && strcmp(unknown, "refuse") != 0) {
+            return cli_usage_error(arguments, "--unknown %s: it takes one of approximate, refuse", unknown);
+        }
+        koksma_scene_refuse_unknown(!strcmp(unknown, "refuse"));
+    }
     return has_option(arguments->command, "patterns") && has_option(arguments->command, "n")
                ? cli_sources_expand(arguments)
                : CLI_YES;

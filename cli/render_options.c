@@ -150,27 +150,6 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
     }
 }
 
-static const char *unknown_name(int i)
-{
-    return i < 2 ? (const char *[]){"approximate", "refuse"}[i] : NULL;
-}
-
-int cli_scene_open(const cli_arguments *arguments, const char *name, koksma_scene **out)
-{
-    int choice = 0;
-    char text[512];
-    if (!parse_choice(arguments, "unknown", unknown_name, &choice)) {
-        return CLI_USAGE;
-    }
-    const koksma_status status = koksma_scene_open(name, out);
-    if (!status && choice && koksma_scene_unknown(*out, 0, text, sizeof text)) {
-        cli_say(arguments->command->name, "%s: %s; --unknown approximate renders that", name, text);
-        koksma_scene_close(*out);
-        return koksma_status_exit_code(KOKSMA_MALFORMED);
-    }
-    return status ? cli_fail(arguments, status) : 0;
-}
-
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                           const koksma_render_options *options, size_t most)
 {

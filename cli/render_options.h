@@ -43,16 +43,6 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
 void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                    const koksma_render_options *options);
 
-/* The option --unknown: what commands do with parts of a pbrt or Mitsuba scene that Koksma does not know. */
-#define CLI_UNKNOWN_OPTION                                                                                           \
-    {                                                                                                                \
-        0, "unknown", "approximate|refuse",                                                                          \
-            "what an unknown part of a pbrt or Mitsuba scene gives: a warning (approximate, default) or an error"    \
-    }
-
-/* Opens a scene and applies the option --unknown. Returns 0, or the exit code after an error. */
-int cli_scene_open(const cli_arguments *arguments, const char *name, koksma_scene **out);
-
 /* Prints at most `most` of the scene's warnings on stderr, and a line with the number of the others. options: print
    only warnings that matter with these options, or NULL for all. Returns the number of warnings. */
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,

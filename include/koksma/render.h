@@ -76,6 +76,11 @@ KOKSMA_API bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *
      text  buffer of `size` characters, to which the line is cut */
 KOKSMA_API bool koksma_scene_unknown(const koksma_scene *scene, size_t i, char *text, size_t size);
 
+/* Sets whether the calling thread refuses to open scenes with such features, and returns the previous setting. At
+   first false: they are replaced. True: koksma_scene_open, and functions that open scenes by their names (rankings,
+   studies when they read a plan, datasheets), fail with MALFORMED and name the first feature. */
+KOKSMA_API bool koksma_scene_refuse_unknown(bool refuse);
+
 /* Numbers of the objects that a scene contains. `placements` counts the copies of meshes: a mesh may be placed
    several times. */
 typedef struct koksma_scene_counts {

@@ -154,6 +154,7 @@ def lab() -> ctypes.CDLL:
     options, image = POINTER(s.RenderOptions), POINTER(s.Image)
     _declare(library, c_char_p, "koksma_scene_name_at", c_size_t)
     _declare(library, c_int, "koksma_scene_open", c_char_p, POINTER(c_void_p))
+    _declare(library, c_bool, "koksma_scene_refuse_unknown", c_bool)
     _declare(library, None, "koksma_scene_close", c_void_p)
     _declare(library, c_char_p, "koksma_scene_title", c_void_p)
     for name in ("pairing", "scope", "light_selection"):
@@ -225,6 +226,22 @@ def allow_exec(seconds: float = 60.0) -> Iterator[None]:
         yield
     finally:
         core().koksma_allow_exec(before)
+
+
+@contextmanager
+def refuse_unknown() -> Iterator[None]:
+    """Refuses scenes of pbrt and Mitsuba with parts that Koksma does not know in a block, in this thread:
+
+        with koksma.refuse_unknown():
+            ranking = koksma.rank("scene.pbrt")
+
+    Without it such parts are replaced by what is nearest; `koksma scene check` names them.
+    """
+    before = lab().koksma_scene_refuse_unknown(True)
+    try:
+        yield
+    finally:
+        lab().koksma_scene_refuse_unknown(before)
 
 
 def check(status: int) -> None:

@@ -67,10 +67,25 @@ static koksma_status open_model(const char *path, koksma__named by, koksma_scene
     return status ? status : close_failed(koksma__model_parse(path, by, *out), out);
 }
 
+static _Thread_local bool refuses_unknown;
+
+bool koksma_scene_refuse_unknown(bool refuse)
+{
+    const bool before = refuses_unknown;
+    refuses_unknown = refuse;
+    return before;
+}
+
 static koksma_status open_import(const char *path, koksma__named by, koksma_scene **out)
 {
     const koksma_status status = new_scene(out);
-    return status ? status : close_failed(koksma__import_open(path, by, *out), out);
+    KOKSMA__TRY(status ? status : close_failed(koksma__import_open(path, by, *out), out));
+    if (refuses_unknown && (*out)->n_unknown) {
+        char text[512];
+        koksma_scene_unknown(*out, 0, text, sizeof text);
+        return close_failed(koksma__fail(KOKSMA_MALFORMED, "%s, and such parts of a scene are refused", text), out);
+    }
+    return KOKSMA_OK;
 }
 
 static bool is_path(const char *text)

@@ -616,6 +616,24 @@ class Rendering(unittest.TestCase):
             koksma.render("/no/such.json")
 
 
+class Unknown(unittest.TestCase):
+    def test_parts_of_scenes(self):
+        """Of a scene of pbrt: refused in the block, in its thread, and only there."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "odd.pbrt")
+            with open(path, "w", encoding="ascii") as file:
+                file.write('Camera "perspective" Film "rgb" "integer xresolution" 4 "integer yresolution" 3 WorldBegin\n'
+                           'LightSource "spot" "rgb I" [9 9 9]\nShape "sphere"\n')
+            before = koksma.render(path, spp=1)
+            with koksma.refuse_unknown():
+                for call in (lambda: koksma.render(path), lambda: koksma.rank(path, ["random"]),
+                             lambda: koksma.datasheet("random", scenes=[path], quick=True)):
+                    with self.assertRaisesRegex(koksma.MalformedError, "odd.pbrt:2: light 'spot'.* are refused"):
+                        call()
+                koksma.render("ball", spp=1, size=(4, 3))
+            np.testing.assert_array_equal(before, koksma.render(path, spp=1))
+
+
 class Code(unittest.TestCase):
     """exec: and plugin: run by the caller's word alone."""
 
