@@ -67,7 +67,7 @@ const round = v => +v.toFixed(2);
 
 // A dot, a square or a triangle in turn: with as many colours no two of 24 series look alike, and without colours
 // neighbours don't.
-function shape(index, x, y, large) {
+export function shape(index, x, y, large) {
   const r = large ? 5 : 3, wide = r * 4 / 3;
   if (index % shapes === 0) return svg("circle", { cx: round(x), cy: round(y), r });
   if (index % shapes === 1) return svg("rect", { x: round(x - r), y: round(y - r), width: 2 * r, height: 2 * r });

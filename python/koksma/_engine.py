@@ -55,7 +55,7 @@ class Engine(_Base):
     """A pattern's points, drawn a few at a time.
 
     pattern: a spec such as "sobol:scramble=owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
-    generate(p, n, d, s)), a numpy Generator or RandomState, or None; rng is another name of it. optimization:
+    generate(p, n, d, s)), a numpy SeedSequence, Generator or RandomState, or None; rng is another name of it. optimization:
     "random-cd" and "lloyd" are scipy's; any other is a measure such as "l2-centered" or "min-distance", for which each set is
     improved by `optimise` with keep="latin": along each axis the coordinates stay, so that Latin hypercubes stay Latin.
 
@@ -70,6 +70,7 @@ class Engine(_Base):
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names of one argument: it takes one of them")
         seed = rng if seed is None else seed
+        seed = np.random.default_rng(seed) if isinstance(seed, np.random.SeedSequence) else seed  # scipy takes none
         scipys = optimization is None or optimization.lower() in _SCIPYS
         super().__init__(d=d, optimization=optimization if scipys else None, seed=seed)
         self.d = int(d)
@@ -101,6 +102,17 @@ class Engine(_Base):
             raise ArgumentError("workers 0: it takes a number of threads, or -1 for all")
         self._threads = 0 if workers == -1 else int(workers)
         return super().random(whole("n", n, 0, s.MAX_COORDINATES), workers=workers)
+
+    def random_base2(self, m: SupportsIndex) -> PointArray:
+        """The next 2^m points; of a sequence only where all drawn are then a power of two, as scipy's Sobol asks."""
+        n = 1 << whole("m", m, 0, 28)
+        total = self.num_generated + n
+        if self._sequence and total & (total - 1):
+            raise ValueError(f"with 2^{m} more there are {total} points, not a power of two; reset() begins again")
+        return self.random(n)
+
+    def __repr__(self) -> str:
+        return f"Engine({self.pattern!r}, d={self.d}, num_generated={self.num_generated})"
 
     def _random(self, n: int = 1, *, workers: int = 1) -> PointArray:
         threads = 0 if workers == -1 else workers

@@ -302,5 +302,31 @@ class WithoutScipy(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
 
 
+class ByScipysNames(unittest.TestCase):
+    def test_seed_sequence(self):
+        for name in ("seed", "rng"):
+            one, other = (Engine("random", 2, **{name: np.random.SeedSequence(4)}) for _ in range(2))
+            np.testing.assert_array_equal(one.random(8), other.random(8))
+        same = Engine("random", 2, rng=np.random.default_rng(np.random.SeedSequence(4)))
+        np.testing.assert_array_equal(same.random(8), one.reset().random(8))
+
+    def test_random_base2(self):
+        engine = Engine("sobol", 2)
+        np.testing.assert_array_equal(engine.random_base2(3), koksma.generate("sobol", 8))
+        np.testing.assert_array_equal(engine.random_base2(3), koksma.generate("sobol", 16)[8:])
+        with self.assertRaisesRegex(ValueError, "20 points, not a power of two"):
+            engine.random_base2(2)
+        self.assertEqual(engine.num_generated, 16)
+        sets = Engine("n-rooks", 2, seed=1)
+        self.assertEqual([sets.random_base2(3).shape, sets.random_base2(2).shape], [(8, 2), (4, 2)])
+        for wrong in (-1, 29):
+            self.assertRaises(koksma.ArgumentError, engine.random_base2, wrong)
+
+    def test_repr(self):
+        engine = Engine("sobol:scramble=owen", 3)
+        engine.random(4)
+        self.assertEqual(repr(engine), "Engine('sobol:scramble=owen', d=3, num_generated=4)")
+
+
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0]])

@@ -131,6 +131,12 @@ async function byKeyboard(page) {
     const figure = () => page.evaluate(() => { const f = document.activeElement.closest("figure"); return { lines: f.querySelectorAll(".chart .series:not(.theory) .line").length, legend: [...f.querySelectorAll(".legend li")].map(li => li.textContent), free: f.querySelectorAll(".choice input:not(:checked):disabled").length }; });
     const eight = await figure();
     check(eight.lines === 8 && eight.free === lineLabels(long).length - 8, `${eight.lines} lines at first, ${eight.free} more that can't be chosen`);
+    const alike = await page.evaluate(() => [...document.querySelectorAll(".chart-figure")].flatMap(f => { // what a reader can tell lines by
+      const look = g => [g.className.baseVal, g.querySelector(".dots > *")?.localName].join(" ");
+      const all = [...f.querySelectorAll(".legend .series:not(.theory)")].map(look), inChart = [...f.querySelectorAll(".chart .series:not(.theory)")].map(look);
+      return [...all.filter((one, i) => all.indexOf(one) !== i), ...all.filter(one => !inChart.includes(one))];
+    }));
+    check(!alike.length, `the legend shows lines alike, or other marks than the chart: ${alike}`);
     await tabTo(page, ".choice input");
     await page.keyboard.press("Space");
     check((await figure()).lines === 7 && !(await figure()).legend.includes(lineLabels(long)[0]), "a line stays that was chosen away");
@@ -212,6 +218,8 @@ async function byKeyboard(page) {
     check(sides[0] <= sides[2] && sides[1] <= sides[2], `at 400 pixels the page is ${sides} wide`);
     const broken = await page.evaluate(() => [...document.querySelectorAll(".name:first-child")].filter(e => e.checkVisibility() && e.textContent.length > 5 && e.clientWidth < 60).map(e => e.textContent));
     check(broken.length === 0, `at 400 pixels ${broken.length} names have a few letters a line, first ${broken[0]}`);
+    const cut = await page.evaluate(() => [...document.querySelectorAll("sup, .pm")].filter(e => e.getClientRects().length > 1).map(e => e.textContent));
+    check(cut.length === 0, `at 400 pixels ${cut.length} numbers go on in the next line, first ${cut[0]}`);
     // The page hears of its new width some frames later.
     const wide = () => [...document.querySelectorAll(".plot > svg")].filter(s => s.viewBox.baseVal.width > 400).length;
     let small = await page.evaluate(wide); // playwright's own waiting needs eval, which the page's policy forbids

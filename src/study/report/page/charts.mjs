@@ -2,7 +2,7 @@
 // Charts of a report. A chart is as wide as the page and shows at most eight lines at once, which the reader chooses. A
 // label names the point under the mouse, or the point chosen by arrow keys, with its values. Series of marks without lines,
 // such as those of a scatter plot, are all shown.
-import { chart } from "../../../../explorer/page/chart.mjs";
+import { chart, shape } from "../../../../explorer/page/chart.mjs";
 import { element, short, svg } from "../../../../explorer/page/dom.mjs";
 
 const lines = 8, near = 40;
@@ -12,9 +12,10 @@ export function redraw() {
   drawn.forEach(draw => draw());
 }
 
-const swatch = (className, mark, line) => svg("svg", { class: "swatch", width: 26, height: 12, "aria-hidden": "true" },
-  svg("g", { class: `series ${className}` }, line ? svg("path", { class: "line", d: "M1 6h24" }) : null,
-    mark === undefined ? null : svg("g", { class: "dots" }, svg("circle", { cx: 13, cy: 6, r: 3.5 }))));
+// As long as one period of every dash pattern, and with the mark of the chart: lines of one colour differ in these alone.
+const swatch = (className, mark, line) => svg("svg", { class: "swatch", width: 46, height: 12, "aria-hidden": "true" },
+  svg("g", { class: `series ${className}` }, line ? svg("path", { class: "line", d: "M1 6h44" }) : null,
+    mark === undefined ? null : svg("g", { class: "dots" }, shape(mark, 23, 6))));
 
 // The label of a point: its series, values and axes.
 function tell({ x, y }, { label, hollow }, [px, py, low, high]) {
