@@ -12,6 +12,7 @@ ln -s "$program" "$work/bin/koksma"
 PATH="$work/bin:$PATH"
 cd "$work" || exit 1
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >model.obj
+koksma render checker --size 16x12 -n 1 -q -o photo.png >/dev/null
 meshes=$(koksma version | grep -c '^meshes: Embree')
 koksma generate n-rooks -n 16 -q -o points.txt &&
   koksma render ball -n 1 --size 16x16 -q -o ball.exr >/dev/null &&
@@ -31,6 +32,7 @@ while read -r command; do
   case $command in
     'koksma study new '*) rm -f plan.json ;;
     'koksma reproduce '* | 'koksma rank '*) command="$command --help" ;;
+    'koksma generate '*.obj*) [ "$meshes" -eq 1 ] || command=true ;;
     *.obj*) [ "$meshes" -eq 1 ] && command="$command --size 32x32 -q" || command=true ;;
     'koksma verify '*) command="$command || [ \$? -eq 1 ]" ;; # "no" is an answer
     'koksma manual '*) command -v man >/dev/null || command=true ;;

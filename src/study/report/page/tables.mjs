@@ -47,7 +47,7 @@ function spread({ value, low, high, sd }, column) {
   if (typeof low === "number" && high - low <= 1e-12 * Math.abs(value)) return []; // rounding
   if (typeof low !== "number" || typeof high !== "number") return column.type === "interval" ? [" ", small("± ?")] : [];
   if (Math.abs(high - value - (value - low)) < 1e-6 * (high - low)) return [" ", small(`± ${half(high - value)}`)];
-  return [" ", small(`${half(low)} … ${half(high)}`)];
+  return [" ", small(`${half(low)} …`), " ", small(half(high))]; // a narrow column breaks between the two
 }
 
 // The mark of a verdict, with z or the relative change after the mark or in its tooltip.
