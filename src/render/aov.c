@@ -43,7 +43,7 @@ static bool find(const char *name, koksma__aov *out)
         }
     }
     for (int r = 0; r <= KOKSMA_MAX_DEPTH + 1; r++) {
-        char bounce[16];
+        char bounce[24];
         snprintf(bounce, sizeof bounce, "bounce:%d", r);
         if (!strcmp(name, bounce)) {
             *out = (koksma__aov){.kind = KOKSMA__AOV_LIGHT, .first = r, .last = r};
