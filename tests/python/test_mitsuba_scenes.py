@@ -169,7 +169,8 @@ class Agreement(unittest.TestCase):
 
     def test_environment(self):
         """A smooth image of the sky, with a bright side, turned about y. Mitsuba interpolates between pixels, and its first
-        row is at the pole, not half a pixel below it: a floor of 0.2 %, half of what a shift by one pixel makes."""
+        row is at the pole, not half a pixel below it: with 64 rows means differed by some .3 %. Hence 256 rows and a floor of .2 %,
+        so that this test cannot see less than 1 %."""
         y, x = np.mgrid[0:256, 0:512]
         up, around = np.cos((y + .5) / 256 * np.pi), (x + .5) / 512 * 2 * np.pi
         image = np.stack([1 + up, 1 + .5 * up + .8 * np.sin(around) * np.sqrt(1 - up ** 2), 1 + .5 * np.cos(around) * np.sqrt(1 - up ** 2)], 2)
