@@ -142,10 +142,10 @@ static koksma_status join(const koksma__mesh_file *f, koksma__mesh *out)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
+koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__mesh *out)
 {
     koksma__mesh_file f;
-    koksma_status status = read_meshes(path, KOKSMA__BY_FILE, false, &f);
+    koksma_status status = read_meshes(path, by, false, &f);
     if (!status) {
         const koksma__file_placement *first = f.placements.items;
         if (f.placements.n == 1 && !memcmp(first->matrix, identity, sizeof identity)) {

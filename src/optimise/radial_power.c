@@ -22,6 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <unistd.h>
+
 #include "core/c_locale.h"
 #include "core/read_file.h"
 #include "core/status.h"
@@ -297,12 +299,9 @@ koksma_status koksma_radial_power(const char *text, size_t n, int rings, const k
     }
     const koksma_status status = koksma_pattern_spec(text, &pattern);
     if (status == KOKSMA_UNKNOWN) {
-        const koksma_status read = read_profile(text, sqrt((double)n), rings, power);
-        return read != KOKSMA_MISSING ? read
-                                      : koksma__fail(KOKSMA_MISSING,
-                                                     "%s: it is not step, gaussian, a pattern or a "
-                                                     "file of frequencies and powers",
-                                                     text);
+        KOKSMA__FAIL_IF(access(text, F_OK) && strcmp(text, "-") != 0, KOKSMA_MISSING,
+                        "%s: it is not step, gaussian, a pattern or a file of frequencies and powers", text);
+        return read_profile(text, sqrt((double)n), rings, power);
     }
     return status ? status : power_of_pattern(&pattern, n, rings, run, power);
 }

@@ -100,7 +100,7 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
             return KOKSMA_OK;
         }
     }
-    const koksma_status status = koksma__mesh_read(full, &mesh);
+    const koksma_status status = koksma__mesh_read(full, KOKSMA__BY_FILE, &mesh);
     if (status) {
         koksma__mesh_fini(&mesh);
         return koksma__import_fail_at(place, status);

@@ -22,7 +22,8 @@ import files
 HERE = os.path.dirname(os.path.abspath(__file__))
 SOURCE = os.path.dirname(os.path.dirname(HERE))
 SPARSE = 10 << 30
-MODELS_TEXTURES = ("map_Kd", "glTF image")  # a malformed one is left out, of which `scene check` warns: exit code 1
+# Images that are left out if they are malformed, of which `scene check` warns: exit code 1.
+LEFT_OUT = ("map_Kd", "glTF image", "pbrt texture", "pbrt sky", "Mitsuba texture", "Mitsuba sky")
 
 
 def limits():
@@ -85,8 +86,28 @@ def model(folder, made):
     return put(os.path.join(folder, "model.gltf"), made)
 
 
+PBRT = {"include": 'Include "%s"\n', "mesh": 'Shape "plymesh" "string filename" "%s"\n',
+        "texture": 'Texture "t" "spectrum" "imagemap" "string filename" "%s"\n'
+                   'Material "diffuse" "texture reflectance" "t"\nShape "sphere"\n',
+        "sky": 'LightSource "infinite" "string filename" "%s"\nShape "sphere"\n'}
+MITSUBA = {"include": '<include filename="%s"/>',
+           "mesh": '<shape type="obj"><string name="filename" value="%s"/></shape>',
+           "texture": '<shape type="sphere"><bsdf type="diffuse"><texture name="reflectance" type="bitmap">'
+                      '<string name="filename" value="%s"/></texture></bsdf></shape>',
+           "sky": '<emitter type="envmap"><string name="filename" value="%s"/></emitter><shape type="sphere"/>'}
+
+
 def named_by_files(folder):
     """(kind, ending, what names the file, arguments): one for each way in which a file names a file."""
+    def in_pbrt(what):
+        return lambda name: ["scene", "check", put(os.path.join(folder, "scene.pbrt"),
+                                                   'Camera "perspective"\nWorldBegin\nLightSource "point"\n' + PBRT[what] % name)]
+
+    def in_mitsuba(what):
+        return lambda name: ["scene", "check", put(os.path.join(folder, "scene.xml"), '<scene version="3.0.0">'
+                                                   '<sensor type="perspective"/><emitter type="point"/>'
+                                                   f'{MITSUBA[what] % name}</scene>')]
+
     def in_scene(**how):
         return ["scene", "check", put(os.path.join(folder, "scene.json"), scene(**how))]
 
@@ -112,6 +133,14 @@ def named_by_files(folder):
         ("POINTS", ".npy", "pattern of a plan", lambda name: in_plan(pattern="file:" + name)),
         ("PARAMETERS", ".txt", "net of a plan", lambda name: in_plan(pattern="net-file:" + name)),
         ("PARAMETERS", ".txt", "lattice of a plan", lambda name: in_plan(pattern="lattice-file:" + name)),
+        ("SCENE", ".pbrt", "pbrt include", in_pbrt("include")),
+        ("MESH", ".ply", "pbrt mesh", in_pbrt("mesh")),
+        ("TEXTURE", ".png", "pbrt texture", in_pbrt("texture")),
+        ("TEXTURE", ".exr", "pbrt sky", in_pbrt("sky")),
+        ("SCENE", ".xml", "Mitsuba include", in_mitsuba("include")),
+        ("MESH", ".obj", "Mitsuba mesh", in_mitsuba("mesh")),
+        ("TEXTURE", ".jpg", "Mitsuba texture", in_mitsuba("texture")),
+        ("TEXTURE", ".exr", "Mitsuba sky", in_mitsuba("sky")),
     ]
 
 
@@ -122,6 +151,12 @@ def named_by_user():
         ("SCENE", ".json", "scene", lambda name: ["scene", "check", "./" + name]),
         ("MESH", ".obj", "model", lambda name: ["scene", "check", "./" + name]),
         ("MESH", ".glb", "model", lambda name: ["scene", "check", "./" + name]),
+        ("SCENE", ".pbrt", "pbrt scene", lambda name: ["scene", "check", "./" + name]),
+        ("SCENE", ".xml", "Mitsuba scene", lambda name: ["scene", "check", "./" + name]),
+        ("IMAGE", ".png", "density", lambda name: ["generate", "random", "-n", "4", "--density", name]),
+        ("MESH", ".obj", "surface", lambda name: ["generate", "random", "-n", "4", "--on", name]),
+        ("PARAMETERS", ".txt", "radial power",
+         lambda name: ["optimise", "--power", name, "-n", "4", "--steps", "1", "-q", "-o", "set.txt"]),
         ("PLAN", ".json", "plan", lambda name: ["study", "estimate", "./" + name]),
         ("POINTS", ".csv", "points", lambda name: ["measure", name, "-m", "l2-star"]),
         ("POINTS", ".npy", "points", lambda name: ["measure", name, "-m", "l2-star"]),
@@ -174,10 +209,12 @@ def check_named_by_files(checks, program, folder, kinds):
     seen = set()
     for kind, ending, what, arguments in named_by_files(folder):
         most, words = kinds[kind]
-        code = 1 if what in MODELS_TEXTURES else 3
+        code = 1 if what in LEFT_OUT else 3
         seen.add(kind)
         for make in (things.device, things.null, things.fifo, things.socket):
             name, reason = make(ending)
+            if "include" in what and reason == "it is a device":
+                reason = "not below the scene's own folder"  # where the link leads
             done = files.run(program, *arguments(name), cwd=folder)
             checks.refused(f"{what} {make.__name__}", done, 3, name, reason)
         name, _ = things.sparse(ending)
@@ -303,6 +340,11 @@ def main():
         rows = re.findall(r"^\| ([^|]+) \| (\d+) MiB \|", stream.read(), re.M)
     checks.check({(text, int(mib) << 20) for text, mib in rows} == {(text, most) for most, text in kinds.values()},
                  f"docs/files.md has another table: {rows}")
+    with open(os.path.join(SOURCE, "SECURITY.md"), encoding="utf-8") as stream:
+        table = re.search(r"## Files from outside\n(.*?)\nLimits", stream.read(), re.S)[1]
+    for _, text in kinds.values():  # its table joins kinds: their first words are there
+        word = re.split(r"[ ,]", text.replace("files of ", ""))[0]
+        checks.check(word in table, f"SECURITY.md does not name {text}")
     checks.check(seen == set(kinds), f"kinds of file without a case: {set(kinds) - seen}")
     checks.end()
 

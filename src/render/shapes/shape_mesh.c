@@ -127,7 +127,7 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
     KOKSMA__JSON_FAIL_IF(!koksma__path_beside(scene_name, file, path), f, "the path is too long");
     KOKSMA__TRY(koksma__scene_add_mesh(scene, &mesh));
     strcpy(mesh->name, name);
-    koksma_status status = koksma__mesh_read(path, mesh);
+    koksma_status status = koksma__mesh_read(path, KOKSMA__BY_FILE, mesh);
     if (status) {
         koksma__json_fail(f, "%s%s", koksma_error_text(), status == KOKSMA_MISSING ? koksma__package_hint(path) : "");
         return status;
