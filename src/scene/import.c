@@ -14,6 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <unistd.h>
+
 #include "core/c_locale.h"
 #include "core/capacity.h"
 #include "core/hash.h"
@@ -77,7 +79,27 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
 koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH])
 {
-    return koksma__path_beside(im->path, name, out) ? KOKSMA_OK : koksma__import_fail(place, "the path is too long");
+    bool fits = koksma__path_beside(im->path, name, out);
+    char other[KOKSMA__MAX_PATH];
+    for (size_t i = 0; fits && access(out, F_OK) && i < im->n_folders; i++) {
+        fits = koksma__path_beside(im->folders[i], name, other);
+        if (fits && !access(other, F_OK)) {
+            memcpy(out, other, sizeof other);
+        }
+    }
+    return fits ? KOKSMA_OK : koksma__import_fail(place, "the path is too long");
+}
+
+koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place, const char *name)
+{
+    char with_slash[KOKSMA__MAX_PATH];
+    if (im->n_folders == sizeof im->folders / sizeof *im->folders) {
+        return koksma__import_fail(place, "more than %zu paths", im->n_folders);
+    }
+    return (size_t)snprintf(with_slash, sizeof with_slash, "%s/", name) < sizeof with_slash &&
+                   koksma__path_beside(im->path, with_slash, im->folders[im->n_folders++])
+               ? KOKSMA_OK
+               : koksma__import_fail(place, "the path is too long");
 }
 
 /* Whether the file `full` is below the folder of the scene, after following symbolic links. A file that does not
@@ -389,6 +411,25 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
         light.image = image;
     }
     return koksma__import_light(im, place, &light);
+}
+
+koksma_status koksma__import_spot(koksma__import *im, koksma__text_place place, const double direction[3],
+                                  double inner_deg, double outer_deg, koksma__light *light)
+{
+    light->kind = &koksma__light_spot;
+    memcpy(light->normal, direction, sizeof light->normal);
+    if (!koksma__normalise(light->normal)) {
+        return koksma__import_fail(place, "a spot without a direction");
+    }
+    if (!(outer_deg > 0 && outer_deg <= 90)) {
+        return koksma__import_fail(place, "a spot's cone takes an angle above 0 and up to 90 degrees");
+    }
+    inner_deg = fmin(fmax(inner_deg, 0), outer_deg);
+    light->values[0] = outer_deg; /* angle_deg and edge */
+    light->values[1] = 1 - inner_deg / outer_deg;
+    return inner_deg < outer_deg
+               ? koksma__import_unknown(im, place, "a spot's edge falls off by a square in the cosine here")
+               : KOKSMA_OK;
 }
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */

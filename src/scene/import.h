@@ -18,9 +18,11 @@ typedef struct koksma__text_place {
 
 typedef struct koksma__import {
     koksma_scene *scene;
-    const char *path; /* path of the scene's own file */
-    bool rows_down;   /* texture coordinate 0 is an image's upper edge */
-    size_t n_files;   /* number of texts that were read */
+    const char *path;                  /* path of the scene's own file */
+    bool rows_down;                    /* texture coordinate 0 is an image's upper edge */
+    size_t n_files;                    /* number of texts that were read */
+    char folders[8][KOKSMA__MAX_PATH]; /* where files are sought that are not beside the scene */
+    size_t n_folders;
     struct koksma__known_mesh *known;
     int *twins; /* for each mesh: the mesh with the same triangles turned inside out, or -1 */
     size_t n_known, n_twins;
@@ -86,7 +88,11 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size);
 
-/* Writes the path of a mesh or image that the scene names. */
+/* Adds a folder, relative to the scene's own, in which files are sought that are not beside the scene. Error:
+   MALFORMED (too many, or the path is too long). */
+koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place, const char *name);
+
+/* Writes the path of a file that the scene names: beside the scene, or in the first of the folders that has it. */
 koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH]);
 
@@ -106,6 +112,11 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
 
 /* Adds a light; its radiance is clamped to what scenes allow. */
 koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light);
+
+/* Makes a light a spot with its axis along `direction` and full intensity up to `inner_deg`, which falls to 0 at
+   `outer_deg`: by a square in the cosine, of which it warns. Errors: MALFORMED (no direction or no cone), MEMORY. */
+koksma_status koksma__import_spot(koksma__import *im, koksma__text_place place, const double direction[3],
+                                  double inner_deg, double outer_deg, koksma__light *light);
 
 /* Adds an environment from a latitude-longitude image or from the octahedral map of pbrt-v4 (Clarberg 2008),
    multiplied by `scale`; `matrix` transforms the image's directions to the scene's. */

@@ -605,10 +605,17 @@ static koksma_status emitter(reader *r, const node *n)
             light.centre[k] = m[4 * k + 3];
         }
         point(r, n, "position", light.centre);
-        KOKSMA__TRY(!strcmp(type, "point")
-                        ? KOKSMA_OK
-                        : koksma__import_unknown(r->im, n->place,
-                                                 "emitter '%s': a point light equal in all directions here", type));
+        if (!strcmp(type, "spot")) {
+            const double outer = number(r, n, "cutoff_angle", 20);
+            for (int k = 0; k < 3; k++) {
+                along[k] = m[4 * k + 2];
+            }
+            KOKSMA__TRY(koksma__import_spot(r->im, n->place, along, number(r, n, "beam_width", outer * 3 / 4), outer,
+                                            &light));
+        } else if (strcmp(type, "point") != 0) {
+            KOKSMA__TRY(koksma__import_unknown(r->im, n->place,
+                                               "emitter '%s': a point light equal in all directions here", type));
+        }
     }
     return koksma__import_light(r->im, n->place, &light);
 }

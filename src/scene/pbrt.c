@@ -350,7 +350,7 @@ static koksma_status take_light(reader *r, source *s)
     char type[64];
     const koksma__pbrt_parameters *p = r->parameters;
     koksma__light light = {.kind = &koksma__light_point};
-    double from[3], to[3];
+    double from[3], to[3], along[3];
     KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
@@ -373,7 +373,13 @@ static koksma_status take_light(reader *r, source *s)
         }
     } else {
         move_point(r->now.matrix, from, 1, light.centre);
-        if (strcmp(type, "point") != 0) {
+        if (!strcmp(type, "spot")) {
+            const double outer = koksma__pbrt_number(p, "coneangle", 30);
+            koksma__subtract(to, from, to);
+            move_point(r->now.matrix, to, 0, along);
+            KOKSMA__TRY(koksma__import_spot(r->im, p->place, along,
+                                            outer - koksma__pbrt_number(p, "conedeltaangle", 5), outer, &light));
+        } else if (strcmp(type, "point") != 0) {
             KOKSMA__TRY(koksma__import_unknown(
                 r->im, p->place, "light '%s' is replaced by a point light equal in all directions", type));
         }

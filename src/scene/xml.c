@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Parses XML with expat. Elements become nodes in the order of the text. <default name value> sets $name unless
- * it was set before; <include filename> is replaced by the children of that file's root. Nothing else is loaded
+ * it was set before; <include filename> is replaced by the children of that file's root; <path value> names a folder in
+ * which files are sought. Nothing else is loaded
  * or expanded: a document type declaration stops the parser before any entity is declared.
  */
 #include "scene/xml.h"
@@ -238,6 +239,10 @@ static void start_element(void *data, const char *tag, const char **attributes)
     } else if (!r->status && !strcmp(tag, "include")) {
         const koksma__xml_node copy = r->xml->nodes[node]; /* including a file may move the array */
         include(r, &copy, parent);
+    } else if (!r->status && !strcmp(tag, "path")) {
+        const char *folder = koksma__xml_attribute(&r->xml->nodes[node], "value");
+        stop(r, folder ? koksma__import_folder(r->im, here(r), folder)
+                       : koksma__import_fail(here(r), "<path> without value"));
     }
 }
 

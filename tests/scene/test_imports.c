@@ -201,6 +201,52 @@ static void orthographic_cameras_show_their_height(void **state)
     }
 }
 
+/* ---- A closed form: a spot above a floor ---------------------------------------------------------------------- */
+
+/* A floor of albedo 1/2 under a spot of intensity 6 at (0.5, 0, 2), which shines down into a cone of 20 degrees without
+   a soft edge: within a circle the radiance is albedo / pi * intensity * cos / d^2, and 0 outside. */
+static void spots_light_a_circle(void **state)
+{
+    static const struct {
+        const char *name, *text;
+    } scenes[] = {
+        {"s.pbrt",
+         "Scale -1 1 1 Scale 0.5 0.5 0.5 LookAt 0 0 5  0 0 0  0 1 0\n"
+         "Camera \"orthographic\" \"float screenwindow\" [-1 1 -0.75 0.75] Film \"rgb\" " SIZE "\nWorldBegin\n"
+         "LightSource \"spot\" \"rgb I\" [6 6 6] \"point3 from\" [0.5 0 2] \"point3 to\" [0.5 0 1] "
+         "\"float coneangle\" 20 \"float conedeltaangle\" 0\n"
+         "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5] Shape \"trianglemesh\" \"integer indices\" "
+         "[0 1 2 0 2 3] \"point3 P\" [-4 -4 0  4 -4 0  4 4 0  -4 4 0]\n"},
+        {"s.xml",
+         "<scene version=\"3.0.0\"><sensor type=\"orthographic\"><transform name=\"to_world\"><scale value=\"2\"/>"
+         "<lookat origin=\"0, 0, 5\" target=\"0, 0, 0\" up=\"0, 1, 0\"/></transform><film type=\"hdrfilm\">"
+         "<integer name=\"width\" value=\"40\"/><integer name=\"height\" value=\"30\"/></film></sensor>"
+         "<emitter type=\"spot\"><transform name=\"to_world\"><lookat origin=\"0.5, 0, 2\" target=\"0.5, 0, 0\" "
+         "up=\"0, 1, 0\"/></transform><rgb name=\"intensity\" value=\"6\"/><float name=\"cutoff_angle\" "
+         "value=\"20\"/><float name=\"beam_width\" value=\"20\"/></emitter><shape type=\"rectangle\"><transform "
+         "name=\"to_world\"><scale value=\"4\"/></transform><bsdf type=\"diffuse\"/></shape></scene>"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        if (strstr(scenes[i].name, ".xml") ? !reads_xml() : !koksma_mesh_tracer()) {
+            continue;
+        }
+        koksma_scene *scene = opened(scenes[i].name, scenes[i].text);
+        koksma_render_options options = options_of(scene, "regular", "direct", 1, 40);
+        koksma_image image;
+        options.height = 30;
+        assert_int_equal(scene->n_unknown, 0);
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        for (size_t k = 0; k < 40 * 30; k++) {
+            const double x = ((double)(k % 40) + 0.5) / 10 - 2 - 0.5, y = ((double)(k / 40) + 0.5) / 10 - 1.5;
+            const double square = x * x + y * y + 4, cosine = 2 / sqrt(square), albedo = 0.5;
+            const double lit = cosine > cos(M_PI / 9) ? albedo / M_PI * 6 * cosine / square : 0;
+            assert_near((double)image.pixels[k * (size_t)image.channels], lit, 1e-6);
+        }
+        koksma_image_fini(&image);
+        koksma_scene_close(scene);
+    }
+}
+
 /* ---- A closed form: lights that reflect, and the depth -------------------------------------------------------- */
 
 /* A closed room whose every wall emits 1 and reflects one half is everywhere as bright as 1 + 1/2 + 1/4 + ...; cut after
@@ -259,7 +305,8 @@ static const struct {
     {"a.pbrt", PBRT "Material \"velvet\" Shape \"sphere\"", "a.pbrt:2: material 'velvet'"},
     {"a.pbrt", PBRT "Shape \"curve\" \"point3 P\" [0 0 0]", "a.pbrt:2: shape 'curve': it is left out"},
     {"a.pbrt", PBRT "Shape \"sphere\" \"float zmax\" 0.5", "a.pbrt:2: a part of a sphere"},
-    {"a.pbrt", PBRT "LightSource \"spot\" \"rgb I\" [1 2 3]", "a.pbrt:2: light 'spot'"},
+    {"a.pbrt", PBRT "LightSource \"spot\" \"rgb I\" [1 2 3]", "a.pbrt:2: a spot's edge"},
+    {"a.pbrt", PBRT "LightSource \"goniometric\" \"rgb I\" [1 2 3]", "a.pbrt:2: light 'goniometric'"},
     {"a.pbrt", PBRT "LightSource \"distant\" \"blackbody L\" 5000", NULL},
     {"a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 1 500 2 600 3]", "a.pbrt:2: a sampled spectrum"},
     {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"", "a.pbrt:2: media"},
@@ -281,7 +328,8 @@ static const struct {
           "value=\"0.2\"/></bsdf>"),
      "a.xml:2: anisotropic"},
     {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid': it is left out"},
-    {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), "a.xml:2: emitter 'spot': a point"},
+    {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), "a.xml:2: a spot's edge"},
+    {"a.xml", MITSUBA("<emitter type=\"projector\"/>"), "a.xml:2: emitter 'projector': a point"},
     {"a.xml", MITSUBA("<emitter type=\"sunsky\"/>"), "a.xml:2: emitter 'sunsky': a white sky"},
     {"a.xml", MITSUBA("<shape type=\"cube\"/>"), NULL},
     {"a.xml",
@@ -343,6 +391,8 @@ static const struct {
      "N: 3 numbers for 3"},
     {"b.pbrt", PBRT "Translate 1e9 0 0 Shape \"sphere\"", "a shape reaches beyond 1e6"},
     {"b.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"none.ply\"", "none.ply: can't be read"},
+    {"b.pbrt", PBRT "LightSource \"spot\" \"float coneangle\" 100", "a spot's cone takes an angle above 0"},
+    {"b.pbrt", PBRT "LightSource \"spot\" \"point3 to\" [0 0 0]", "a spot without a direction"},
     {"b.pbrt", "Include \"b.pbrt\"", "include each other more than 16 deep"},
     {"b.pbrt", "Include \"../outside.pbrt\"", "which is not below the scene's own folder"},
     {"b.pbrt", "Include \"link.pbrt\"", "which is not below the scene's own folder"},
@@ -423,11 +473,9 @@ static void cut_texts_are_survived(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_scene_is_one_picture),
-        cmocka_unit_test(orthographic_cameras_show_their_height),
-        cmocka_unit_test(a_luminous_room_is_a_geometric_series),
-        cmocka_unit_test(unknown_things_are_named),
-        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
+        cmocka_unit_test(one_scene_is_one_picture), cmocka_unit_test(orthographic_cameras_show_their_height),
+        cmocka_unit_test(spots_light_a_circle),     cmocka_unit_test(a_luminous_room_is_a_geometric_series),
+        cmocka_unit_test(unknown_things_are_named), cmocka_unit_test(malformed_and_hostile_texts_are_refused),
         cmocka_unit_test(cut_texts_are_survived),
     };
     strcpy(folder, "/tmp/koksma-imports-XXXXXX");
@@ -435,7 +483,8 @@ int main(void)
         return 1;
     }
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    static const char *const left[] = {"probe.xml", "one.json", "one.pbrt", "one.xml", "a.pbrt",
+    static const char *const left[] = {"probe.xml", "o.json",   "o.pbrt",   "o.xml",   "s.pbrt",
+                                       "s.xml",     "one.json", "one.pbrt", "one.xml", "a.pbrt",
                                        "a.xml",     "b.pbrt",   "b.xml",    "c.pbrt",  "c.xml"};
     for (size_t i = 0; i < sizeof left / sizeof *left; i++) {
         char path[128];
