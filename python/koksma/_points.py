@@ -16,8 +16,8 @@ from . import _structs as s
 from ._library import ArgumentError, allow_exec as allowing_exec, call, check, core, lab, spec, text, whole, without_zero
 
 PointArray = npt.NDArray[np.float64]
-SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
-_SHORT_RANGE, _SHORT_SET = 1 << 18, 64  # coordinates made in 30 ms at most, and measured in 1 ms
+SEQUENCE, STRATIFIED, LATIN = 1 << 1, 1 << 3, 1 << 4  # KOKSMA_CLAIM_SEQUENCE and so on
+_SHORT_RANGE, _SHORT_SET = 1 << 18, 64  # coordinates made in 30 ms at most, and made or measured in 1 ms
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
@@ -284,7 +284,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     elif out.shape != (n or out.shape[0], dim or out.shape[1]):
         raise ArgumentError(f"out has the shape {out.shape}, not ({n or out.shape[0]}, {dim or out.shape[1]})")
     points, member = view(out), parsed.pattern.contents
-    short = bool(member.ranges) and not member.operand and out.size <= _SHORT_RANGE
+    short = not member.operand and out.size <= (
+        _SHORT_RANGE if member.ranges else _SHORT_SET if member.claims & (STRATIFIED | LATIN) else 0)
     if first:
         call(core().koksma_generate_range, byref(parsed), seed, 0, first, byref(points), threads=threads, run_at=4, short=short)
     else:

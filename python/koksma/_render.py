@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import os
 from ctypes import byref, c_void_p
-from dataclasses import dataclass
-from typing import Dict, List, Literal, Optional, SupportsIndex, Tuple, Union, overload
+from dataclasses import dataclass, field
+from typing import Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -71,6 +71,8 @@ class Layers:
         Rays cast.
     rounds, splits : int
         Of adaptive sampling: rounds after the first, and strata that were split.
+    aovs : dict of ndarray
+        By name what `aov` asked for.
     """
 
     image: npt.NDArray[np.float32]
@@ -82,6 +84,7 @@ class Layers:
     rays: int
     rounds: int
     splits: int
+    aovs: Dict[str, npt.NDArray[np.float32]] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         height, width, channels = self.image.shape
@@ -101,13 +104,13 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, layers: Literal[True],
+           adaptive: Optional[str] = None, budget: float = 0, layers: Literal[True], aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Layers: ...
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, layers: bool = False,
+           adaptive: Optional[str] = None, budget: float = 0, layers: bool = False, aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Union[npt.NDArray[np.float32], Layers]:
     """Renders a scene that ships, or a JSON file (a path, or a text with a '/' or that ends in ".json").
 
@@ -117,9 +120,22 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     more samples than spp where it needs them, until it needs none or `budget` (0: no limit) is spent: samples a pixel,
     averaged over the image; some methods draw strata of their own, and take no pattern. The other arguments are those of
     `koksma render`, and give the same bits. Returns linear light of shape (height, width, channels), channels 1 or 3; row
-    0 is on top; with layers=True a `Layers`, whose image it is.
+    0 is on top; with layers=True a `Layers`, whose image it is. Its `aovs` are then the further images that aov names:
+    "direct" and "indirect", or "bounce:0", "bounce:1", ..., parts of the light that add up to the image; "id"; "half".
+
+    >>> import koksma
+    >>> parts = koksma.render("cornell", spp=4, size=(8, 8), integrator="path", layers=True, aov=["direct", "indirect"])
+    >>> bool(abs(parts.aovs["direct"] + parts.aovs["indirect"] - parts.image).max() < 1e-5)
+    True
     """
     handle, options, image, every, report = c_void_p(), s.RenderOptions(), s.Image(), s.Layers(), s.AdaptiveReport()
+    further = s.Aovs()
+    if isinstance(aov, str):
+        raise ArgumentError(f"aov {aov!r}: it takes a list of texts")
+    if aov and (not layers or adaptive is not None):
+        raise ArgumentError("aov takes layers=True, and no method of adaptive sampling")
+    if aov:
+        check(lab().koksma_aovs_parse(text(",".join(aov)), byref(further)))
     choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),
                                "lights": _choice("light_selection", lights)}
     spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
@@ -154,6 +170,8 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
                  threads=threads, run_at=3)
         elif budget:
             raise ArgumentError(f"budget {budget}: it takes a method of adaptive sampling; koksma.adaptive() names them")
+        elif aov:
+            call(lab().koksma_render_aovs, handle, byref(options), byref(further), byref(every), threads=threads, run_at=2)
         elif layers:
             call(lab().koksma_render_layers, handle, byref(options), byref(every), threads=threads, run_at=2)
         else:
@@ -161,6 +179,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     except BaseException:  # a signal's handler's, perhaps, when the image was there
         lab().koksma_image_fini(byref(image))
         lab().koksma_layers_fini(byref(every))
+        lab().koksma_aovs_fini(byref(further))
         raise
     finally:
         lab().koksma_scene_close(handle)
@@ -168,7 +187,10 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         return adopt_image(image)
     names = ("image", "albedo", "normal", "depth", "samples", "variance")
     arrays = [adopt_image(s.Image.from_buffer_copy(getattr(every, name))) for name in names]
-    return Layers(*arrays, every.rays, report.rounds, report.splits) if layers else arrays[0]
+    if not layers:
+        return arrays[0]
+    aovs = {further.names[i].value.decode(): adopt_image(s.Image.from_buffer_copy(further.images[i])) for i in range(further.n)}
+    return Layers(*arrays, every.rays, report.rounds, report.splits, aovs)
 
 
 def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:

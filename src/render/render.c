@@ -64,7 +64,8 @@ static koksma_status look(job *j)
     return atomic_load(&j->stop) ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* keep_going for patterns, whose sets may take seconds each. */
+/* keep_going for patterns, whose sets may take seconds each, and for the threads: what stops one then stops all, also
+   within their tasks. */
 static bool goes_on(void *context, double fraction)
 {
     (void)fraction;
@@ -106,7 +107,8 @@ static koksma_status render_rows(void *context, size_t task)
 
 static koksma_status render_image(job *j, const koksma_run *run, bool all_layers, koksma_layers *out)
 {
-    const koksma_run inner = {.threads = 1, .keep_going = goes_on, .context = j};
+    const koksma_run inner = {.threads = 1, .keep_going = goes_on, .context = j},
+                     outer = {.threads = koksma__threads(run), .keep_going = goes_on, .context = j};
     koksma__frame *f = j->frame;
     const size_t spp = (size_t)f->options->spp, width = (size_t)f->options->width;
     const size_t rows = SAMPLES_A_TASK / (width * spp);
@@ -120,7 +122,7 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     j->capacity = koksma__group_capacity(f, f->sampler.most);
     const koksma_status film = koksma__film_init(f, all_layers, tasks, out, &j->film);
     status = status ? status : film;
-    status = status ? status : koksma__parallel(run, tasks, render_rows, j);
+    status = status ? status : koksma__parallel(&outer, tasks, render_rows, j);
     f->sampler.run = NULL;
     if (!status || status == KOKSMA_INTERRUPTED) {
         const koksma_status finish = koksma__film_finish(f, &j->film, !status);

@@ -202,6 +202,9 @@ class Errors(unittest.TestCase):
                 koksma.read(file.name)
 
     def test_control_c(self):
+        self.addCleanup(signal.signal, signal.SIGINT, signal.getsignal(signal.SIGINT))
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background may be started with it ignored
+
         def press():  # when the library has the handlers
             while not isinstance(signal.getsignal(signal.SIGINT), Signals):
                 time.sleep(0.001)

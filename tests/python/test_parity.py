@@ -87,6 +87,27 @@ class Rendering(unittest.TestCase):
         self.assertTrue((layers.depth >= 0).all() and layers.depth.max() > 0 and (np.linalg.norm(layers.normal, axis=2) < 1 + 1e-5).all())
         self.assertEqual((layers.rounds, layers.splits), (0, 0))
 
+    def test_aovs(self):
+        """The bits of the program's files; parts of the light add up to the image; every name that it knows."""
+        names = ["direct", "indirect", "bounce:0", "bounce:2", "id", "half:even", "half:odd"]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "image.pfm")
+            program("render", "cornell", "--integrator", "path", "--size", "24x18", "-n", "4", "-q", "--aov", ",".join(names), "-o", path)
+            found = koksma.render("cornell", spp=4, size=(24, 18), integrator="path", layers=True, aov=names)
+            self.assertEqual(list(found.aovs), names)
+            np.testing.assert_array_equal(found.image, koksma.read_image(path))
+            for name, array in found.aovs.items():
+                np.testing.assert_array_equal(array, koksma.read_image(os.path.join(folder, f"image.{name.replace(':', '-')}.pfm")), name)
+        np.testing.assert_allclose(found.aovs["direct"] + found.aovs["indirect"], found.image, atol=1e-5)
+        np.testing.assert_allclose((found.aovs["half:even"] + found.aovs["half:odd"]) / 2, found.image, atol=1e-5)
+        self.assertGreater(found.aovs["indirect"].max(), 0)
+        self.assertEqual(list(koksma.render("ball", spp=4, size=(8, 8), layers=True, aov=["half"]).aovs), ["half:even", "half:odd"])
+        for arguments, said in ((dict(aov=["direct"]), "layers=True"), (dict(aov="direct", layers=True), "a list of texts"),
+                                (dict(aov=["direct"], layers=True, adaptive="contrast"), "adaptive"), (dict(aov=["odd"], layers=True), "odd"),
+                                (dict(aov=["id", "id"], layers=True), "twice"), (dict(aov=["id"], layers=True, splat=True), "splat")):
+            with self.subTest(arguments=arguments), self.assertRaisesRegex(koksma.ArgumentError, said):
+                koksma.render("ball", spp=4, size=(8, 8), **arguments)
+
     def test_adaptive(self):
         """The budget holds; more samples are where the variance is."""
         layers = koksma.render("ball", spp=4, size=(48, 36), adaptive="contrast", budget=12, layers=True)

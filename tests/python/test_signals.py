@@ -146,7 +146,8 @@ class NotRaised(Case):
         self.assertIs(signal.getsignal(signal.SIGUSR1), handler)
 
     def test_short_calls_leave_handlers_alone(self):
-        """Few points of any pattern that has ranges, and any exact measure of few points; nothing else."""
+        """Few points of any pattern that has ranges, strata or Latin sets, and any exact measure of few points; nothing
+        else."""
         class Taken(Exception):
             pass
 
@@ -159,10 +160,15 @@ class NotRaised(Case):
         self.assertGreater(len(ranged), 10)
         for name in ranged:
             points = koksma.generate(name, 13 if name == "fibonacci" else 16)
+        sets = [m for m in koksma.patterns() if not m.operand and m.name not in ranged and {"stratified", "latin"} & set(m.claims)]
+        self.assertGreater(len(sets), 5)
+        for pattern in sets:
+            koksma.generate(pattern.name, 25 if pattern.name == "orthogonal-array" else 16)
         self.assertEqual(koksma.generate("sobol", 16, first=1 << 30).shape, (16, 2))
         for name in ("star", "l2-star", "extreme", "edge", "min-distance"):
             self.assertGreater(koksma.measure(points, name).value, 0)
         for longer in (lambda: koksma.generate("best-candidate", 16), lambda: koksma.generate("sobol", 1 << 18),
+                       lambda: koksma.generate("n-rooks", 33),
                        lambda: koksma.measure(PLANE, "star"), lambda: koksma.measure(points, "star-lower"),
                        lambda: koksma.measure(points, "extreme:grid=9"), lambda: koksma.measure(points, "star", time_limit=9)):
             self.assertRaises(Taken, longer)

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Renders as a whole: bits, light in closed form, shadows, errors. */
+/* Renders as a whole: bits, light in closed form, shadows, interruptions, errors. */
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <koksma/render.h>
@@ -138,6 +139,46 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
+static double cpu_s(clockid_t clock)
+{
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Stops when the other thread has worked for 2 ms; waits for that with 0.2 s of processor time. */
+static bool stop_the_other(void *context, double fraction)
+{
+    (void)fraction;
+    const double before = *(const double *)context, end = cpu_s(CLOCK_THREAD_CPUTIME_ID) + 0.2;
+    double now, others;
+    do {
+        now = cpu_s(CLOCK_THREAD_CPUTIME_ID);
+        others = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - now - before;
+    } while (others < 2e-3 && now < end);
+    return others < 2e-3;
+}
+
+/* Two rows of so many samples that each is a task of a thread: a thread does not finish its row before it stops. */
+static void an_interruption_stops_every_thread(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_layers layers;
+    double before = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - cpu_s(CLOCK_THREAD_CPUTIME_ID);
+    const koksma_run run = {.threads = 2, .keep_going = stop_the_other, .context = &before};
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&options, scene);
+    options.width = 64;
+    options.height = 2;
+    options.spp = 1 << 16;
+    assert_int_equal(koksma_render_layers(scene, &options, &run, &layers), KOKSMA_INTERRUPTED);
+    assert_true(layers.rays < 64ull << 16);
+    koksma_layers_fini(&layers);
+    koksma_scene_close(scene);
+}
+
 static void errors_are_said(void **state)
 {
     (void)state;
@@ -187,6 +228,7 @@ int main(void)
         cmocka_unit_test(same_bits_for_any_number_of_threads),
         cmocka_unit_test(light_is_its_form_factor),
         cmocka_unit_test(shadows_take_light),
+        cmocka_unit_test(an_interruption_stops_every_thread),
         cmocka_unit_test(errors_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
