@@ -321,7 +321,7 @@ static void methods_gain_and_keep(void **state)
     }
 }
 
-/* Nothing is below: tools/prove_star.c proves it, and the test star_optima checks its proofs for up to 10 points. */
+/* Nothing is below: tools/prove_star.c proves it, and the test star_optima checks its proofs for up to 12 points. */
 static void optima_of_the_star_discrepancy(void **state)
 {
     (void)state;
