@@ -21,7 +21,7 @@ from ._engine import Engine
 from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
 from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError, allow_exec, refuse_unknown)
-from ._optimise import Optimum, optimise
+from ._optimise import Optimum, optimise, radial_power
 from ._points import (Finding, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, measure, measures, modifiers,
                       patterns, read, verify, warps, write)
 from ._plot import Picture, plot, plot_compare, plot_convergence
@@ -40,6 +40,6 @@ __all__ = [
     "Value", "Witness", "adaptive", "allow_exec", "audit", "canonical", "compare", "convergence", "datasheet",
     "filters", "generate", "has_ranges", "integrand", "integrands", "integrate", "integrators", "measure", "measures",
     "metrics", "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare",
-    "plot_convergence", "rank", "read", "read_image", "refuse_unknown", "render", "scenes", "sensitivity", "spectrum", "trials",
+    "plot_convergence", "radial_power", "rank", "read", "read_image", "refuse_unknown", "render", "scenes", "sensitivity", "spectrum", "trials",
     "verify", "version", "warps", "write", "write_image",
 ]

@@ -5,8 +5,10 @@ from __future__ import annotations
 import ctypes
 from ctypes import byref, c_double, c_uint64
 from dataclasses import dataclass
-from typing import Callable, Optional, Sequence, SupportsIndex
+from math import ceil, sqrt
+from typing import Callable, Optional, Sequence, SupportsIndex, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
@@ -39,11 +41,43 @@ def _optimum(best: s.Optimum) -> Optimum:
     return Optimum(points, best.value, best.lower, best.steps, best.last_gain, best.method.decode())
 
 
+def radial_power(target: str, n: SupportsIndex, rings: Optional[SupportsIndex] = None, *,
+                 threads: SupportsIndex = 0) -> "npt.NDArray[np.float64]":
+    """The mean power of n points in the plane at the frequencies 1, 2, .., rings: a target for optimise(power=).
+
+    Parameters
+    ----------
+    target : str
+        "step" (0 below the frequency sqrt(n / pi), else 1), "gaussian" (1 - exp(-pi f^2 / n)), a pattern (the mean of 16
+        sets), or a file of lines with a frequency, in units of sqrt(n), and a power.
+    rings : int, optional
+        The number of frequencies; 2 sqrt(n), rounded up, by default.
+
+    Returns
+    -------
+    ndarray of shape (rings,)
+
+    Examples
+    --------
+    >>> import koksma
+    >>> [float(power) for power in koksma.radial_power("step", 16, 4)]
+    [0.0, 0.0, 1.0, 1.0]
+    >>> target = koksma.radial_power("gaussian", 64) * 0.5
+    >>> best = koksma.optimise(None, 64, power=target, steps=1)
+    """
+    n = whole("n", n, 1, s.MAX_COORDINATES // 2)
+    rings = min(ceil(2 * sqrt(n)), s.MAX_HALF) if rings is None else whole("rings", rings, 1, s.MAX_HALF)
+    power = np.empty(rings)
+    call(core().koksma_radial_power, target.encode(), n, rings, power.ctypes.data_as(ctypes.POINTER(c_double)),
+         threads=threads, run_at=3)
+    return power
+
+
 def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, *,
              start: Optional[npt.ArrayLike] = None, keep: str = "none",
              projections: Sequence[Sequence[SupportsIndex]] = (),
-             weights: Optional[Sequence[float]] = None, power: Optional[Sequence[float]] = None, seed: SupportsIndex = 0,
-             steps: SupportsIndex = 0, time_limit: Optional[float] = None, threads: SupportsIndex = 0,
+             weights: Optional[Sequence[float]] = None, power: Union[str, npt.ArrayLike, None] = None,
+             seed: SupportsIndex = 0, steps: SupportsIndex = 0, time_limit: Optional[float] = None, threads: SupportsIndex = 0,
              progress: Optional[Callable[[Optimum], object]] = None) -> Optimum:
     """Searches for n points in [0,1)^dim with a small value of a measure (a large one of a distance).
 
@@ -54,10 +88,18 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     its first 2, 4, .., n points.
     projections: the coordinates in which points are measured, as [(0, 1), (0, 2)]; empty: all together. The value is the
     root of the mean of the squares, with weights, one of each projection, if they are given.
-    power: with measure None, a target for the mean power at the frequencies 1, 2, .. in the plane; the value is the root
-    mean square difference, in which ring r counts r times.
+    power: with measure None, a target for the mean power at the frequencies 1, 2, .. in the plane, or what radial_power
+    takes, such as "step"; the value is the root mean square difference, in which ring r counts r times.
     steps: of a fixed amount of work; equal steps and seed give equal sets. 0: until time_limit, in seconds.
     progress: called with the first set and after each step; returns False to stop.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> round(koksma.optimise("star", 8, steps=1).value, 9)  # 17/128, the least that 8 points in the plane can have
+    0.1328125
+    >>> koksma.optimise(None, 16, power="step", steps=1).value < 1e-3
+    True
     """
     if keep not in _KEEP:
         raise ArgumentError(f"keep {keep!r}: it takes 'none', 'latin', 'net' or 'sequence'")
@@ -73,6 +115,9 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
         raise ArgumentError(f"{len(weights)} weights: it takes one of each of {len(projections)} projections")
     if (measure is None) == (power is None):
         raise ArgumentError("it takes a measure or a target power, and not both")
+    target = radial_power(power, n, threads=threads) if isinstance(power, str) else None if power is None else np.array(power, float)
+    if target is not None and target.ndim != 1:
+        raise ArgumentError(f"power has the shape {target.shape}: it takes a number for each of the frequencies 1, 2, ..")
     raised = []
 
     def tell(_context: object, best: object) -> bool:
@@ -87,8 +132,9 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     c_first = None if first is None else ctypes.pointer(view(first))
     options = s.OptimiseOptions(n, dim, c_first, _KEEP.index(keep), whole("seed", seed, 0, s.MAX_SEED), steps,
                                 s.OptimiseProgress(tell), None, (c_uint64 * len(bits))(*bits),
-                                None if weights is None else (c_double * len(bits))(*weights), len(bits), None, None if power is None else (c_double * len(power))(*power),
-                                0 if power is None else len(power))
+                                None if weights is None else (c_double * len(weights))(*weights), len(bits), None,
+                                None if target is None else (c_double * target.size)(*target),
+                                0 if target is None else target.size)
     try:
         call(core().koksma_optimise, parsed, byref(options), byref(best), threads=threads,
              time_limit=time_limit, run_at=2)

@@ -8,6 +8,8 @@
 #include <string.h>
 
 #include "core/spec.h"
+#include "optimise/radial_power.h"
+#include "optimise/value.h"
 #include "test.h"
 
 /* Calls f for each measure with a gradient, with each choice of its law, in its first dimensions. */
@@ -59,10 +61,106 @@ static void expect_differences(const koksma_spec *measure, int dim)
     koksma_points_fini(&points);
 }
 
+/* The same for the weighted mean of the squares over projections, each evaluated by itself. */
+static void expect_differences_of_projections(const koksma_spec *measure, int dim)
+{
+    enum { N = 6 };
+    const double h = 1e-5, weights[] = {3, 1};
+    if (dim < 2 || measure->measure->min_dim > 1) {
+        return;
+    }
+    const uint64_t projections[] = {1, (UINT64_C(1) << dim) - 2};
+    const koksma_optimise_options o = {
+        .n = N, .dim = dim, .projections = projections, .weights = weights, .n_projections = 2};
+    koksma_points points = test_points("random", N, dim, 6);
+    double square, gradient[3 * N], ends[2];
+    assert_ok(koksma__search_square(measure, &o, &points, &square, gradient));
+    for (size_t c = 0; c < N * (size_t)dim; c++) {
+        const double x = points.xs[c];
+        for (int end = 0; end < 2; end++) {
+            double first[N], rest[2 * N];
+            points.xs[c] = x + (end ? h : -h);
+            for (size_t i = 0; i < N; i++) {
+                first[i] = points.xs[i * (size_t)dim];
+                memcpy(rest + i * (size_t)(dim - 1), points.xs + i * (size_t)dim + 1,
+                       (size_t)(dim - 1) * sizeof *rest);
+            }
+            koksma_value one, other;
+            assert_ok(koksma_evaluate(measure, &(koksma_points){N, 1, first}, NULL, &one));
+            assert_ok(koksma_evaluate(measure, &(koksma_points){N, dim - 1, rest}, NULL, &other));
+            ends[end] = (3 * one.square + other.square) / 4;
+        }
+        points.xs[c] = x;
+        assert_near(gradient[c], (ends[1] - ends[0]) / (2 * h), 1e-7);
+    }
+    koksma_points_fini(&points);
+}
+
 static void gradients_are_differences(void **state)
 {
     (void)state;
     each_gradient(expect_differences);
+    each_gradient(expect_differences_of_projections);
+}
+
+/* D^2 of a target power from its definition: the mean of |sum_j exp(-2 pi i k.x_j)|^2 / n over the frequencies whose
+   length rounds to r, its difference from the target squared, ring r counted r times. */
+static double power_square(const double *power, int rings, const koksma_points *points)
+{
+    double square = 0, weights = 0;
+    for (int r = 1; r <= rings; r++) {
+        double mean = 0, count = 0;
+        for (int kx = -rings; kx <= rings; kx++) {
+            for (int ky = -rings; ky <= rings; ky++) {
+                if (lround(hypot(kx, ky)) == r) {
+                    double re = 0, im = 0;
+                    for (size_t i = 0; i < points->n; i++) {
+                        const double angle = 2 * M_PI * (kx * points->xs[2 * i] + ky * points->xs[2 * i + 1]);
+                        re += cos(angle);
+                        im += sin(angle);
+                    }
+                    mean += (re * re + im * im) / (double)points->n;
+                    count++;
+                }
+            }
+        }
+        const double off = mean / count - power[r - 1];
+        square += r * off * off;
+        weights += r;
+    }
+    return square / weights;
+}
+
+static void gradients_of_powers_are_differences(void **state)
+{
+    (void)state;
+    enum { MOST = 19, RINGS = 9 };
+    static const char *const targets[] = {"step", "gaussian", "latin-hypercube"};
+    static const char *const patterns[] = {"random", "regular", "gaussian-blue-noise"};
+    static const koksma_spec to_power = {.measure = &koksma__measure_radial_power};
+    const double h = 1e-5;
+    for (int t = 0; t < 3; t++) {
+        for (size_t n = t == 1 ? 16 : 1; n <= MOST; n += t == 1 ? MOST : 9) { /* regular takes squares */
+            for (int rings = 1; rings <= RINGS; rings += 4) {
+                koksma_points points = test_points(patterns[t], n, 2, 5);
+                double power[RINGS], square, gradient[2 * MOST];
+                assert_ok(koksma_radial_power(targets[t], n, rings, NULL, power));
+                const koksma_optimise_options o = {.n = n, .dim = 2, .power = power, .rings = rings};
+                assert_ok(koksma__search_square(&to_power, &o, &points, &square, gradient));
+                assert_near(square, power_square(power, rings, &points), 1e-11);
+                for (size_t c = 0; c < 2 * n; c++) {
+                    const double x = points.xs[c];
+                    points.xs[c] = x + h;
+                    const double up = power_square(power, rings, &points);
+                    points.xs[c] = x - h;
+                    const double down = power_square(power, rings, &points);
+                    points.xs[c] = x;
+                    assert_near(gradient[c], (up - down) / (2 * h), 1e-5 * fmax(1, fabs(gradient[c])));
+                }
+                koksma_points_fini(&points);
+            }
+        }
+    }
 }
 
 /* A shift on the torus changes the value of those that are not on it. */
@@ -223,7 +321,7 @@ static void methods_gain_and_keep(void **state)
     }
 }
 
-/* Nothing is below: tools/prove_star.c proves it, and the test star_optima checks its proofs for up to 10 points. */
+/* Nothing is below: tools/prove_star.c proves it, and the test star_optima checks its proofs for up to 12 points. */
 static void optima_of_the_star_discrepancy(void **state)
 {
     (void)state;
@@ -342,7 +440,7 @@ static void target_powers(void **state)
 {
     (void)state;
     enum { N = 24, RINGS = 10 };
-    static const char *const targets[] = {"step", "gaussian", "jittered"};
+    static const char *const targets[] = {"step", "gaussian", "latin-hypercube"};
     double power[RINGS];
     for (size_t t = 0; t < 3; t++) {
         const size_t n = t == 2 ? 25 : N;
@@ -468,6 +566,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gradients_are_differences),
+        cmocka_unit_test(gradients_of_powers_are_differences),
         cmocka_unit_test(torus_is_where_it_is_said),
         cmocka_unit_test(methods_gain_and_keep),
         cmocka_unit_test(optima_of_the_star_discrepancy),

@@ -59,6 +59,28 @@ class Optimise(unittest.TestCase):
         with self.assertRaises(koksma.ArgumentError):
             koksma.optimise("star", 16, power=target, steps=1)
 
+    def test_named_targets(self):
+        for target in ("step", "gaussian", "latin-hypercube"):
+            with self.subTest(target=target), tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "p.npy")
+                subprocess.run([os.environ["KOKSMA"], "optimise", "--power", target, "-n", "14", "--steps", "1", "-o", path, "-q"],
+                               check=True, capture_output=True)
+                power = koksma.radial_power(target, 14)
+                self.assertEqual(power.shape, (8,))
+                np.testing.assert_array_equal(koksma.optimise(None, 14, power=target, steps=1).points, np.load(path))
+                np.testing.assert_array_equal(koksma.optimise(None, 14, power=list(power), steps=1).points, np.load(path))
+        rings = np.arange(1, 6)
+        np.testing.assert_array_equal(koksma.radial_power("step", 16, 5), rings > np.sqrt(16 / np.pi))
+        np.testing.assert_allclose(koksma.radial_power("gaussian", 16, 5), 1 - np.exp(-np.pi * rings**2 / 16), rtol=1e-14)
+        mean = np.mean([koksma.spectrum(koksma.generate("jittered", 16, seed=seed), 5, exact=True).ring_power for seed in range(16)], axis=0)
+        np.testing.assert_allclose(koksma.radial_power("jittered", 16, 5), mean, rtol=1e-9)
+        for wrong in (("stepp", 16), ("step", 0), ("step", 16, 0), ("step", 16, 2.5)):
+            with self.subTest(wrong=wrong), self.assertRaises((koksma.Error, TypeError)):
+                koksma.radial_power(*wrong)
+        for wrong in ([[1.0, 1.0]], [], [-1.0], "stepp"):
+            with self.subTest(wrong=wrong), self.assertRaises(koksma.Error):
+                koksma.optimise(None, 16, power=wrong, steps=1)
+
     def test_errors(self):
         with self.assertRaises(koksma.ArgumentError):
             koksma.optimise("l2-star", 8, projections=[(0,), (1,)], weights=[1], steps=1)
