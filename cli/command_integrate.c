@@ -257,9 +257,10 @@ static int put_component(job *j, const koksma_integral *integral, const char *na
     return CLI_YES;
 }
 
-/* Prints the errors of the components of all coordinates and of all pairs of coordinates. */
-static int put_components(job *j, const koksma_integral *integral, const series *all)
+/* Prints the errors of the components of all coordinates and of all pairs of coordinates, for one series. */
+static int put_components(job *j, const koksma_integral *integral, void *one)
 {
+    const series *all = one;
     series *s = malloc(sizeof *s);
     koksma_integration result;
     koksma_integral_facts facts;
@@ -362,11 +363,6 @@ static int errors_of_series(job *j, const koksma_integral *integral, void *s)
     return more ? integrate(j, integral, s) : cli_no_memory();
 }
 
-static int components_of_series(job *j, const koksma_integral *integral, void *s)
-{
-    return put_components(j, integral, s);
-}
-
 static int shares_of_variance(job *j, const koksma_integral *integral, void *samples)
 {
     return put_variance(j, integral, *(const uint64_t *)samples);
@@ -402,7 +398,7 @@ static int run_all(job *j)
     if (!code && cli_flag(arguments, "anova")) {
         code = run_variance(j, j->n_series ? j->series[0].dim : (int)dim);
         for (size_t i = 0; i < j->n_series && !code; i++) {
-            code = run_each(j, j->series[i].dim, components_of_series, &j->series[i]);
+            code = run_each(j, j->series[i].dim, put_components, &j->series[i]);
         }
     }
     cli_work_end();

@@ -49,6 +49,17 @@ static inline koksma_points sets_points(size_t n, int dim, int kind, uint64_t se
     return points;
 }
 
+/* The square of the distance of a and b on the torus. */
+static inline double sets_torus_distance2(const double *a, const double *b, int dim)
+{
+    double sum = 0;
+    for (int k = 0; k < dim; k++) {
+        const double t = fabs(a[k] - b[k]), across = t > 0.5 ? 1 - t : t;
+        sum += across * across;
+    }
+    return sum;
+}
+
 /* The text of a set for a failure. */
 static inline void sets_print(const koksma_points *points)
 {

@@ -68,14 +68,3 @@ int koksma__snprintf(char *text, size_t size, const char *format, ...)
     va_end(arguments);
     return length;
 }
-
-int koksma__fprintf(FILE *stream, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    const locale_t before = enter();
-    const int length = vfprintf(stream, format, arguments);
-    uselocale(before);
-    va_end(arguments);
-    return length;
-}

@@ -17,7 +17,6 @@
 /* strtod and vsnprintf in the "C" locale. */
 KOKSMA__LAB double koksma__strtod(const char *text, char **end);
 KOKSMA__LAB float koksma__strtof(const char *text, char **end);
-KOKSMA__LAB int koksma__fprintf(FILE *stream, const char *format, ...) KOKSMA_PRINTF(2, 3);
 KOKSMA__LAB int koksma__snprintf(char *text, size_t size, const char *format, ...) KOKSMA_PRINTF(3, 4);
 KOKSMA__LAB int koksma__vsnprintf(char *text, size_t size, const char *format, va_list arguments) KOKSMA_PRINTF(3, 0);
 

@@ -143,14 +143,8 @@ typedef struct darts {
     double d;
     double *xs, *units;
     uint32_t *next, *head;
-    size_t side;
+    uint32_t side;
 } darts;
-
-static size_t cell_along(const darts *a, double x)
-{
-    const size_t cell = (size_t)(x * (double)a->side);
-    return cell < a->side ? cell : a->side - 1;
-}
 
 /* Whether a kept point in the cells from the axis k on is too near to x. */
 static bool is_near(const darts *a, int k, size_t row, const double *x, double unit)
@@ -171,7 +165,7 @@ static bool is_near(const darts *a, int k, size_t row, const double *x, double u
         return false;
     }
     const size_t reach = (size_t)fmin(ceil(a->d * unit * (double)a->side), (double)a->side);
-    const size_t own = cell_along(a, x[k]);
+    const size_t own = koksma__cell_along(x[k], a->side);
     size_t first = own > reach ? own - reach : 0, some = (own + reach < a->side ? own + reach + 1 : a->side) - first;
     if (a->torus) {
         some = 2 * reach + 1 < a->side ? 2 * reach + 1 : a->side;
@@ -187,10 +181,7 @@ static bool is_near(const darts *a, int k, size_t row, const double *x, double u
 
 static void keep(darts *a, size_t i)
 {
-    size_t cell = 0;
-    for (int k = 0; k < a->domain->dim; k++) {
-        cell = cell * a->side + cell_along(a, a->xs[i * (size_t)a->domain->dim + (size_t)k]);
-    }
+    const size_t cell = koksma__cell_index(a->xs + i * (size_t)a->domain->dim, a->domain->dim, a->side);
     a->next[i] = a->head[cell];
     a->head[cell] = (uint32_t)i;
 }
@@ -227,8 +218,8 @@ static koksma_status choose_darts(const choice *c)
     KOKSMA__FAIL_IF(c->params[1] > 0 && !c->domain->torus, KOKSMA_ARGUMENT, "%s: torus=1: there is no torus %s",
                     c->pattern->name, c->domain->what);
     const double most = fmin(pow((double)c->n, 1.0 / (double)dim), a.d > 0 ? 1 / a.d : 1);
-    a.side = most > 1 ? (size_t)most : 1;
-    const size_t cells = dim == 2 ? a.side * a.side : a.side * a.side * a.side;
+    a.side = most > 1 ? (uint32_t)most : 1;
+    const size_t square = (size_t)a.side * a.side, cells = dim == 2 ? square : square * a.side;
     const size_t bytes = c->n * ((dim + 1) * sizeof(double) + sizeof(uint32_t)) + cells * sizeof(uint32_t);
     a.xs = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(a.xs, bytes);

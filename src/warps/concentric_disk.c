@@ -8,16 +8,11 @@
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
 
-static void map(const double *u, double *x)
-{
-    koksma__map_concentric(u, x);
-}
-
 const koksma_warp koksma__warp_concentric_disk = {
     .name = "concentric-disk",
     .title = "low-distortion map of squares to circles",
     .cite = "shirley1997",
     .domain = KOKSMA_DOMAIN_DISK,
     .dim = 2,
-    .map = map,
+    .map = koksma__map_concentric,
 };

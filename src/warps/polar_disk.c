@@ -7,16 +7,11 @@
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
 
-static void map(const double *u, double *x)
-{
-    koksma__map_polar(u, x);
-}
-
 const koksma_warp koksma__warp_polar_disk = {
     .name = "polar-disk",
     .title = "radius sqrt(u), angle 2 pi v",
     .cite = "shirley1991",
     .domain = KOKSMA_DOMAIN_DISK,
     .dim = 2,
-    .map = map,
+    .map = koksma__map_polar,
 };

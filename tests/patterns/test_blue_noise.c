@@ -5,17 +5,8 @@
 
 #include "patterns/shared/elimination.h"
 #include "patterns/shared/packing.h"
+#include "sets.h"
 #include "test.h"
-
-static double torus_distance2(const double *a, const double *b, int dim)
-{
-    double sum = 0;
-    for (int k = 0; k < dim; k++) {
-        const double t = fabs(a[k] - b[k]), way = t > 0.5 ? 1 - t : t;
-        sum += way * way;
-    }
-    return sum;
-}
 
 /* The smallest, and the mean, distance to the nearest other point, in units of the densest packing's. 2D. */
 static void nearest(const double *xs, size_t n, double *least, double *mean)
@@ -40,7 +31,7 @@ static void nearest(const double *xs, size_t n, double *least, double *mean)
             for (long u = -1; u <= 1; u++) {
                 for (long j = first[(cy + v + side) % side * side + (cx + u + side) % side]; j >= 0; j = next[j]) {
                     if (j != (long)i) {
-                        best = fmin(best, torus_distance2(xs + 2 * i, xs + 2 * j, 2));
+                        best = fmin(best, sets_torus_distance2(xs + 2 * i, xs + 2 * j, 2));
                     }
                 }
             }
@@ -148,7 +139,7 @@ static void assert_heaviest_go(size_t count, size_t keep, int dim, bool nearest)
     for (size_t i = 0; i < count; i++) {
         for (size_t j = 0; j < i; j++) {
             const double *x = points.xs + i * (size_t)dim, *y = points.xs + j * (size_t)dim;
-            const double d = sqrt(torus_distance2(x, y, dim));
+            const double d = sqrt(sets_torus_distance2(x, y, dim));
             pairs[i][j] = pairs[j][i] = !nearest    ? pair_weight(x, y, dim, d_max, d_min)
                                         : d < d_max ? pow(1 - fmax(d, d_min) / d_max, 8)
                                                     : 0;

@@ -10,21 +10,11 @@
 #include "sets.h"
 #include "test.h"
 
-static double distance2(const double *a, const double *b, int dim)
-{
-    double sum = 0;
-    for (int k = 0; k < dim; k++) {
-        const double t = fabs(a[k] - b[k]), way = t > 0.5 ? 1 - t : t;
-        sum += way * way;
-    }
-    return sum;
-}
-
 static double nearest_to(const koksma_points *p, const double *x, size_t but)
 {
     double best = INFINITY;
     for (size_t i = 0; i < p->n; i++) {
-        best = i == but ? best : fmin(best, distance2(p->xs + i * (size_t)p->dim, x, p->dim));
+        best = i == but ? best : fmin(best, sets_torus_distance2(p->xs + i * (size_t)p->dim, x, p->dim));
     }
     return sqrt(best);
 }

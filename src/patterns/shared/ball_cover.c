@@ -35,18 +35,9 @@ double koksma__balls_per_volume(int dim)
 
 /* ---- The cells ------------------------------------------------------------------------------------------- */
 
-static uint32_t cell_along(const koksma__balls *s, double x)
-{
-    const uint32_t cell = (uint32_t)(x * s->side);
-    return cell < s->side ? cell : s->side - 1;
-}
-
 static void enter(koksma__balls *s, size_t i)
 {
-    size_t cell = 0;
-    for (int k = 0; k < s->dim; k++) {
-        cell = cell * s->side + cell_along(s, s->xs[i * (size_t)s->dim + (size_t)k]);
-    }
+    const size_t cell = koksma__cell_index(s->xs + i * (size_t)s->dim, s->dim, s->side);
     s->next[i] = s->head[cell];
     s->head[cell] = (uint32_t)i;
 }
@@ -138,7 +129,7 @@ static bool look_from(const koksma__balls *s, int k, size_t row, const double *x
     }
     const bool all = 2 * reach + 1 >= s->side;
     const uint32_t some = all ? s->side : 2 * reach + 1;
-    uint32_t cell = all ? 0 : (cell_along(s, x[k]) + s->side - reach) % s->side;
+    uint32_t cell = all ? 0 : (koksma__cell_along(x[k], s->side) + s->side - reach) % s->side;
     for (uint32_t c = 0; c < some; c++) {
         if (look_from(s, k + 1, row * s->side + cell, x, reach, near)) {
             return true;

@@ -59,7 +59,8 @@ typedef struct elimination {
     uint32_t *origin;       /* the number that a point had when it was given */
     entry *heap;            /* heaviest point first */
     uint32_t *heap_place;   /* index of a point in the heap */
-    size_t cells, reach;    /* cells on a side; how many cells away d_max can reach */
+    uint32_t cells;         /* cells on a side */
+    size_t reach;           /* how many cells away d_max can reach */
     uint32_t *cell_start;   /* where each cell's points begin in `members` */
     uint32_t *cell_count;   /* number of points left in each cell */
     uint32_t *members;      /* the points of all cells, cell by cell */
@@ -120,21 +121,6 @@ static void sink(elimination *e, size_t at)
 
 /* ---- The cells ------------------------------------------------------------------------------------------- */
 
-static size_t cell_along(const elimination *e, double x)
-{
-    const size_t cell = (size_t)(x * (double)e->cells);
-    return cell < e->cells ? cell : e->cells - 1;
-}
-
-static size_t cell_of(const elimination *e, const double *x)
-{
-    size_t cell = 0;
-    for (int k = 0; k < e->grid_dims; k++) {
-        cell = cell * e->cells + cell_along(e, x[k]);
-    }
-    return cell;
-}
-
 /* Chooses as many cells on a side as d_max allows, but no more cells than points; with units of distance, about as many
    as points. Returns the number of cells. */
 static size_t size_cells(elimination *e, bool scaled)
@@ -146,7 +132,7 @@ static size_t size_cells(elimination *e, bool scaled)
     for (;;) {
         size_t count = 1;
         for (int k = 0; k < e->grid_dims && count <= e->all; k++) {
-            count *= e->cells + 1;
+            count *= (size_t)e->cells + 1;
         }
         if (count > e->all || (double)(e->cells + 1) > wanted) {
             break;
@@ -166,7 +152,7 @@ static void sort_into_cells(elimination *e, const double *points, const double *
     const size_t dim = (size_t)e->dim;
     memset(e->cell_count, 0, cells * sizeof *e->cell_count);
     for (size_t i = 0; i < e->all; i++) {
-        e->cell_count[cell_of(e, points + i * dim)]++;
+        e->cell_count[koksma__cell_index(points + i * dim, e->grid_dims, e->cells)]++;
     }
     for (size_t c = 0, start = 0; c < cells; c++) {
         e->cell_start[c] = (uint32_t)start;
@@ -174,7 +160,7 @@ static void sort_into_cells(elimination *e, const double *points, const double *
         e->cell_count[c] = 0;
     }
     for (size_t i = 0; i < e->all; i++) {
-        const size_t c = cell_of(e, points + i * dim);
+        const size_t c = koksma__cell_index(points + i * dim, e->grid_dims, e->cells);
         const uint32_t at = e->cell_start[c] + e->cell_count[c]++;
         memcpy(e->xs + at * dim, points + i * dim, dim * sizeof *points);
         e->origin[at] = (uint32_t)i;
@@ -187,7 +173,7 @@ static void sort_into_cells(elimination *e, const double *points, const double *
 
 static void leave_cell(elimination *e, uint32_t point)
 {
-    const size_t cell = cell_of(e, e->xs + (size_t)point * (size_t)e->dim);
+    const size_t cell = koksma__cell_index(e->xs + (size_t)point * (size_t)e->dim, e->grid_dims, e->cells);
     const uint32_t at = e->member_place[point], last = e->cell_start[cell] + --e->cell_count[cell];
     e->members[at] = e->members[last];
     e->member_place[e->members[at]] = at;
@@ -273,7 +259,7 @@ static void weigh_from(elimination *e, int k, size_t row, uint32_t point, bool r
         weigh_cell(e, row, point, relieve);
         return;
     }
-    const size_t own = cell_along(e, e->xs[(size_t)point * (size_t)e->dim + (size_t)k]);
+    const size_t own = koksma__cell_along(e->xs[(size_t)point * (size_t)e->dim + (size_t)k], e->cells);
     const size_t reach = reach_of(e, point), some = 2 * reach + 1 < e->cells ? 2 * reach + 1 : e->cells;
     size_t cell = some < e->cells ? (own + e->cells - reach) % e->cells : 0;
     for (size_t i = 0; i < some; i++) {

@@ -81,21 +81,6 @@ void koksma__space_forces_fini(koksma__space_forces *f)
     *f = (koksma__space_forces){0};
 }
 
-static size_t cell_along(const koksma__space_forces *f, double x)
-{
-    const size_t cell = (size_t)(x * (double)f->side);
-    return cell < f->side ? cell : f->side - 1;
-}
-
-static size_t cell_of(const koksma__space_forces *f, const double *x)
-{
-    size_t cell = 0;
-    for (int k = 0; k < f->dim; k++) {
-        cell = cell * f->side + cell_along(f, x[k]);
-    }
-    return cell;
-}
-
 void koksma__space_forces_sort(koksma__space_forces *f, const double *xs)
 {
     const size_t dim = (size_t)f->dim;
@@ -105,14 +90,14 @@ void koksma__space_forces_sort(koksma__space_forces *f, const double *xs)
     }
     memset(f->start, 0, (cells + 1) * sizeof *f->start);
     for (size_t i = 0; i < f->n; i++) {
-        f->start[cell_of(f, xs + i * dim)]++;
+        f->start[koksma__cell_index(xs + i * dim, f->dim, f->side)]++;
     }
     for (size_t c = 0, sum = 0; c <= cells; c++) {
         sum += f->start[c];
         f->start[c] = (uint32_t)sum;
     }
     for (size_t i = f->n; i-- > 0;) { /* backwards, so that points of a cell keep their order */
-        const uint32_t at = --f->start[cell_of(f, xs + i * dim)];
+        const uint32_t at = --f->start[koksma__cell_index(xs + i * dim, f->dim, f->side)];
         memcpy(f->sorted + at * dim, xs + i * dim, dim * sizeof *xs);
         f->order[at] = (uint32_t)i;
     }
@@ -146,7 +131,7 @@ static void add_cells(const koksma__space_forces *f, int k, size_t row, const do
         return;
     }
     const size_t some = f->side == 1 ? 1 : 5;
-    size_t cell = some == 1 ? 0 : (cell_along(f, x[k]) + f->side - 2) % f->side;
+    size_t cell = some == 1 ? 0 : (koksma__cell_along(x[k], f->side) + f->side - 2) % f->side;
     for (size_t c = 0; c < some; c++) {
         add_cells(f, k + 1, row * f->side + cell, x, force);
         cell = cell + 1 < f->side ? cell + 1 : 0;

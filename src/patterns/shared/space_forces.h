@@ -10,7 +10,8 @@ enum { KOKSMA__FORCE_DIMS = 6 };
 
 typedef struct koksma__space_forces {
     int dim;
-    size_t n, side;          /* side: cells along an axis */
+    size_t n;
+    uint32_t side;           /* cells along an axis */
     double s;                /* standard deviation of the Gaussian */
     double *sorted;          /* the points, cell by cell */
     double *table;           /* for s > 1/10: four coefficients of each piece of the periodic Gaussian; else NULL */

@@ -12,12 +12,7 @@
 #include <string.h>
 
 #include "core/status.h"
-
-static uint32_t cell_of(const koksma__torus_grid *g, double x)
-{
-    const uint32_t cell = (uint32_t)(x * g->cells);
-    return cell < g->cells ? cell : g->cells - 1;
-}
+#include "core/torus.h"
 
 koksma_status koksma__torus_grid_init(koksma__torus_grid *g, size_t n, const double *xs)
 {
@@ -44,8 +39,8 @@ void koksma__torus_grid_clear(koksma__torus_grid *g)
 
 static uint32_t *list_of(const koksma__torus_grid *g, uint32_t point)
 {
-    return &g->head[(size_t)cell_of(g, g->xs[2 * (size_t)point + 1]) * g->cells +
-                    cell_of(g, g->xs[2 * (size_t)point])];
+    return &g->head[(size_t)koksma__cell_along(g->xs[2 * (size_t)point + 1], g->cells) * g->cells +
+                    koksma__cell_along(g->xs[2 * (size_t)point], g->cells)];
 }
 
 void koksma__torus_grid_add(koksma__torus_grid *g, uint32_t point)
@@ -72,7 +67,7 @@ static double nearest_in(const koksma__torus_grid *g, long cell_x, long cell_y, 
 
 double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double y, double enough)
 {
-    const long cx = cell_of(g, x), cy = cell_of(g, y), most = (long)g->cells / 2;
+    const long cx = koksma__cell_along(x, g->cells), cy = koksma__cell_along(y, g->cells), most = (long)g->cells / 2;
     double best = 1;
     for (long ring = 0; ring <= most && best > enough; ring++) {
         const double gap = (double)(ring - 1) / g->cells; /* points of this ring and those outside are at least this
@@ -99,7 +94,7 @@ typedef struct span {
 
 static span span_about(const koksma__torus_grid *g, double x, long reach)
 {
-    const long cells = (long)g->cells, first = ((long)cell_of(g, x) - reach) % cells;
+    const long cells = (long)g->cells, first = ((long)koksma__cell_along(x, g->cells) - reach) % cells;
     return (span){first < 0 ? first + cells : first, 2 * reach + 1 < cells ? 2 * reach + 1 : cells};
 }
 

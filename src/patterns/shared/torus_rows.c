@@ -11,18 +11,13 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "core/torus.h"
 
 enum { SPARE = 8 };
 
-static uint32_t cell_of(const koksma__torus_rows *r, double x)
-{
-    const uint32_t cell = (uint32_t)(x * r->cells);
-    return cell < r->cells ? cell : r->cells - 1;
-}
-
 static size_t place_of(const koksma__torus_rows *r, const double *point)
 {
-    return (size_t)cell_of(r, point[1]) * r->cells + cell_of(r, point[0]);
+    return (size_t)koksma__cell_along(point[1], r->cells) * r->cells + koksma__cell_along(point[0], r->cells);
 }
 
 koksma_status koksma__torus_rows_init(koksma__torus_rows *r, size_t n)
@@ -105,7 +100,7 @@ size_t koksma__torus_rows_near(const koksma__torus_rows *r, double x, double y, 
                                koksma__run_of_points *runs)
 {
     const long cells = (long)r->cells, reach = reach_of(r, radius);
-    const long count = 2 * reach + 1 < cells ? 2 * reach + 1 : cells, own = (long)cell_of(r, y);
+    const long count = 2 * reach + 1 < cells ? 2 * reach + 1 : cells, own = (long)koksma__cell_along(y, r->cells);
     const double inside = y * (double)cells - (double)own; /* position of y in its row, in cells */
     size_t n = 0;
     for (long v = own - reach; v < own - reach + count; v++) {

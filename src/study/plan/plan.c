@@ -80,10 +80,10 @@ static koksma_status parse_measures(const koksma__json_node *node, koksma__discr
     koksma_status status = KOKSMA_OK;
     const bool integrands = koksma__json_has(node, "integrands");
     if (!integrands || koksma__json_has(node, "measures")) {
-        status = koksma__plan_specs(node, "measures", koksma__measure_text, &b->measures);
+        status = koksma__plan_texts(node, "measures", koksma__measure_text, &b->measures);
     }
     if (!status && integrands) {
-        status = koksma__plan_specs(node, "integrands", koksma__error_text, &errors);
+        status = koksma__plan_texts(node, "integrands", koksma__error_text, &errors);
         status = status ? status : koksma__plan_join(&b->measures, &errors);
     }
     koksma__texts_fini(&errors);
@@ -98,10 +98,10 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
-    status = status ? status : koksma__plan_specs(node, "patterns", koksma__pattern_text, &b->patterns);
+    status = status ? status : koksma__plan_texts(node, "patterns", koksma__pattern_text, &b->patterns);
     status = status ? status : parse_measures(node, b);
     if (!status && koksma__json_has(node, "warps")) {
-        status = koksma__plan_texts(node, "warps", &b->warps);
+        status = koksma__plan_texts(node, "warps", NULL, &b->warps);
     }
     status = status ? status : koksma__plan_wholes(node, "n", 1, (long long)KOKSMA_MAX_COORDINATES, &b->n);
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
@@ -161,9 +161,9 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     double size[2] = {0, 0};
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
-    status = status ? status : koksma__plan_texts(node, "scenes", &b->scenes);
+    status = status ? status : koksma__plan_texts(node, "scenes", NULL, &b->scenes);
     status = status ? status : check_scenes(node, &b->scenes);
-    status = status ? status : koksma__plan_specs(node, "patterns", koksma__image_pattern_text, &b->patterns);
+    status = status ? status : koksma__plan_texts(node, "patterns", koksma__image_pattern_text, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
     status = status ? status : koksma__plan_check_spp(node, b);

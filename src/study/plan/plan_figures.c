@@ -110,7 +110,7 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
         status = get_wholes(node, "detail", 4, f->detail);
     }
     if (!status && koksma__json_has(node, "spaces")) {
-        status = koksma__plan_texts(node, "spaces", &f->spaces);
+        status = koksma__plan_texts(node, "spaces", NULL, &f->spaces);
     }
     status =
         status ? status : koksma__json_get_number(node, "exposure", false, MIN_EXPOSURE, MAX_EXPOSURE, &f->exposure);

@@ -27,7 +27,7 @@ static koksma_status parse_group(const koksma__json_node *node, const koksma__pl
     koksma__scene_group *g = item;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_text(node, "title", true, &g->title);
-    return status ? status : koksma__plan_texts(node, "scenes", &g->scenes);
+    return status ? status : koksma__plan_texts(node, "scenes", NULL, &g->scenes);
 }
 
 /* Writes the names of all kinds as "table, correlation, ... or inequality". */

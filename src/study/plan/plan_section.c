@@ -158,8 +158,8 @@ static koksma_status open_list(const koksma__json_node *node, const char *key, s
     return status;
 }
 
-static koksma_status read_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                koksma__texts *out)
+koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                 koksma__texts *out)
 {
     koksma__json_node list;
     size_t length;
@@ -182,17 +182,6 @@ static koksma_status read_texts(const koksma__json_node *node, const char *key, 
         }
     }
     return status;
-}
-
-koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__texts *out)
-{
-    return read_texts(node, key, NULL, out);
-}
-
-koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                 koksma__texts *out)
-{
-    return read_texts(node, key, parser, out);
 }
 
 koksma_status koksma__plan_join(koksma__texts *to, koksma__texts *more)

@@ -28,12 +28,14 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                 bool needed, char **out);
 
-/* Read the member `key`, which must be there, as a list of at least one item. */
-koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__texts *out);
-koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+/* Reads the member `key`, which must be there, as a list of at least one text, no two equal. With a parser, the texts are
+   specs, and their canonical forms are kept. */
+koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                  koksma__texts *out);
 /* Moves the texts of `more` to the end of `to`. */
 koksma_status koksma__plan_join(koksma__texts *to, koksma__texts *more);
+
+/* Reads the member `key`, which must be there, as a list of at least one number from min to max, no two equal. */
 koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,
                                   koksma__wholes *out);
 

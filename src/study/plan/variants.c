@@ -207,7 +207,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
         return KOKSMA_OK;
     }
     koksma__json_node list;
-    koksma_status status = koksma__plan_texts(node, o->name, words);
+    koksma_status status = koksma__plan_texts(node, o->name, NULL, words);
     status = status ? status : koksma__json_member(node, o->name, &list);
     for (size_t i = 0; !status && i < words->n; i++) {
         koksma__variant scratch;
