@@ -21,7 +21,7 @@ _SHORT_RANGE, _SHORT_SET = 1 << 18, 64  # coordinates made in 30 ms at most, and
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
-           "latin-prefixes", "independent", "pairs", "quadruples")  # by their bits
+           "latin-prefixes", "independent", "pairs", "quadruples", "pairs-3", "quadruples-3")  # by their bits
 
 
 @dataclass(frozen=True)

@@ -3,14 +3,15 @@
  * min-distance: the smallest distance between two points. Unlike for the discrepancies, a larger value means more
  * even points.
  *
- * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in the plane.
+ * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in space.
  * Source: Lagae and Dutre 2008, who compare Poisson disk patterns by it; see relative-radius.
- * Known exactly: two points at (0,0) and (1/2,1/2): 1/sqrt 2; m x m centres 1/m.
+ * Known exactly: two points at (0,0) and (1/2,1/2): 1/sqrt 2; m x m centres 1/m, also m^dim centres.
  * Limits: for a single point the measure fails with KOKSMA_N. The value is exact to rounding.
  */
 #include <math.h>
 
 #include "measures/measures.h"
+#include "measures/shared/closest_space.h"
 #include "measures/shared/neighbours.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
@@ -19,7 +20,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"torus", "1: on the unit torus, 0: in the plane", 1, 0, 1, NULL, true},
+    {"torus", "1: on the unit torus, 0: in the unit cube", 1, 0, 1, NULL, true},
     {0},
 };
 
@@ -27,9 +28,9 @@ const koksma_measure koksma__measure_min_distance = {
     .name = "min-distance",
     .title = "smallest distance between two points (larger is better)",
     .cite = "lagae2008",
-    .cost = "n, or n log n for clustered points",
+    .cost = "n, or n log n for clustered points; above 2D n log n to n^2",
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = KOKSMA__CLOSEST_DIM,
     .params = params,
     .eval = eval,
     .larger_is_better = true,

@@ -1,39 +1,55 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * relative-radius: the smallest distance between two points, divided by the smallest distance in the densest packing
- * of n points. A larger value means more even points; good Poisson disk patterns have 0.65 to 0.85, the hexagonal
- * lattice has 1.
+ * of n points. A larger value means more even points; good Poisson disk patterns in the plane have 0.65 to 0.85, the
+ * densest lattice has 1.
  *
- * Formula: min-distance / sqrt(2/(sqrt(3) n)), on the unit torus or (torus=0) in the plane.
- * Source: Lagae and Dutre 2008.
- * Known exactly: m x m centres sqrt(sqrt(3)/2) = 0.9306.
- * Limits: as for min-distance.
+ * Formula: min-distance / (2 (c/n)^(1/dim)), on the unit torus or (torus=0) in space. c is the centre density of the
+ * densest packing: the number of points in a unit volume when balls of radius 1 about them do not overlap.
+ *
+ *     dim  2             3            4    5            6            7     8
+ *     c    1/(2 sqrt 3)  1/(4 sqrt 2) 1/8  1/(8 sqrt 2) 1/(8 sqrt 3) 1/16  1/16
+ *
+ * These are the hexagonal lattice, D3 (face-centred cubic), D4, D5, E6, E7 and E8. They are the densest packings in 2, 3
+ * and 8 dimensions (Fejes Toth 1940, Hales 2005, Viazovska 2017) and the densest lattices in 4 to 7, where no denser
+ * packing is known. Other dimensions have no such measure.
+ * Source: Lagae and Dutre 2008, in the plane; c: Conway and Sloane 1999.
+ * Known exactly: m x m centres sqrt(sqrt(3)/2) = 0.9306; with dim >= 3, the lattices' own points 1.
+ * Limits: as for min-distance. A few points may have more than 1 with torus=0, where none are beyond the sides.
  */
 #include <math.h>
 
 #include "measures/measures.h"
 #include "measures/shared/neighbours.h"
 
+static double centre_density(int dim)
+{
+    const double densities[] = {1 / sqrt(32), 1.0 / 8, 1 / sqrt(128), 1 / sqrt(192), 1.0 / 16, 1.0 / 16};
+    return densities[dim - 3];
+}
+
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     const koksma_status status =
         koksma__min_distance("relative-radius", points, args->params[0] > 0, args->run, &out->value);
-    out->value /= sqrt(2 / (sqrt(3) * (double)points->n));
+    const double n = (double)points->n;
+    out->value /=
+        points->dim == 2 ? sqrt(2 / (sqrt(3) * n)) : 2 * pow(centre_density(points->dim) / n, 1.0 / points->dim);
     return status;
 }
 
 static const koksma_param params[] = {
-    {"torus", "1: on the unit torus, 0: in the plane", 1, 0, 1, NULL, true},
+    {"torus", "1: on the unit torus, 0: in the unit cube", 1, 0, 1, NULL, true},
     {0},
 };
 
 const koksma_measure koksma__measure_relative_radius = {
     .name = "relative-radius",
     .title = "smallest distance over that of the densest packing (larger is better)",
-    .cite = "lagae2008",
-    .cost = "n, or n log n for clustered points",
+    .cite = "lagae2008 conway1999",
+    .cost = "n, or n log n for clustered points; above 2D n log n to n^2",
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = 8,
     .params = params,
     .eval = eval,
     .larger_is_better = true,

@@ -38,6 +38,12 @@ static uint32_t base_two(int dim, int k)
     return 2;
 }
 
+static uint32_t base_three(int dim, int k)
+{
+    (void)dim, (void)k;
+    return 3;
+}
+
 /* A pattern that takes scramble=owen, and is not here, fails the first test. */
 static const struct scrambled {
     const char *name;
@@ -46,6 +52,7 @@ static const struct scrambled {
     {"halton", base_of_halton},      {"sobol", base_two},
     {"faure", base_of_faure},        {"hammersley", base_of_hammersley},
     {"zaremba", base_of_hammersley}, {"larcher-pillichshammer", base_two},
+    {"ternary-quads", base_three},
 };
 enum { N_PATTERNS = sizeof patterns / sizeof *patterns };
 

@@ -2,7 +2,8 @@
 /* Visits the pairs of points nearer than r with a grid of cells at least r wide: the partners of a point are in its
    cell and the eight cells around it. This takes O(n + pairs) for evenly spread points. If many points share few
    cells, the smallest distance is found by divide and conquer (core/closest_pair.c) in O(n log n). Both methods
-   square the same differences, so that they give the same bits. */
+   square the same differences, so that they give the same bits. Points of other dimensions than 2 go to
+   closest_space.c. */
 #include "measures/shared/neighbours.h"
 
 #include <math.h>
@@ -16,6 +17,7 @@
 #include "core/points_io.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "measures/shared/closest_space.h"
 #include "measures/shared/torus_cells.h"
 
 /* Makes cells at least r wide with about one point or more on average. With 1 or 2 columns every cell is a neighbour
@@ -160,6 +162,9 @@ koksma_status koksma__min_distance(const char *name, const koksma_points *points
                                    double *distance)
 {
     KOKSMA__FAIL_IF(points->n < 2, KOKSMA_N, "%s: n = 1: one point has no distance; two points or more have", name);
+    if (points->dim != 2) {
+        return koksma__closest_in_space(points, torus, run, distance);
+    }
     double least = HUGE_VAL,
            r = fmin(1.1 / sqrt((double)points->n), 0.5); /* n points cannot all be farther apart than this */
     if (points->n < 16) {

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The smallest distance between two points of a set in any dimension, by a k-d tree (Bentley 1975): a node halves its
+ * points at the median of its longest side. The closest pair lies within one half or between them. Two nodes whose boxes
+ * are further apart than the best pair so far are left out; else the larger one is halved, and two leaves try all their
+ * pairs. On the torus the distance of two boxes is the shorter way around in each coordinate. O(n log n) for evenly spread
+ * points in few dimensions; in many, where most boxes are near each other, O(n^2).
+ */
+#include "measures/shared/closest_space.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "core/torus.h"
+
+enum { LEAF = 8, PAIRS_AT_ONCE = 1 << 16, MOST = KOKSMA__CLOSEST_DIM };
+
+/* Points first .. end - 1 of the order; the children of node i are 2 i + 1 and 2 i + 2, and a leaf has none. */
+typedef struct node {
+    size_t first, end;
+    double low[MOST], high[MOST];
+} node;
+
+typedef struct search {
+    const double *xs;
+    const koksma_run *run;
+    size_t n, dim, pairs, done;
+    bool torus, stopped;
+    double best; /* the least squared distance so far */
+    uint32_t *order;
+    node *nodes;
+} search;
+
+static bool is_leaf(const node *a)
+{
+    return a->end - a->first <= LEAF;
+}
+
+static double coordinate(const search *s, size_t i, size_t k)
+{
+    return s->xs[s->order[i] * s->dim + k];
+}
+
+/* Hoare's selection: puts the points with the smallest coordinates k before `middle`. The pivot is not the last point,
+   so that both sides have points. */
+static void halve(search *s, size_t first, size_t end, size_t middle, size_t k)
+{
+    while (end - first > 1) {
+        const double pivot = coordinate(s, first + (end - 1 - first) / 2, k);
+        size_t i = first, j = end - 1;
+        for (;; i++, j--) {
+            while (coordinate(s, i, k) < pivot) {
+                i++;
+            }
+            while (coordinate(s, j, k) > pivot) {
+                j--;
+            }
+            if (i >= j) {
+                break;
+            }
+            const uint32_t kept = s->order[i];
+            s->order[i] = s->order[j];
+            s->order[j] = kept;
+        }
+        if (middle <= j) {
+            end = j + 1;
+        } else {
+            first = j + 1;
+        }
+    }
+}
+
+static void build(search *s, size_t at, size_t first, size_t end)
+{
+    node *a = &s->nodes[at];
+    size_t longest = 0;
+    a->first = first;
+    a->end = end;
+    for (size_t k = 0; k < s->dim; k++) {
+        a->low[k] = a->high[k] = coordinate(s, first, k);
+        for (size_t i = first + 1; i < end; i++) {
+            a->low[k] = fmin(a->low[k], coordinate(s, i, k));
+            a->high[k] = fmax(a->high[k], coordinate(s, i, k));
+        }
+        longest = a->high[k] - a->low[k] > a->high[longest] - a->low[longest] ? k : longest;
+    }
+    if (!is_leaf(a)) {
+        const size_t middle = first + (end - first) / 2;
+        halve(s, first, end, middle, longest);
+        build(s, 2 * at + 1, first, middle);
+        build(s, 2 * at + 2, middle, end);
+    }
+}
+
+/* A lower bound of the squared distance of points in two boxes, with a margin for rounding. */
+static double box_distance(const search *s, const node *a, const node *b)
+{
+    double sum = 0;
+    for (size_t k = 0; k < s->dim; k++) {
+        double gap = fmax(0, fmax(b->low[k] - a->high[k], a->low[k] - b->high[k]));
+        if (s->torus) {
+            gap = fmin(gap, fmax(0, 1 - fmax(b->high[k] - a->low[k], a->high[k] - b->low[k])));
+        }
+        sum += gap * gap;
+    }
+    return sum * (1 - 0x1p-40);
+}
+
+static void try_pair(search *s, size_t i, size_t j)
+{
+    double sum = 0;
+    for (size_t k = 0; k < s->dim; k++) {
+        const double a = coordinate(s, i, k), b = coordinate(s, j, k);
+        const double d = s->torus ? koksma__torus_difference(a, b) : a - b;
+        sum += d * d;
+    }
+    s->best = fmin(s->best, sum);
+}
+
+/* Tries the pairs of two different nodes, or of a node with itself. */
+static void search_pairs(search *s, size_t at, size_t with)
+{
+    const node *a = &s->nodes[at], *b = &s->nodes[with];
+    if (s->stopped || !(s->best > 0) || (at != with && box_distance(s, a, b) > s->best)) {
+        return;
+    }
+    if (is_leaf(a) && is_leaf(b)) {
+        for (size_t i = a->first; i < a->end; i++) {
+            for (size_t j = at == with ? i + 1 : b->first; j < b->end; j++) {
+                try_pair(s, i, j);
+            }
+        }
+        s->pairs += LEAF * LEAF;
+        s->done = a->first; /* leaves meet themselves in the order of their points */
+        if (s->pairs >= PAIRS_AT_ONCE) {
+            s->pairs = 0;
+            s->stopped = !koksma__keep_going(s->run, (double)s->done / (double)s->n);
+        }
+        return;
+    }
+    if (at == with) {
+        search_pairs(s, 2 * at + 1, 2 * at + 1);
+        search_pairs(s, 2 * at + 2, 2 * at + 2);
+        search_pairs(s, 2 * at + 1, 2 * at + 2);
+    } else if (a->end - a->first >= b->end - b->first) {
+        search_pairs(s, 2 * at + 1, with);
+        search_pairs(s, 2 * at + 2, with);
+    } else {
+        search_pairs(s, at, 2 * with + 1);
+        search_pairs(s, at, 2 * with + 2);
+    }
+}
+
+koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, const koksma_run *run,
+                                       double *distance)
+{
+    search s = {
+        .xs = points->xs, .run = run, .n = points->n, .dim = (size_t)points->dim, .torus = torus, .best = INFINITY};
+    size_t nodes = 1;
+    for (size_t most = s.n; most > LEAF; most = (most + 1) / 2) { /* of the largest node of a level */
+        nodes = 2 * nodes + 1;
+    }
+    s.order = malloc(s.n * sizeof *s.order);
+    s.nodes = malloc(nodes * sizeof *s.nodes);
+    const bool allocated = s.order && s.nodes;
+    for (size_t i = 0; i < s.n && allocated; i++) {
+        s.order[i] = (uint32_t)i;
+    }
+    if (allocated) {
+        build(&s, 0, 0, s.n);
+        search_pairs(&s, 0, 0);
+    }
+    free(s.order);
+    free(s.nodes);
+    KOKSMA__REQUIRE_MEMORY(allocated, s.n * sizeof *s.order + nodes * sizeof *s.nodes);
+    *distance = sqrt(s.best);
+    return s.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
+}

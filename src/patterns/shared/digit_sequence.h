@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Digital sequences in a prime base from upper triangular generator matrices. */
+#ifndef KOKSMA_PATTERNS_SHARED_DIGIT_SEQUENCE_H
+#define KOKSMA_PATTERNS_SHARED_DIGIT_SEQUENCE_H
+
+#include <koksma/koksma.h>
+
+/* Fills the upper triangular matrix of coordinate k: entry [r][c] < base is matrix[r * digits + c]. */
+typedef void (*koksma__digit_matrix)(uint32_t base, int k, int digits, uint32_t *matrix);
+
+/* Fills `out` with the range of points that args->first begins. With y = C a modulo base, a the digits of the index, the
+   lowest first, a coordinate is the double nearest to y_0 base^-1 + y_1 base^-2 + ...; there are most_digits digits at
+   most, and base^most_digits <= 2^53. Errors: N where an index needs more digits, MEMORY, INTERRUPTED. */
+koksma_status koksma__digit_sequence(const char *name, uint32_t base, int most_digits, koksma__digit_matrix fill,
+                                     const koksma_args *args, koksma_points *out);
+
+/* As many digits of this base as 53 bits hold. */
+int koksma__digits_of_double(uint32_t base);
+
+/* Fills the powers of Pascal's matrix: entry [r][c] is C(c,r) k^(c-r). */
+void koksma__pascal_matrix(uint32_t base, int k, int digits, uint32_t *matrix);
+
+#endif

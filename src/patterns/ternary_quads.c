@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * ternary-quads: a digital sequence in base 3 whose dimensions 2 k and 2 k + 1 are a (0,2)-sequence, and whose dimensions
+ * 4 k .. 4 k + 3 are a (1,4)-sequence, for every k. t = 1 is the least there is: a (0,4)-sequence needs base 4 or more.
+ *
+ *     matrix of dimension 4 g + b = C_b N_g   modulo 3
+ *     C_0, C_1, C_2   row r (from 0) is the Laurent series of 1/(x - b)^(r+1): the powers of Pascal's matrix
+ *     C_3             rows 2 q and 2 q + 1 are the series of x/p^(q+1) and 1/p^(q+1), p = x^2 - x - 1
+ *     N_g             upper triangular with ones on the diagonal; N_0 is the identity
+ *
+ * A series has the coefficient of x^-(c+1) in column c. Source: the aims, base 3 and irreducible polynomials come from
+ * Ostromoukhov, Bonneel, Coeurjolly & Iehl (2024), who searched for such matrices; the C_b above, which have the
+ * property for every number of points, and the N_g are this project's. That series of rational functions make digital
+ * sequences is Niederreiter's (1988). Why t is 0 and 1:
+ *
+ *     A sum, not 0, of the first k rows of some C_b is a fraction whose denominator has these rows' powers of the four
+ *     polynomials, of degree k in all, k + 1 when C_3 takes part with an odd number of rows. Where its first m
+ *     coefficients vanish, its numerator has a degree below that of the denominator minus m. So m = k independent rows
+ *     always exist without C_3, and k = m - 1 with it: t = 0 and 1. For the pair C_2, C_3 and m = k the numerator
+ *     would be a constant, and u = x + 1 gives p = u^2 + 1 and the leading row (u - 1)/p^(q+1), so that u^-k would be a
+ *     multiple of u - 1 modulo p. But its powers modulo p are 1, u and their negatives: t = 0 there, too.
+ *
+ * A common upper triangular matrix on the right only permutes the indices below each power of 3, so that all groups have
+ * these properties. The N_g are searched (tools/make_ternary_quads.c) so that pairs of dimensions of different groups are
+ * even. There are 3^20 points.
+ *
+ * Known exactly: the first three coordinates are those of faure in three dimensions.
+ *
+ *     scramble=owen  Owen's nested uniform scrambling (1995) in base 3, drawn exactly, by stochastic generation
+ * (Helmer, Christensen & Kensler 2021); it keeps t in base 3
+ */
+#include "patterns/patterns.h"
+#include "patterns/shared/digit_sequence.h"
+#include "patterns/shared/owen_sequence.h"
+
+enum { NONE, OWEN };
+enum { BASE = 3, DIGITS = 20, QUAD = 4, MOST_DIM = 128 };
+
+static const uint32_t searched[(MOST_DIM / QUAD - 1) * (DIGITS - 1)] = {
+#include "patterns/shared/ternary_quads.inc"
+};
+
+/* The rows of C_3. From s_i, the coefficients of 1/p^q, those of 1/p^(q+1) follow by long division:
+   s'_i = s_(i-2) + s'_(i-1) + s'_(i-2). */
+static void fill_quadratic(int digits, uint32_t *matrix)
+{
+    uint32_t series[DIGITS + 2] = {1}; /* of x^0, x^-1, ... */
+    for (int r = 0; r < digits; r += 2) {
+        uint32_t next[DIGITS + 2] = {0};
+        for (int i = 2; i < digits + 2; i++) {
+            next[i] = (series[i - 2] + next[i - 1] + next[i - 2]) % BASE;
+        }
+        for (int i = 0; i < digits + 2; i++) {
+            series[i] = next[i];
+        }
+        for (int c = 0; c < digits; c++) {
+            matrix[r * digits + c] = series[c + 2];
+            if (r + 1 < digits) {
+                matrix[(r + 1) * digits + c] = series[c + 1];
+            }
+        }
+    }
+}
+
+/* Multiplies the matrix by N_g. Columns are replaced from the last one on: each needs those before it. */
+static void multiply(int g, int digits, uint32_t *matrix)
+{
+    for (int c = digits - 1; g > 0 && c > 0; c--) {
+        for (int r = 0; r <= c; r++) {
+            uint32_t sum = matrix[r * digits + c], number = searched[(g - 1) * (DIGITS - 1) + c - 1];
+            for (int i = 0; i < c; i++, number /= BASE) {
+                sum += matrix[r * digits + i] * (number % BASE);
+            }
+            matrix[r * digits + c] = sum % BASE;
+        }
+    }
+}
+
+static void fill_matrix(uint32_t base, int k, int digits, uint32_t *matrix)
+{
+    if (k % QUAD < 3) {
+        koksma__pascal_matrix(base, k % QUAD, digits, matrix);
+    } else {
+        fill_quadratic(digits, matrix);
+    }
+    multiply(k / QUAD, digits, matrix);
+}
+
+/* Back substitution: the first `level` digits of C (r + d z) and of C (r + d e), e the digit number `level`, are equal
+   where C z is the negative of column `level`. The matrix of `level` + 1 digits is the corner of the whole one. */
+static void relatives(const void *context, int k, int level, uint32_t *digits)
+{
+    (void)context;
+    const int size = level + 1;
+    uint32_t matrix[DIGITS * DIGITS];
+    fill_matrix(BASE, k, size, matrix);
+    for (int r = level - 1; r >= 0; r--) {
+        uint32_t sum = matrix[r * size + level];
+        for (int c = r + 1; c < level; c++) {
+            sum += matrix[r * size + c] * digits[c];
+        }
+        digits[r] = (BASE - sum % BASE) % BASE; /* the diagonal is 1 */
+    }
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    if (args->params[0] == OWEN) {
+        return koksma__owen_sequence(seed, BASE, relatives, NULL, args->run, out);
+    }
+    return koksma__digit_sequence("ternary-quads", BASE, DIGITS, fill_matrix, args, out);
+}
+
+static bool ranges(const double *params)
+{
+    return params[0] != OWEN;
+}
+
+static const char *const scrambles[] = {"none", "owen", NULL};
+
+static const koksma_param params[] = {
+    {"scramble", "none or owen (nested, in base 3, exact)", NONE, NONE, OWEN, scrambles, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_ternary_quads = {
+    .name = "ternary-quads",
+    .title = "a sequence in base 3 whose pairs are (0,2)- and whose quadruples are (1,4)-sequences",
+    .cite = "ostromoukhov2024 niederreiter1988 owen1995 helmer2021",
+    .min_dim = 1,
+    .max_dim = MOST_DIM,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_PAIRS_3 |
+              KOKSMA_CLAIM_QUADRUPLES_3,
+    .params = params,
+    .generate = generate,
+    .ranges = ranges,
+};
