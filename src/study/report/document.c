@@ -442,11 +442,14 @@ void koksma__doc_table_end(koksma__document *d)
 
 /* ---- Charts ------------------------------------------------------------------------------------------------ */
 
-static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log)
+static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log, int better)
 {
     koksma__json_begin_object(&d->json, key);
     koksma__json_write_text(&d->json, "title", title);
     koksma__json_write_flag(&d->json, "log", is_log);
+    if (better) {
+        koksma__json_write_text(&d->json, "better", better > 0 ? "larger" : "smaller");
+    }
     koksma__json_end(&d->json);
 }
 
@@ -454,8 +457,8 @@ void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *c)
 {
     begin_block(d, "chart", NULL);
     koksma__json_write_text(&d->json, "title", c->title);
-    put_axis(d, "x", c->x_title, c->log_x);
-    put_axis(d, "y", c->y_title, c->log_y);
+    put_axis(d, "x", c->x_title, c->log_x, 0);
+    put_axis(d, "y", c->y_title, c->log_y, c->better);
     koksma__json_begin_array(&d->json, "series");
     memset(d->curves, 0, sizeof d->curves);
 }
