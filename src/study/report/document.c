@@ -473,7 +473,13 @@ void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__se
     koksma__json_write_text(&d->json, "label", label);
     koksma__json_write_text(&d->json, "style", styles[style]);
     if (style == KOKSMA__SERIES_LINE || style == KOKSMA__SERIES_MARKS) {
-        const size_t number = koksma__take_curve_number(label, d->curves);
+        size_t number = koksma__take_curve_number(label, d->curves);
+        if (number == KOKSMA__CURVE_STYLES) { /* the family's dashes are taken: they repeat, and marks differ */
+            for (size_t i = koksma__colour_of(label) % KOKSMA__COLOURS; i < number; i += KOKSMA__COLOURS) {
+                d->curves[i] = false;
+            }
+            number = koksma__take_curve_number(label, d->curves);
+        }
         koksma__json_write_whole(&d->json, "colour", (long long)(number % KOKSMA__COLOURS));
         koksma__json_write_whole(&d->json, "dash", (long long)(number / KOKSMA__COLOURS % KOKSMA__DASH_GUIDE));
     }

@@ -138,7 +138,10 @@ async function byKeyboard(page) {
     const shown = lineLabels(long).filter(label => opening(long).includes(label)), absent = lineLabels(long).findLast(label => !shown.includes(label));
     check(shown.every(label => eight.legend.includes(label)), `${long.title} begins with ${eight.legend}, not with ${shown}`);
     const alike = await page.evaluate(() => [...document.querySelectorAll(".chart-figure")].flatMap(f => { // what a reader can tell lines by
-      const look = g => [g.className.baseVal, g.querySelector(".dots > *")?.localName].join(" ");
+      const look = g => { // as painted: colour, dash, mark
+        const line = g.querySelector(".line"), style = line && getComputedStyle(line);
+        return [style?.stroke, style?.strokeDasharray, g.querySelector(".dots > *")?.localName].join(" ");
+      };
       const all = [...f.querySelectorAll(".legend .series:not(.theory)")].map(look), inChart = [...f.querySelectorAll(".chart .series:not(.theory)")].map(look);
       return [...all.filter((one, i) => all.indexOf(one) !== i), ...all.filter(one => !inChart.includes(one))];
     }));

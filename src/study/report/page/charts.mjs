@@ -72,10 +72,21 @@ export function chartFigure(block) {
   const stage = element("div", { class: "stage", tabindex: 0, role: "group", "aria-label": `${block.title}: arrow keys name its points` }, plot, tip);
   const choice = element("div", { class: "boxes" }), count = element("summary", {}), boxes = new Map();
   const classes = new Map(named.filter(s => s.style !== "hollow").map(s => [s.label, `c${s.colour} d${s.dash}`]));
+  // The mark of a line: that of its slot, or the next that no line of the same colour and dash has.
+  const marksOf = () => {
+    const marks = new Map(), taken = new Set();
+    for (const [label, slot] of slots) {
+      const mark = [0, 1, 2].map(i => (slot + i) % 3).find(m => !taken.has(classes.get(label) + m)) ?? slot;
+      taken.add(classes.get(label) + mark);
+      marks.set(label, mark);
+    }
+    return marks;
+  };
   let points = [];
   const draw = () => {
+    const marks = marksOf();
     const series = block.series.filter(s => s.style === "theory" || slots.has(s.label)).map(({ label, style, points: values }) => {
-      const theory = style === "theory", hollow = style === "hollow", slot = slots.get(label);
+      const theory = style === "theory", hollow = style === "hollow", slot = marks.get(label);
       return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}${classes.get(label) ?? "c0"}`,
         line: style === "line" || theory, marks: theory ? undefined : slot };
     });
