@@ -2,8 +2,8 @@
 /*
  * `koksma generate`: generates one point set of a pattern, or a range of its points, maps it by --warp, and writes it
  * to a file or to standard output. Patterns that can generate ranges are written piece by piece, unless --warp is
- * given. --density and --on generate points of varying density and points on a model. The comment in the file has the pattern, the seed and the warp, and for blue-noise patterns the smallest
- * distance of two points.
+ * given. --density and --on generate points of varying density and points on a model. The comment in the file has the
+ * pattern, the seed and the warp, and for blue-noise patterns the smallest distance of two points.
  */
 #include <koksma/density.h>
 #include <koksma/verify.h>
@@ -162,17 +162,18 @@ const cli_command cli_command_generate = {
     .summary = "generate the points of a pattern",
     .synopsis = "PATTERN|SPEC@N[@DIM] [-n N] [-d DIM] [-s S] [--warp WARP] [-o FILE]",
     .details =
-        "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'. Behind "
-        "them\n"
-        "it takes modifiers, as in file:set.txt,shift=1; 'koksma list modifiers' says what each keeps. A sampler of "
-        "your\n"
-        "own is exec:PROGRAM, run with n, dim and seed, or plugin:LIBRARY.so; both take --allow-exec.\n"
-        "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N; all others "
-        "are\n"
-        "made whole in memory, where at most 2^28 coordinates fit.\n"
+        "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'. Behind\n"
+        "them it takes modifiers, as in file:set.txt,shift=1; 'koksma list modifiers' says what each keeps. A "
+        "sampler\n"
+        "of your own is exec:PROGRAM, run with n, dim and seed, or plugin:LIBRARY.so; both take --allow-exec.\n"
+        "\n"
+        "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N; all others\n"
+        "are made whole in memory, where at most 2^28 coordinates fit.\n"
+        "\n"
         "With --density and --on the pattern is random, sample-elimination, progressive-elimination or "
         "poisson-disk;\n"
         "on a model d is in the model's units, and distances are those of space.\n"
+        "\n"
         "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
         "uniform-jittered and most of orthogonal-array.\n",

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma render`: renders a scene into an image file and prints one row with the options, the number of rays and the
- * time. --aov adds layers to an EXR file, or files beside one of another format. Before it starts it computes how much memory the image takes, and refuses an image that takes more than the
- * machine has. When it is interrupted it writes the image with the pixels that are done.
+ * time. --aov adds layers to an EXR file, or files beside one of another format. Before it starts it computes how much
+ * memory the image takes, and refuses an image that takes more than the machine has. When it is interrupted it writes
+ * the image with the pixels that are done.
  */
 #include <stdio.h>
 #include <string.h>
@@ -90,13 +91,15 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
                                  koksma_layers *layers, koksma_aovs *aovs)
 {
     static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC], path[4096], names[KOKSMA_MAX_AOVS][16];
-    koksma_layer all[6 + KOKSMA_MAX_AOVS] = {{"", &layers->image},          {"albedo", &layers->albedo},
-                                             {"normal", &layers->normal},   {"Z", &layers->depth},
-                                             {"samples", &layers->samples}, {"variance", &layers->variance}};
+    const koksma_layer own[] = {{"", &layers->image},          {"albedo", &layers->albedo},
+                                {"normal", &layers->normal},   {"Z", &layers->depth},
+                                {"samples", &layers->samples}, {"variance", &layers->variance}};
+    koksma_layer all[sizeof own / sizeof *own + KOKSMA_MAX_AOVS];
     const char *output = cli_text(arguments, "output", ""), *dot = strrchr(output, '.');
     const bool layered = koksma_image_has_layers(output);
-    size_t n = layered || (layers->albedo.pixels && !aovs->n) ? 6 : 1;
+    size_t n = layered || (layers->albedo.pixels && !aovs->n) ? sizeof own / sizeof *own : 1;
     koksma_status status = KOKSMA_OK;
+    memcpy(all, own, sizeof own);
     describe(arguments, scene, options, adaptive, metadata, sizeof metadata);
     for (int i = 0; !status && i < aovs->n; i++) {
         name_layer(aovs->names[i], names[i]);
@@ -278,21 +281,21 @@ const cli_command cli_command_render = {
     .synopsis = "SCENE [-p [USE[+USE]=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S] "
                 "[--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
-        "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md) a mesh file (.obj, .ply, .off,\n"
+        "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md), a mesh file (.obj, .ply, .off,\n"
         ".gltf, .glb), or a scene of pbrt-v4 (.pbrt) or Mitsuba 3 (.xml).\n"
-        "A use is what sample dimensions are spent on, such as the lens; see 'koksma list uses'. Each use has its "
-        "own\n"
-        "point set in every pixel. --pairing combines them: 'shuffled' by random permutations, 'aligned' in the "
-        "order\n"
-        "of the pattern, 'native' as one set with all dimensions. Uses joined by '+' (pixel+time=scan-time) share\n"
-        "the dimensions of one set. --scope image spreads one set of SPP x pixels points over the whole image.\n"
-        "--adaptive takes SPP samples in every pixel first, then more in rounds until METHOD or the budget ends "
-        "it.\n"
-        "--aov direct,indirect or bounce:0,bounce:1,... are parts of the light, which add up to the image; bounce:N "
-        "was\n"
-        "reflected N times, direct is bounce:0 + bounce:1. id has the number of the object in a pixel (as 'koksma "
-        "scene\n"
-        "check' lists them, from 1; 0: none), half the means of every second sample, half-even and half-odd.\n",
+        "\n"
+        "A use is what sample dimensions are spent on, such as the lens; see 'koksma list uses'. Each use has its\n"
+        "own point set in every pixel. --pairing combines them: 'shuffled' by random permutations, 'aligned' in the\n"
+        "order of the pattern, 'native' as one set with all dimensions. Uses joined by '+' (pixel+time=scan-time)\n"
+        "share the dimensions of one set. --scope image spreads one set of SPP x pixels points over the whole "
+        "image.\n"
+        "\n"
+        "--adaptive takes SPP samples in every pixel first, then more in rounds until METHOD or the budget ends it.\n"
+        "\n"
+        "--aov direct,indirect or bounce:0,bounce:1,... are parts of the light, which add up to the image: bounce:N\n"
+        "was reflected N times, direct is bounce:0 + bounce:1. id has the number of the object in a pixel (as\n"
+        "'koksma scene check' lists them, from 1; 0: none). half has the means of every second sample, half-even\n"
+        "and half-odd.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
                 "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"

@@ -72,6 +72,8 @@ def measured(site, row):
             commands.append(f"# n = {n}: {error}")
             continue
         size = int(source[len("pattern:"):].split("@")[1])
+        if size in values:  # the pattern has no set nearer to this wish
+            continue
         names = [m["measure"] for m in site.lists["measures"] if m["measure"] != "t-value" or size & (size - 1) == 0]
         names = [m for m in names if n <= 16 or not any(slow(r) and r["measure"] == m for r in site.lists["measures"])]
         rows, command = taken(site, source, trials, names if not dim else [m for m in names if fits(site, m, int(dim[1:]))])

@@ -264,7 +264,7 @@ static koksma_status check_promises(const reader *r, size_t n)
     const int dim = r->points->dim;
     KOKSMA__FAIL_IF(n == 0, KOKSMA_MALFORMED, "%s: line %zu: no points in the file", r->name, r->line_number);
     KOKSMA__FAIL_IF(r->promised_n && r->promised_n != n, KOKSMA_MALFORMED,
-                    "%s: line %zu: the file ends after %zu points and claims %llu", r->name, r->line_number, n,
+                    "%s: line %zu: the file ends after %zu of %llu points", r->name, r->line_number, n,
                     r->promised_n);
     KOKSMA__FAIL_IF((r->promised_dim && r->promised_dim != (unsigned)dim) ||
                         (r->header_fields && r->header_fields != (size_t)dim),

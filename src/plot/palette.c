@@ -50,7 +50,7 @@ koksma__style koksma__curve_style(const koksma__theme *theme, size_t number, dou
 }
 
 /* The colour of the pattern with whose name the text begins; KOKSMA__COLOURS if no pattern's name matches. */
-static size_t colour_of(const char *spec)
+size_t koksma__colour_of(const char *spec)
 {
     const size_t length = strcspn(spec, ":@ ");
     for (size_t c = 0; c < KOKSMA__COLOURS && length; c++) {
@@ -67,7 +67,7 @@ static size_t colour_of(const char *spec)
 
 size_t koksma__take_curve_number(const char *spec, bool *taken)
 {
-    const size_t colour = colour_of(spec), step = colour < KOKSMA__COLOURS ? KOKSMA__COLOURS : 1;
+    const size_t colour = koksma__colour_of(spec), step = colour < KOKSMA__COLOURS ? KOKSMA__COLOURS : 1;
     for (size_t number = colour % KOKSMA__COLOURS; number < KOKSMA__CURVE_STYLES; number += step) {
         if (!taken[number]) {
             taken[number] = true;
@@ -85,7 +85,7 @@ koksma_status koksma_plot_colours(const char *const *specs, size_t n, size_t *nu
     for (size_t pass = 0; pass < 2 && !status; pass++) { /* the first pass assigns the specs that have a colour */
         for (size_t i = 0; i < n; i++) {
             KOKSMA__REQUIRE(specs[i]);
-            if ((colour_of(specs[i]) < KOKSMA__COLOURS) == (pass == 0)) {
+            if ((koksma__colour_of(specs[i]) < KOKSMA__COLOURS) == (pass == 0)) {
                 const size_t number = koksma__take_curve_number(specs[i], taken);
                 /* styles repeat when there are more curves than styles */
                 numbers[i] = number < KOKSMA__CURVE_STYLES ? number : i % KOKSMA__CURVE_STYLES;

@@ -21,6 +21,9 @@ enum {
     KOKSMA__CURVE_STYLES = KOKSMA__COLOURS * KOKSMA__DASH_GUIDE
 };
 
+/* The colour of a pattern's family; KOKSMA__COLOURS: the text is not a pattern's spec. */
+size_t koksma__colour_of(const char *spec);
+
 /* Chooses and marks as taken the style number, colour + KOKSMA__COLOURS * dash, of a curve in one picture, from a
    pattern's spec or another text. taken: KOKSMA__CURVE_STYLES flags. A text that is not a pattern gets the first free
    number. Returns KOKSMA__CURVE_STYLES if no number is free. */

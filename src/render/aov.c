@@ -10,8 +10,8 @@
  * and before, so that the parts of a sample add up to it within the rounding of floats; where the sample is clamped,
  * its parts are reduced by the same factor. Pixels weigh parts as they weigh samples.
  *
- * `id` is the number of the object (from 1 in the order of `koksma scene check`; 0: none) that most samples of the pixel
- * hit first, the smaller one of equals. `half:even` and `half:odd` are the means of the samples 0, 2, ... and 1, 3, ...
+ * `id` is the number of the object (from 1 in the order of `koksma scene check`; 0: none) that most samples of the
+ * pixel hit first, the smaller one of equals. `half:even` and `half:odd` are the means of the samples 0, 2, ... and 1, 3, ...
  * of each pixel, two pictures whose difference shows the noise; without such a sample a pixel is 0.
  */
 #include "render/aov.h"
@@ -42,15 +42,15 @@ static bool find(const char *name, koksma__aov *out)
             return true;
         }
     }
-    for (int r = 0; r <= KOKSMA_MAX_DEPTH + 1; r++) {
-        char bounce[24];
-        snprintf(bounce, sizeof bounce, "bounce:%d", r);
-        if (!strcmp(name, bounce)) {
-            *out = (koksma__aov){.kind = KOKSMA__AOV_LIGHT, .first = r, .last = r};
-            return true;
-        }
+    const size_t bounce = strlen("bounce:");
+    if (strncmp(name, "bounce:", bounce) || strspn(name + bounce, "0123456789") == 0 ||
+        (name[bounce] == '0' && name[bounce + 1])) {
+        return false;
     }
-    return false;
+    char *end;
+    const long r = strtol(name + bounce, &end, 10);
+    *out = (koksma__aov){.kind = KOKSMA__AOV_LIGHT, .first = (int)r, .last = (int)r};
+    return !*end && r <= KOKSMA_MAX_DEPTH + 1;
 }
 
 static koksma_status add_name(const char *name, koksma_aovs *out)

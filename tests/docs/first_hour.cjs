@@ -39,6 +39,7 @@ const focus = () => {
     const page = await (await browser.newContext({ colorScheme, viewport: { width, height: 900 } })).newPage();
     page.on("pageerror", e => problems.push(`${label}: ${e.message}`));
     await page.goto("file://" + path.resolve(file));
+    await page.waitForSelector("body:not(.starting)"); // the explorer loads the library first
     const seen = await page.evaluate(look);
     if (seen.width > seen.window) problems.push(`${label}: ${seen.width} px wide`);
     if (colorScheme === "dark" ? seen.paper > 0.1 : seen.paper < 0.8) problems.push(`${label}: the page is not ${colorScheme}`);

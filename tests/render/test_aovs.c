@@ -157,8 +157,9 @@ static void objects_and_halves(void **state)
 static void wrong_lists_are_refused(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"",          "glow",      "direct,", "bounce:66",
-                                        "bounce:-1", "bounce:01", "id,id",   "half,half:odd"};
+    static const char *const wrong[] = {"",          "glow",      "direct,",       "bounce:66",        "bounce:-1",
+                                        "bounce:01", "id,id",     "half,half:odd", "bounce:",          "bounce:+1",
+                                        "bounce: 1", "bounce:1x", "bounce",        "bounce:4294967297"};
     koksma_aovs aovs;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_true(koksma_aovs_parse(wrong[i], &aovs) != KOKSMA_OK);

@@ -442,11 +442,14 @@ void koksma__doc_table_end(koksma__document *d)
 
 /* ---- Charts ------------------------------------------------------------------------------------------------ */
 
-static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log)
+static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log, int better)
 {
     koksma__json_begin_object(&d->json, key);
     koksma__json_write_text(&d->json, "title", title);
     koksma__json_write_flag(&d->json, "log", is_log);
+    if (better) {
+        koksma__json_write_text(&d->json, "better", better > 0 ? "larger" : "smaller");
+    }
     koksma__json_end(&d->json);
 }
 
@@ -454,8 +457,8 @@ void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *c)
 {
     begin_block(d, "chart", NULL);
     koksma__json_write_text(&d->json, "title", c->title);
-    put_axis(d, "x", c->x_title, c->log_x);
-    put_axis(d, "y", c->y_title, c->log_y);
+    put_axis(d, "x", c->x_title, c->log_x, 0);
+    put_axis(d, "y", c->y_title, c->log_y, c->better);
     koksma__json_begin_array(&d->json, "series");
     memset(d->curves, 0, sizeof d->curves);
 }
@@ -470,7 +473,13 @@ void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__se
     koksma__json_write_text(&d->json, "label", label);
     koksma__json_write_text(&d->json, "style", styles[style]);
     if (style == KOKSMA__SERIES_LINE || style == KOKSMA__SERIES_MARKS) {
-        const size_t number = koksma__take_curve_number(label, d->curves);
+        size_t number = koksma__take_curve_number(label, d->curves);
+        if (number == KOKSMA__CURVE_STYLES) { /* the family's dashes are taken: they repeat, and marks differ */
+            for (size_t i = koksma__colour_of(label) % KOKSMA__COLOURS; i < number; i += KOKSMA__COLOURS) {
+                d->curves[i] = false;
+            }
+            number = koksma__take_curve_number(label, d->curves);
+        }
         koksma__json_write_whole(&d->json, "colour", (long long)(number % KOKSMA__COLOURS));
         koksma__json_write_whole(&d->json, "dash", (long long)(number / KOKSMA__COLOURS % KOKSMA__DASH_GUIDE));
     }

@@ -28,6 +28,12 @@ void koksma__doc_append(koksma__document *d, koksma__document *part);
 /* Whether nothing was written and nothing failed. */
 bool koksma__doc_is_empty(const koksma__document *d);
 
+/* The ending of a noun behind n: "1 set", "2 sets". */
+static inline const char *koksma__plural(double n)
+{
+    return n == 1 ? "" : "s";
+}
+
 /* ---- Words ------------------------------------------------------------------------------------------------- */
 
 /* Appends words to the open heading, paragraph, item or caption. The marks in `format` (not in its arguments) give
@@ -121,6 +127,7 @@ void koksma__doc_table_end(koksma__document *d);
 typedef struct koksma__chart {
     const char *title, *x_title, *y_title; /* title: also the chart's text alternative */
     bool log_x, log_y;
+    int better; /* of y: -1 smaller, 1 larger; 0: neither. A page that cannot draw all lines begins with the best */
 } koksma__chart;
 
 /* How a series is drawn: LINE: marks joined by lines; MARKS: marks alone; THEORY: a dashed line without marks;

@@ -114,15 +114,15 @@ koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, co
     const koksma_status status = koksma__reference_error(study, block, scene, variant, &error);
     koksma__doc_paragraph_begin(d);
     koksma__doc_say(d,
-                    "Mean absolute errors against the reference _%s_, the mean of %lld renders with %lld samples a "
+                    "Mean absolute errors against the reference _%s_, the mean of %lld render%s with %lld samples a "
                     "pixel of %s; ",
-                    r->name, r->replicates, r->spp, r->pattern);
+                    r->name, r->replicates, koksma__plural((double)r->replicates), r->spp, r->pattern);
     if (isfinite(error)) {
         koksma__doc_say(d, "its own error is about %.2g", error);
     } else {
         koksma__doc_say(d, "its own error is not known");
     }
-    koksma__doc_say(d, ". Up to %lld trials.", block->trials);
+    koksma__doc_say(d, ". Up to %lld trial%s.", block->trials, koksma__plural((double)block->trials));
     if (block->n_references > 1) {
         koksma__doc_say(d, " `koksma study export` also writes the errors against the plan's other references.");
     }

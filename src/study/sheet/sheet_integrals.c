@@ -54,7 +54,7 @@ static void put_chart(const koksma__sheet *sheet, const char *name, const koksma
     for (size_t k = 0; k < sheet->n_samplers * sheet->n_sizes; k++) {
         positive = positive && results[k / sheet->n_sizes].rows[k % sheet->n_sizes].rmse > 0;
     }
-    koksma__doc_chart_begin(d, &(koksma__chart){name, "points n", "RMSE", true, positive});
+    koksma__doc_chart_begin(d, &(koksma__chart){name, "points n", "RMSE", true, positive, -1});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_series_begin(d, sheet->samplers[s]->text, KOKSMA__SERIES_LINE);
         for (size_t i = 0; i < sheet->n_sizes; i++) {

@@ -115,6 +115,8 @@ def run_study(name, plan):
     check_colours(name, report)
     check_tables(name, report)
     check_numbers(name, report)
+    if one := re.search(r"\b1 (points|samples|sets|trials|renders|scenes|patterns|images|rows)\b", text):
+        complain(f"{name}: '{one[0]}'")
     return report
 
 
@@ -189,6 +191,17 @@ def check_sections():
             complain(f"sections: no block of a kind, only of {sorted(kinds)}")
 
 
+def check_singular():
+    """One of everything: run_study complains of "1 points"."""
+    row = {"pattern": "random", "label": "R"}
+    run_study("one of each", {"discrepancies": [{**POINTS, "n": [1, 4, 16], "trials": 1}],
+                              "images": [{**IMAGES, "spp": [1], "trials": 1, "options": {}}],
+                              "tables": [{"id": "1", "title": "P", "measure": "star", "n": 1, "rows": [{**row, "published": [0.3]}]},
+                                         {"id": "2", "title": "S", "measure": "star", "n": [1, 4], "rows": [{**row, "published": ["0.5", "0.3"]}]},
+                                         {"id": "3", "title": "I", "scene": "ball", "n": 1, "rows": [{**row, "published": [0.3]}]}],
+                              "questions": [{"id": kind, "title": kind, "kind": kind, "discrepancies": "d", "images": "i"} for kind in ("table", "slopes", "correlation")]})
+
+
 def check_documents():
     kinds = lines_of("plan/questions.def", "QUESTION")
     readme = (ROOT / "studies/README.md").read_text()
@@ -218,6 +231,7 @@ assert not list(errors(GOOD, SCHEMA, SCHEMA))
 for kind in lines_of("plan/questions.def", "QUESTION"):
     check_question(kind)
 check_sections()
+check_singular()
 check_images()
 check_documents()
 print(f"{problems} problems")

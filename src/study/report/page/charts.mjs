@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts of a report. A chart is as wide as the page and shows at most eight lines at once, which the reader chooses. A
-// label names the point under the mouse, or the point chosen by arrow keys, with its values. Series of marks without lines,
+// Charts of a report. A chart is as wide as the page and shows at most eight lines at once, which the reader chooses; where the
+// data say which values are better, the first eight are those that are best at the right end. A label names the point under the mouse, or the point chosen by arrow keys, with its values. Series of marks without lines,
 // such as those of a scatter plot, are all shown.
 import { chart, shape } from "../../../../explorer/page/chart.mjs";
 import { element, short, svg } from "../../../../explorer/page/dom.mjs";
@@ -57,24 +57,42 @@ function inspect(stage, tip, block, points) {
   });
 }
 
+// The labels whose lines a chart begins with, in the order of the data.
+function opening(block, named, labels) {
+  const end = new Map(named.filter(s => s.style === "line").map(s => [s.label, s.points.at(-1)])), sign = block.y.better === "larger" ? -1 : 1;
+  const best = !block.y.better ? labels : [...labels].sort((a, b) => end.get(b)[0] - end.get(a)[0] || sign * (end.get(a)[1] - end.get(b)[1]));
+  return labels.filter(label => best.indexOf(label) < lines);
+}
+
 export function chartFigure(block) {
   const named = block.series.filter(s => s.style !== "theory" && s.points.length), labels = [...new Set(named.map(s => s.label))];
   const limited = named.some(s => s.style === "line"), slots = new Map(); // from a label to the number of its mark
-  labels.slice(0, limited ? lines : labels.length).forEach((label, i) => slots.set(label, i));
+  (limited ? opening(block, named, labels) : labels).forEach((label, i) => slots.set(label, i));
   const plot = element("div", { class: "plot" }), tip = element("output", { class: "tip", hidden: true }), legend = element("ul", { class: "legend" });
   const stage = element("div", { class: "stage", tabindex: 0, role: "group", "aria-label": `${block.title}: arrow keys name its points` }, plot, tip);
   const choice = element("div", { class: "boxes" }), count = element("summary", {}), boxes = new Map();
   const classes = new Map(named.filter(s => s.style !== "hollow").map(s => [s.label, `c${s.colour} d${s.dash}`]));
+  // The mark of a line: that of its slot, or the next that no line of the same colour and dash has.
+  const marksOf = () => {
+    const marks = new Map(), taken = new Set();
+    for (const [label, slot] of slots) {
+      const mark = [0, 1, 2].map(i => (slot + i) % 3).find(m => !taken.has(classes.get(label) + m)) ?? slot;
+      taken.add(classes.get(label) + mark);
+      marks.set(label, mark);
+    }
+    return marks;
+  };
   let points = [];
   const draw = () => {
+    const marks = marksOf();
     const series = block.series.filter(s => s.style === "theory" || slots.has(s.label)).map(({ label, style, points: values }) => {
-      const theory = style === "theory", hollow = style === "hollow", slot = slots.get(label);
+      const theory = style === "theory", hollow = style === "hollow", slot = marks.get(label);
       return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}${classes.get(label) ?? "c0"}`,
         line: style === "line" || theory, marks: theory ? undefined : slot };
     });
     points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most: 1400 });
     legend.replaceChildren(...series.filter(s => !s.hollow).map(s => element("li", {}, swatch(s.className, s.marks, s.line), s.label)));
-    count.textContent = `Choose lines: ${slots.size} of ${labels.length} are shown, ${lines} at most`;
+    count.textContent = `Choose lines: ${slots.size} of ${labels.length} are shown, ${lines} at most${block.y.better ? "; the best at the right end to begin with" : ""}`;
     boxes.forEach((box, label) => { box.disabled = !slots.has(label) && slots.size >= lines; });
   };
   for (const label of limited ? labels : []) {

@@ -127,9 +127,9 @@ static koksma_status add_scatter(const koksma__cases *cases, void *context, cons
     }
     char title[256], name[KOKSMA__VARIANT_TEXT + 64];
     koksma__case_name(p->scene, p->variant, name, sizeof name);
-    koksma__snprintf(title, sizeof title, "%.120s, %lld samples: error against %.60s, Spearman %.2f", name, p->spp,
-                     p->of->label, koksma__spearman(found.x, found.y, found.n));
-    koksma__doc_chart_begin(d, &(koksma__chart){title, p->of->label, "mean absolute error", true, true});
+    koksma__snprintf(title, sizeof title, "%.120s, %lld sample%s: error against %.60s, Spearman %.2f", name, p->spp,
+                     koksma__plural((double)p->spp), p->of->label, koksma__spearman(found.x, found.y, found.n));
+    koksma__doc_chart_begin(d, &(koksma__chart){title, p->of->label, "mean absolute error", true, true, 0});
     for (size_t i = 0; i < found.n; i++) {
         koksma__doc_series_begin(d, found.patterns[i], KOKSMA__SERIES_MARKS);
         koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);

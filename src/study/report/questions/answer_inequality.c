@@ -68,7 +68,8 @@ static void add_row(koksma__document *d, verdict *all, const char *pattern, cons
     all->no_use += bound >= facts->highest - facts->lowest;
     if (error / bound > all->closest) {
         all->closest = error / bound;
-        snprintf(all->where, sizeof all->where, "%s over %zu points of %.400s", f->title, points->n, pattern);
+        snprintf(all->where, sizeof all->where, "%s over %zu point%s of %.400s", f->title, points->n,
+                 koksma__plural((double)points->n), pattern);
     }
 }
 

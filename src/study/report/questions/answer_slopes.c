@@ -220,7 +220,8 @@ static koksma_status add_subject(koksma_study *study, koksma__document *d, const
     koksma_status status = trends && zeros ? KOKSMA_OK : koksma__fail_memory(n * sizeof *trends);
     if (!status) {
         koksma__doc_chart_begin(&chart, &(koksma__chart){title, s->image ? "samples a pixel" : "points",
-                                                         s->image ? "mean absolute error" : s->measure, true, true});
+                                                         s->image ? "mean absolute error" : s->measure, true, true,
+                                                         sense_of(s) == KOKSMA__LARGER ? 1 : -1});
         koksma__doc_sorted_table_begin(&rows, file, "slope", true, false);
         add_heads(&rows, s);
         status = add_rows(study, &rows, s, &chart, trends, zeros);

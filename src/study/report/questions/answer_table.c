@@ -46,12 +46,21 @@ static koksma_status cell_of(koksma_study *study, const subject *c, size_t patte
                : koksma__discrepancy_mean(study, c->discrepancy, c->warp, name, c->n->at[k], c->measure, NULL, mean);
 }
 
+static void name_column(const subject *c, size_t k, char text[64])
+{
+    if (c->image) {
+        snprintf(text, 64, "%lld sample%s", c->n->at[k], koksma__plural((double)c->n->at[k]));
+    } else {
+        snprintf(text, 64, "N = %lld", c->n->at[k]);
+    }
+}
+
 static void add_heads(koksma__document *d, const subject *c)
 {
     char text[64];
     koksma__doc_head(d, "pattern");
     for (size_t k = 0; k < c->n->n; k++) {
-        snprintf(text, sizeof text, c->image ? "%lld samples" : "N = %lld", c->n->at[k]);
+        name_column(c, k, text);
         koksma__doc_head_interval(d, text, 4);
     }
     if (c->image) {
@@ -248,7 +257,7 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const c
         s.means && s.by ? order(study, c, &s) : koksma__fail_memory(n * (sizeof *s.means + sizeof *s.by));
     if (!status) {
         snprintf(file, sizeof file, "means-%.32s-%zu", id, number);
-        snprintf(last, sizeof last, c->image ? "%lld samples" : "N = %lld", c->n->at[c->n->n - 1]);
+        name_column(c, c->n->n - 1, last);
         c->last = last;
         koksma__doc_section(d, NULL, c->name);
         if (s.known > 1) {

@@ -58,8 +58,8 @@ static void add_columns(koksma__document *d, const koksma__image_block *block)
     const koksma__reference *first = &block->references[0], *last = &block->references[block->n_references - 1];
     char group[2 * KOKSMA_MAX_SPEC + 160];
     koksma__published_columns(d, "published");
-    snprintf(group, sizeof group, "against %lld %s samples (%s), %lld trials", first->spp * first->replicates,
-             first->pattern, first->name, block->trials);
+    snprintf(group, sizeof group, "against %lld %s samples (%s), %lld trial%s", first->spp * first->replicates,
+             first->pattern, first->name, block->trials, koksma__plural((double)block->trials));
     add_cell_columns(d, first->name, group);
     koksma__doc_column(
         d, &(koksma__column){

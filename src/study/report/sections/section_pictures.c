@@ -132,9 +132,11 @@ static koksma_status add_spectra(koksma__document *d, const koksma__task *first,
     char title[512], name[256];
     koksma__case_name(first->scene->name, first->variant, name, sizeof name);
     snprintf(title, sizeof title,
-             "Spectrum of the image error: %.200s, %lld samples a pixel, mean over rings and %d trials", name,
-             first->n, first->trials < SPECTRUM_TRIALS ? (int)first->trials : SPECTRUM_TRIALS);
-    koksma__doc_chart_begin(d, &(koksma__chart){title, "cycles a pixel", "power", false, true});
+             "Spectrum of the image error: %.200s, %lld sample%s a pixel, mean over rings and %d trial%s", name,
+             first->n, koksma__plural((double)first->n),
+             first->trials < SPECTRUM_TRIALS ? (int)first->trials : SPECTRUM_TRIALS,
+             koksma__plural((double)first->trials));
+    koksma__doc_chart_begin(d, &(koksma__chart){title, "cycles a pixel", "power", false, true, 0});
     for (size_t p = 0; !status && p < n; p++) {
         koksma__task task = *first;
         task.pattern = patterns->at[p];
@@ -220,11 +222,14 @@ static koksma_status add_scene(const koksma__report_scope *scope, koksma__docume
     char name[512];
     koksma__case_name(first->scene->name, first->variant, name, sizeof name);
     koksma__doc_section_begin(d, NULL, false);
-    koksma__doc_say(d, "%s, %lld samples a pixel, %d x %d pixels", name, first->n, first->width, first->height);
+    koksma__doc_say(d, "%s, %lld sample%s a pixel, %d x %d pixels", name, first->n, koksma__plural((double)first->n),
+                    first->width, first->height);
     koksma__doc_section_body(d);
     status = add_pictures(d, first, shown, &reference->image, scope->run, used);
     if (shown < patterns->n) {
-        koksma__doc_paragraph(d, "%zu more patterns are not shown.", patterns->n - shown);
+        koksma__doc_paragraph(
+            d, shown + 1 == patterns->n ? "%zu more pattern is not shown." : "%zu more patterns are not shown.",
+            patterns->n - shown);
     }
     status = status ? status : are_done(study, first, shown, trials, &done);
     status = status || !done ? status : add_spectra(d, first, &reference->image, scope->run);
@@ -254,7 +259,8 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     }
     koksma__doc_append(d, &scenes);
     if (left_out) {
-        koksma__doc_paragraph(d, "The pictures of %zu scenes are left out: this file would be too large.", left_out);
+        koksma__doc_paragraph(d, "The pictures of %zu scene%s are left out: this file would be too large.", left_out,
+                              koksma__plural((double)left_out));
     }
     return status;
 }

@@ -51,7 +51,8 @@ static void add_cell_columns(koksma__document *d, const char *measure, const cha
 static void add_columns(koksma__document *d, const koksma__table *t, size_t sets, bool differ)
 {
     char group[KOKSMA_MAX_SPEC + 64];
-    snprintf(group, sizeof group, "%s, %s%zu sets", t->measure, differ ? "up to " : "", sets);
+    snprintf(group, sizeof group, "%s, %s%zu set%s", t->measure, differ ? "up to " : "", sets,
+             koksma__plural((double)sets));
     koksma__published_columns(d, "published (100 sets)");
     add_cell_columns(d, t->measure, group, sets, false);
     koksma__doc_column(d,
@@ -129,7 +130,7 @@ static void add_size_columns(koksma__document *d, const koksma__table *t)
     koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
     koksma__doc_column(d, &(koksma__column){.name = "values", .title = "mean"});
     for (size_t i = 0; i < t->n.n; i++) {
-        snprintf(name, sizeof name, "%lld points", t->n.at[i]);
+        snprintf(name, sizeof name, "%lld point%s", t->n.at[i], koksma__plural((double)t->n.at[i]));
         koksma__doc_head_interval(d, name, 4);
     }
     koksma__doc_column(
@@ -233,7 +234,7 @@ static koksma_status add_sizes_table(koksma_study *study, koksma__document *d, c
     sizes_table s = {.study = study, .document = d, .table = t};
     snprintf(title, sizeof title, "Table %.60s: %.110s%s", t->id, t->title,
              t->rows[0].n_published ? ". Hollow: printed" : "");
-    koksma__doc_chart_begin(&s.chart, &(koksma__chart){title, "points", t->measure, true, true});
+    koksma__doc_chart_begin(&s.chart, &(koksma__chart){title, "points", t->measure, true, true, 0});
     koksma__published_begin(d, t);
     add_size_columns(d, t);
     koksma_status status = add_rows(&s);
