@@ -152,6 +152,13 @@ static void runs_equal_plain_search(void **state)
         koksma_points p = sets_points(200 + 10 * (size_t)s, 2, s % SETS_KINDS, (uint64_t)s);
         expect_plain_value("a set of sets.h", &p);
     }
+    for (int s = 0; s < 3; s++) { /* widths that hardly differ, or are below the normal numbers */
+        koksma_points p = sets_points(300, 2, 0, 99);
+        for (size_t i = 0; i < p.n; i++) {
+            p.xs[2 * i] = s == 2 ? 0.5 + 1e-15 * p.xs[2 * i] : p.xs[2 * i] * (s ? 1e-310 : 1e-14);
+        }
+        expect_plain_value("a set in a thin strip", &p);
+    }
 }
 
 static void expect_bounds(const koksma__run_list *all, const koksma__run_list *list, const koksma__strip_set *set,
@@ -164,7 +171,7 @@ static void expect_bounds(const koksma__run_list *all, const koksma__run_list *l
         sides[2][l] = sides[5][l] = n * (sides[1][l] - sides[0][l]);
     }
     const double(*const lanes)[16] = (const double(*)[16])sides;
-    const double(*const lines)[KOKSMA__RUN_NUMBERS] = (const double(*)[KOKSMA__RUN_NUMBERS])list->lines;
+    const double(*const lines)[KOKSMA__RUN_NUMBERS] = (const double(*)[KOKSMA__RUN_NUMBERS])list->runs;
     const koksma__kernel_table *ref = koksma__kernels_find("ref");
     ref->extreme_strips(all->count - 1, all->x, all->y, lanes, exact[0], exact[1]);
     ref->extreme_runs(list->count, list->x, list->y, lines, lanes, bound[0], bound[1]);

@@ -27,7 +27,7 @@
 enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48, MAX_ROWS = 64 };
 
 #define SWEEP_COST 20.0
-#define ROUNDING 1e-13 /* more than the bounds from runs are wrong by, for each point */
+#define ROUNDING 1e-12 /* more than the bounds from runs are wrong by, for each point */
 
 /* The number of levels in the side of a tile at each depth of the search. */
 static const size_t tile_sides[DEPTH] = {COARSE, 8, 2, 1};
@@ -96,7 +96,7 @@ static void bound_tiles(searcher *s, const koksma__run_list *list, size_t side, 
     const double(*const lanes)[LANES] = (const double(*)[LANES])sides;
     if (list->runs) {
         koksma__kernels()->extreme_runs(list->count, list->x, list->y,
-                                        (const double(*)[KOKSMA__RUN_NUMBERS])list->lines, lanes, excess, deficit);
+                                        (const double(*)[KOKSMA__RUN_NUMBERS])list->runs, lanes, excess, deficit);
     } else {
         koksma__kernels()->extreme_strips(list->count - 1, list->x, list->y, lanes, excess, deficit);
     }
