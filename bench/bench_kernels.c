@@ -79,6 +79,9 @@ RUN(nearest_offset, 100 * 64, t->nearest_offset(64, units, units + N, 100, units
 RUN(pair_counts, N, t->pair_counts(N, units, units + N, 0.4, 0.6, 0.09, 600, 200, counts))
 RUN(gauss_force, 80, t->gauss_force(4, runs, units, units + N, 0.4, 0.6, -48, 0.25, sums[0]))
 RUN(extreme_strips, 16 * N, t->extreme_strips(N, units, sorted, (const double (*)[16])(units + N), sums[0], sums[1]))
+RUN(extreme_runs, 16 * 900,
+    t->extreme_runs(900, units, sorted, (const double (*)[9])units, (const double (*)[16])(units + N), sums[0],
+                    sums[1]))
 RUN(distances, N, sums[0][0] += t->distances(N, units, units + N, 0.4, 0.6))
 RUN(count_below, 16 * N, t->count_below(N, units, units + N, units, units + 16, units + 32, sums[0]))
 RUN(outer_sums, 128 * N, t->outer_sums(N, units, units, sums))

@@ -52,3 +52,46 @@ void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y,
     memcpy(excess, best, sizeof best);
     memcpy(deficit, best_open, sizeof best_open);
 }
+
+void KERNEL_NAME(extreme_runs)(size_t count, const double *x, const double *y, const double (*lines)[9],
+                               const double sides[6][16], double excess[16], double deficit[16]);
+
+void KERNEL_NAME(extreme_runs)(size_t count, const double *x, const double *y, const double (*lines)[9],
+                               const double sides[6][16], double excess[16], double deficit[16])
+{
+    double inside[LANES], low[LANES], best[LANES], inside_open[LANES], low_open[LANES], best_open[LANES];
+    double side[6][LANES];
+    memcpy(side, sides, sizeof side);
+    for (int l = 0; l < LANES; l++) {
+        inside[l] = inside_open[l] = low_open[l] = 0;
+        low[l] = INFINITY;
+        best[l] = best_open[l] = -1;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const double at = x[i], height = y[i], *run = lines[i];
+        for (int l = 0; l < LANES; l++) {
+            const double w = side[2][l], area = w * height, within = run[4] + w * run[5];
+            const double reach = inside[l] + (run[0] + w * run[1]) - low[l],
+                         under = inside[l] - (run[2] + w * run[3]);
+            const double core = inside[l] + run[8], start = core - area;
+            const double higher = reach > within ? reach : within, lower = under < low[l] ? under : low[l];
+            low[l] = start < lower ? start : lower;
+            inside[l] = core + (((at >= side[0][l]) & (at <= side[1][l])) ? 1.0 : 0.0);
+            const double value = inside[l] - area - low[l], most = higher > value ? higher : value;
+            best[l] = most > best[l] ? most : best[l];
+        }
+        for (int l = 0; l < LANES; l++) {
+            const double w = side[5][l], area = w * height, within = run[6] + w * run[7];
+            const double reach = run[2] + w * run[3] - inside_open[l] - low_open[l];
+            const double under = -(run[0] + w * run[1]) - inside_open[l], core = inside_open[l] + run[8];
+            const double higher = reach > within ? reach : within, lower = under < low_open[l] ? under : low_open[l];
+            const double value = area - core - lower, most = higher > value ? higher : value;
+            best_open[l] = most > best_open[l] ? most : best_open[l];
+            inside_open[l] = core + (((at > side[3][l]) & (at < side[4][l])) ? 1.0 : 0.0);
+            const double start = area - inside_open[l];
+            low_open[l] = start < lower ? start : lower;
+        }
+    }
+    memcpy(excess, best, sizeof best);
+    memcpy(deficit, best_open, sizeof best_open);
+}

@@ -152,6 +152,33 @@ void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y,
     }
 }
 
+void KERNEL_NAME(extreme_runs)(size_t count, const double *x, const double *y, const double (*lines)[9],
+                               const double sides[6][16], double excess[16], double deficit[16])
+{
+    for (int l = 0; l < 16; l++) {
+        const double w = sides[2][l], wide = sides[5][l];
+        double inside = 0, low = HUGE_VAL, low_open = 0, inside_open = 0;
+        excess[l] = deficit[l] = -1;
+        for (size_t i = 0; i < count; i++) {
+            const double *run = lines[i];
+            excess[l] = fmax(excess[l], fmax(run[4] + w * run[5], inside + (run[0] + w * run[1]) - low));
+            low = fmin(low, inside - (run[2] + w * run[3]));
+            inside += run[8];
+            low = fmin(low, inside - w * y[i]);
+            inside += x[i] >= sides[0][l] && x[i] <= sides[1][l];
+            excess[l] = fmax(excess[l], inside - w * y[i] - low);
+
+            deficit[l] =
+                fmax(deficit[l], fmax(run[6] + wide * run[7], run[2] + wide * run[3] - inside_open - low_open));
+            low_open = fmin(low_open, -(run[0] + wide * run[1]) - inside_open);
+            inside_open += run[8];
+            deficit[l] = fmax(deficit[l], wide * y[i] - inside_open - low_open);
+            inside_open += x[i] > sides[3][l] && x[i] < sides[4][l];
+            low_open = fmin(low_open, wide * y[i] - inside_open);
+        }
+    }
+}
+
 void KERNEL_NAME(pair_counts)(size_t count, const double *xs, const double *ys, double x, double y, double r2,
                               double scale, size_t bins, uint64_t *counts)
 {

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Branch and bound for boxes in the plane against the plain search and a published value; its kernel against the
    twin; bounds when time is short; threads. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/clock.h"
 #include "kernels/kernels.h"
 #include "measures/shared/extreme.h"
+#include "measures/shared/extreme_runs.h"
 #include "sets.h"
 
 static void plane_equals_plain_search(void **state)
@@ -107,6 +109,131 @@ static void strips_equal_reference(void **state)
     }
 }
 
+static void expect_plain_value(const char *name, koksma_points *p)
+{
+    koksma_value plain = {.value = NAN}, v;
+    size_t count = 0;
+    assert_ok(koksma__extreme_small(p, NULL, &plain));
+    assert_ok(koksma__extreme_plane_by(KOKSMA__EXTREME_BOUND, p, NULL, &v));
+    for (size_t i = 0; i < p->n; i++) {
+        const double *x = p->xs + 2 * i, *lo = v.witness.lo, *hi = v.witness.hi;
+        count += v.witness.closed ? x[0] >= lo[0] && x[0] <= hi[0] && x[1] >= lo[1] && x[1] <= hi[1]
+                                  : x[0] > lo[0] && x[0] < hi[0] && x[1] > lo[1] && x[1] < hi[1];
+    }
+    if (fabs(v.value - plain.value) > 1e-15 || count != v.witness.count) {
+        fail_msg("%s: %.17g, by the plain search %.17g", name, v.value, plain.value);
+    }
+    koksma_points_fini(p);
+}
+
+/* Points that are in all strips of a tile are bounded as runs only in sets larger than those above: all patterns of the
+   table that make a plane set, and sets with repeats and with points on the sides, against the plain search. */
+static void runs_equal_plain_search(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {256, 289, 233, 343};
+    const koksma_pattern *pattern;
+    size_t made = 0;
+    for (size_t i = 0; (pattern = koksma_pattern_at(i)); i++) {
+        for (size_t s = 0; s < 4; s++) {
+            koksma_spec spec;
+            koksma_points p;
+            assert_ok(koksma_points_init(&p, sizes[s], 2));
+            if (!koksma_pattern_spec(pattern->name, &spec) && !koksma_generate(&spec, 3, NULL, &p)) {
+                expect_plain_value(pattern->name, &p);
+                made++;
+                break;
+            }
+            koksma_points_fini(&p);
+        }
+    }
+    assert_true(made >= 30);
+    for (int s = 0; s < 2 * SETS_KINDS; s++) {
+        koksma_points p = sets_points(200 + 10 * (size_t)s, 2, s % SETS_KINDS, (uint64_t)s);
+        expect_plain_value("a set of sets.h", &p);
+    }
+    for (int s = 0; s < 3; s++) { /* widths that hardly differ, or are below the normal numbers */
+        koksma_points p = sets_points(300, 2, 0, 99);
+        for (size_t i = 0; i < p.n; i++) {
+            p.xs[2 * i] = s == 2 ? 0.5 + 1e-15 * p.xs[2 * i] : p.xs[2 * i] * (s ? 1e-310 : 1e-14);
+        }
+        expect_plain_value("a set in a thin strip", &p);
+    }
+}
+
+static void expect_bounds(const koksma__run_list *all, const koksma__run_list *list, const koksma__strip_set *set,
+                          double n, bool exactly)
+{
+    double sides[6][16], exact[2][16], bound[2][16], other[2][16];
+    for (size_t l = 0; l < 16; l++) {
+        sides[0][l] = sides[3][l] = set->a1 + (set->a2 - set->a1) * (double)(l % 4) / 3;
+        sides[1][l] = sides[4][l] = set->b1 + (set->b2 - set->b1) * (double)(l / 4) / 3;
+        sides[2][l] = sides[5][l] = n * (sides[1][l] - sides[0][l]);
+    }
+    const double(*const lanes)[16] = (const double(*)[16])sides;
+    const double(*const lines)[KOKSMA__RUN_NUMBERS] = (const double(*)[KOKSMA__RUN_NUMBERS])list->runs;
+    const koksma__kernel_table *ref = koksma__kernels_find("ref");
+    ref->extreme_strips(all->count - 1, all->x, all->y, lanes, exact[0], exact[1]);
+    ref->extreme_runs(list->count, list->x, list->y, lines, lanes, bound[0], bound[1]);
+    for (int k = 0; k < 2; k++) {
+        for (size_t l = 0; l < 16; l++) {
+            assert_true(bound[k][l] >= exact[k][l] - 1e-9 && bound[k][l] <= exact[k][l] + (exactly ? 1e-9 : 2));
+        }
+    }
+    static const char *const isas[] = {"baseline", "avx2", "avx512"};
+    for (int isa = 0; isa < 3; isa++) {
+        const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+        if (fast) {
+            fast->extreme_runs(list->count, list->x, list->y, lines, lanes, other[0], other[1]);
+            assert_memory_equal(bound, other, sizeof bound);
+        }
+    }
+}
+
+/* Lists of narrower and narrower sets bound all their strips from above, and equal them where there is one width; the
+   kernel equals its twin. */
+static void runs_bound_their_strips(void **state)
+{
+    (void)state;
+    enum { N = 3000 };
+    static double x[N + 1], y[N + 1];
+    koksma__run_place *places = malloc(3 * KOKSMA__RUN_CAPACITY * sizeof *places);
+    koksma__run_list all = {.count = N + 1, .x = x, .y = y}, lists[3];
+    for (size_t i = 0; i < N; i++) { /* every fifth height is repeated */
+        x[i] = sets_unit(5, i);
+        y[i] = i % 5 == 4 ? y[i - 1] : ((double)i + sets_unit(6, i)) / N;
+    }
+    x[N] = HUGE_VAL;
+    y[N] = 1;
+    assert_non_null(places);
+    for (size_t i = 0; i < 3; i++) {
+        koksma__run_list_init(&lists[i], places + i * KOKSMA__RUN_CAPACITY);
+    }
+    for (uint64_t seed = 0; seed < 60; seed++) {
+        koksma__strip_set set = {.a1 = 0.4 * sets_unit(7, seed), .b1 = 0.4 + 0.5 * sets_unit(8, seed)};
+        const koksma__run_list *from = &all;
+        for (size_t i = 0; i < 3; i++) {
+            const double size = 0.08 * pow(0.2, (double)i);
+            set.a1 += i * size * sets_unit(9 + i, seed);
+            set.b1 += i * size * sets_unit(12 + i, seed);
+            set.a2 = set.a1 + size;
+            set.b2 = set.b1 + size;
+            set.narrow = N * fmax(0, set.b1 - set.a2);
+            set.wide = N * (set.b2 - set.a1);
+            assert_true(koksma__run_list_narrow(from, &set, &lists[i]));
+            expect_bounds(&all, &lists[i], &set, N, false);
+            from = &lists[i];
+        }
+        set.a2 = set.a1;
+        set.b2 = set.b1;
+        set.narrow = set.wide = N * (set.b1 - set.a1);
+        assert_true(koksma__run_list_narrow(&all, &set, &lists[0]));
+        expect_bounds(&all, &lists[0], &set, N, true);
+    }
+    assert_false(koksma__run_list_narrow(&all, &(koksma__strip_set){0, 0.5, 0.5, 1, 0, N}, &lists[0]));
+    free(places);
+}
+
 /* What the witness of a grid holds, counted in doubles as everywhere. */
 static void witness_of_a_grid(void **state)
 {
@@ -204,7 +331,8 @@ int main(void)
         cmocka_unit_test(sweep_equals_plain_search), cmocka_unit_test(sweep_equals_bounding),
         cmocka_unit_test(strips_equal_reference),    cmocka_unit_test(short_time_gives_bounds),
         cmocka_unit_test(threads_change_no_bit),     cmocka_unit_test(large_sets_obey_the_time_limit),
-        cmocka_unit_test(witness_of_a_grid),
+        cmocka_unit_test(witness_of_a_grid),         cmocka_unit_test(runs_equal_plain_search),
+        cmocka_unit_test(runs_bound_their_strips),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

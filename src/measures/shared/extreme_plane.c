@@ -6,25 +6,28 @@
  * same pass gives a bound for a tile: the excess is bounded by the points of the widest strip with the width of the
  * narrowest, the deficit by the points of the narrowest strip with the width of the widest. Tiles whose bound does
  * not exceed the best box are dropped, others are cut into 4 x 4 tiles, down to single strips. Passes are done for 16
- * tiles at once. Each block of left sides is a separate job with its own best box, so that the result does not depend
+ * tiles at once. For the parts of a tile the points that all its strips share are first joined to runs (extreme_runs.c),
+ * so that these passes take the number of its sides, not of its points; what no bound drops is then measured with its
+ * points. Each block of left sides is a separate job with its own best box, so that the result does not depend
  * on the number of threads. A block for which bounding has cost as much as a sweep from each of its left sides would
  * is swept instead; counted work decides this, not a clock.
  */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/shared/deadline.h"
 #include "measures/shared/extreme.h"
+#include "measures/shared/extreme_runs.h"
 #include "measures/shared/extreme_sweep.h"
 #include "measures/shared/order.h"
 
 enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48, MAX_ROWS = 64 };
 
 #define SWEEP_COST 20.0
+#define ROUNDING 1e-12 /* more than the bounds from runs are wrong by, for each point */
 
 /* The number of levels in the side of a tile at each depth of the search. */
 static const size_t tile_sides[DEPTH] = {COARSE, 8, 2, 1};
@@ -55,11 +58,11 @@ typedef struct plane {
 
 typedef struct searcher {
     const plane *p;
-    double *x, *y; /* the points of the current group of tiles */
-    size_t count;
-    tile waiting[DEPTH][LANES];
-    int n_waiting[DEPTH];
+    koksma__run_list lists[DEPTH]; /* the points of a group of tiles, of 16 tiles, and of tiles at depths 0 and 1 */
+    tile waiting[LANES];           /* strips to measure */
+    size_t n_waiting;
     best_strip best;
+    void *memory;
     double upper, work, budget; /* points passed so far; number of points passed that costs as much as a sweep */
     bool late;
 } searcher;
@@ -81,94 +84,177 @@ static void set_sides(const plane *p, tile t, size_t side, double sides[6][LANES
     sides[5][lane] = n * (x[b2] - x[t.a]);
 }
 
-static void add_tile(searcher *s, int depth, tile t);
-
-static void add_children(searcher *s, int depth, tile t)
+/* Bounds of 16 tiles at most, from the points of a list; exact for single strips if the list has no runs. */
+static void bound_tiles(searcher *s, const koksma__run_list *list, size_t side, const tile *tiles, size_t count,
+                        double excess[LANES], double deficit[LANES])
 {
-    const size_t side = tile_sides[depth], child = tile_sides[depth + 1];
-    for (size_t a = t.a; a < t.a + side && a < s->p->n_levels; a += child) {
-        for (size_t b = t.b; b < t.b + side && b < s->p->n_levels; b += child) {
-            if (last(s->p, b, child) >= a) {
-                add_tile(s, depth + 1, (tile){a, b, t.bound});
+    double sides[6][LANES];
+    for (size_t l = 0; l < LANES; l++) {
+        set_sides(s->p, tiles[l < count ? l : 0], side, sides, (int)l);
+    }
+    s->work += (double)list->count + 32;
+    const double(*const lanes)[LANES] = (const double(*)[LANES])sides;
+    if (list->runs) {
+        koksma__kernels()->extreme_runs(list->count, list->x, list->y,
+                                        (const double(*)[KOKSMA__RUN_NUMBERS])list->runs, lanes, excess, deficit);
+    } else {
+        koksma__kernels()->extreme_strips(list->count - 1, list->x, list->y, lanes, excess, deficit);
+    }
+}
+
+static void check_time(searcher *s)
+{
+    s->late = s->late || koksma__now_s() > s->p->deadline_s;
+}
+
+/* Measures the strips that no bound excludes, in the order in which they were found. */
+static void flush(searcher *s)
+{
+    const size_t count = s->n_waiting;
+    double excess[LANES], deficit[LANES];
+    s->n_waiting = 0;
+    if (count == 0 || s->work > s->budget) {
+        return;
+    }
+    for (size_t l = 0; l < count && s->late; l++) {
+        s->upper = fmax(s->upper, s->waiting[l].bound);
+    }
+    if (s->late) {
+        return;
+    }
+    bound_tiles(s, &s->lists[0], 1, s->waiting, count, excess, deficit);
+    check_time(s);
+    for (size_t l = 0; l < count; l++) {
+        const double value = fmax(excess[l], deficit[l]);
+        if (value > s->best.value) {
+            s->best = (best_strip){value, s->waiting[l], excess[l] > deficit[l]};
+        }
+    }
+}
+
+static void add_strip(searcher *s, tile t)
+{
+    s->waiting[s->n_waiting++] = t;
+    if (s->n_waiting == LANES) {
+        flush(s);
+    }
+}
+
+/* The list of the strips of a tile, or of neighbouring tiles up to the one that begins at end; `from` itself where a
+   list with runs would be no shorter. */
+static const koksma__run_list *narrowed(searcher *s, const koksma__run_list *from, tile t, size_t end, size_t side,
+                                        koksma__run_list *to)
+{
+    const plane *p = s->p;
+    const double *x = p->levels, n = (double)p->n;
+    const size_t a2 = last(p, t.a, side), b2 = last(p, end, side);
+    if (from->count < 2 * (a2 - t.a + b2 - t.b + 2)) {
+        return from;
+    }
+    const koksma__strip_set set = {
+        x[t.a], x[a2], x[t.b], x[b2], x[t.b] > x[a2] ? n * (x[t.b] - x[a2]) : 0, n * (x[b2] - x[t.a])};
+    s->work += 2 * (double)from->count;
+    return koksma__run_list_narrow(from, &set, to) ? to : from;
+}
+
+static void search(searcher *s, const koksma__run_list *list, int depth, const tile *tiles, size_t count);
+
+/* Cuts a tile and searches its parts, with those of other tiles if they have the same list. */
+static void search_parts(searcher *s, const koksma__run_list *list, int depth, tile t, tile *parts, size_t *count)
+{
+    const size_t side = tile_sides[depth], part = tile_sides[depth + 1];
+    for (size_t a = t.a; a < t.a + side && a < s->p->n_levels; a += part) {
+        for (size_t b = t.b; b < t.b + side && b < s->p->n_levels; b += part) {
+            if (last(s->p, b, part) >= a) {
+                parts[(*count)++] = (tile){a, b, t.bound};
+            }
+            if (*count == LANES) {
+                search(s, list, depth + 1, parts, LANES);
+                *count = 0;
             }
         }
     }
 }
 
-static void flush(searcher *s, int depth)
+/* Searches neighbouring tiles of a row. The bounds from runs are raised by more than their rounding errors. */
+static void search(searcher *s, const koksma__run_list *list, int depth, const tile *tiles, size_t count)
 {
-    double sides[6][LANES] = {{0}}, excess[LANES], deficit[LANES];
-    const int count = s->n_waiting[depth];
-    tile tiles[LANES];
-    memcpy(tiles, s->waiting[depth], sizeof tiles);
-    for (int l = 0; l < LANES; l++) {
-        set_sides(s->p, tiles[l < count ? l : 0], tile_sides[depth], sides, l);
-    }
-    s->n_waiting[depth] = 0;
-    if (s->work > s->budget) {
+    double excess[LANES], deficit[LANES];
+    tile open[LANES], parts[LANES];
+    size_t n_open = 0, n_parts = 0;
+    if (count == 0 || s->work > s->budget) {
         return;
     }
-    for (int l = 0; l < count && s->late; l++) {
+    for (size_t l = 0; l < count && s->late; l++) {
         s->upper = fmax(s->upper, tiles[l].bound);
     }
     if (s->late) {
         return;
     }
-    s->work += (double)s->count + 32;
-    koksma__kernels()->extreme_strips(s->count, s->x, s->y, (const double(*)[LANES])sides, excess, deficit);
-    s->late = s->late || koksma__now_s() > s->p->deadline_s;
-    for (int l = 0; l < count; l++) {
-        const double bound = tiles[l].bound = fmax(excess[l], deficit[l]);
-        if (bound <= s->best.value) {
+    bound_tiles(s, list, tile_sides[depth], tiles, count, excess, deficit);
+    for (size_t l = 0; l < count; l++) {
+        open[n_open] = tiles[l];
+        open[n_open].bound = fmax(excess[l], deficit[l]) + (list->runs ? ROUNDING * (double)s->p->n : 0);
+        n_open += open[n_open].bound > s->best.value;
+    }
+    if (depth < 2) {
+        check_time(s);
+    }
+    const koksma__run_list *wide = list;
+    if (depth == 0 && n_open > 1) {
+        wide = narrowed(s, list, open[0], open[n_open - 1].b, COARSE, &s->lists[1]);
+    }
+    for (size_t l = 0; l < n_open; l++) {
+        if (open[l].bound <= s->best.value) {
             continue;
         }
-        if (depth == DEPTH - 1) {
-            s->best = (best_strip){bound, tiles[l], excess[l] > deficit[l]};
-        } else if (s->late) {
-            s->upper = fmax(s->upper, bound);
+        if (s->late) {
+            s->upper = fmax(s->upper, open[l].bound);
+        } else if (depth == DEPTH - 1) {
+            add_strip(s, open[l]);
         } else {
-            add_children(s, depth, tiles[l]);
+            const koksma__run_list *own =
+                depth < 2 ? narrowed(s, wide, open[l], open[l].b, tile_sides[depth], &s->lists[2 + depth]) : wide;
+            search_parts(s, own, depth, open[l], parts, &n_parts);
+            if (depth < 2) {
+                search(s, own, depth + 1, parts, n_parts);
+                n_parts = 0;
+            }
         }
     }
+    search(s, wide, depth + 1, parts, n_parts);
 }
 
-static void add_tile(searcher *s, int depth, tile t)
-{
-    s->waiting[depth][s->n_waiting[depth]++] = t;
-    if (s->n_waiting[depth] == LANES) {
-        flush(s, depth);
-    }
-}
-
-static void flush_all(searcher *s)
-{
-    for (int depth = 0; depth < DEPTH; depth++) {
-        while (s->n_waiting[depth] > 0) {
-            flush(s, depth);
-        }
-    }
-}
-
-/* Collects the points between two levels, in order of y. */
+/* Collects the points between two levels, in order of y, and the upper side of the square. */
 static void gather(searcher *s, size_t from, size_t to)
 {
     const plane *p = s->p;
-    s->count = 0;
+    koksma__run_list *all = &s->lists[0];
+    all->count = 0;
     for (size_t i = 0; i < p->n; i++) {
-        s->x[s->count] = p->x[i];
-        s->y[s->count] = p->y[i];
-        s->count += p->x[i] >= p->levels[from] && p->x[i] <= p->levels[to];
+        all->x[all->count] = p->x[i];
+        all->y[all->count] = p->y[i];
+        all->count += p->x[i] >= p->levels[from] && p->x[i] <= p->levels[to];
     }
+    all->x[all->count] = HUGE_VAL;
+    all->y[all->count++] = 1;
 }
 
 static bool open_searcher(const plane *p, searcher *s)
 {
-    *s = (searcher){.p = p, .x = malloc(2 * (p->n + 1) * sizeof(double)), .upper = -1, .budget = HUGE_VAL};
-    if (!s->x) {
-        koksma__fail_memory(2 * (p->n + 1) * sizeof(double));
+    const size_t n = p->n + 1, size = KOKSMA__RUN_CAPACITY;
+    const size_t bytes = 2 * n * sizeof(double) + (DEPTH - 1) * size * sizeof(koksma__run_place);
+    *s = (searcher){.p = p, .memory = malloc(bytes), .upper = -1, .budget = HUGE_VAL};
+    if (!s->memory) {
+        koksma__fail_memory(bytes);
         return false;
     }
-    s->y = s->x + p->n + 1;
+    s->lists[0].x = s->memory;
+    s->lists[0].y = s->lists[0].x + n;
+    koksma__run_place *places = (koksma__run_place *)(s->lists[0].y + n);
+    for (int i = 1; i < DEPTH; i++) {
+        koksma__run_list_init(&s->lists[i], places + size * (size_t)(i - 1));
+    }
     return true;
 }
 
@@ -215,10 +301,16 @@ static koksma_status search_block(void *context, size_t block)
         if (first < end && !s.late) {
             gather(&s, a, last(p, a + first * COARSE, (end - first) * COARSE));
         }
+        tile waiting[LANES];
+        size_t count = 0;
         for (size_t t = first; t < end; t++) {
-            add_tile(&s, 0, (tile){a, a + t * COARSE, HUGE_VAL});
+            waiting[count++] = (tile){a, a + t * COARSE, HUGE_VAL};
+            if (count == LANES || t + 1 == end) {
+                search(&s, &s.lists[0], 0, waiting, count);
+                count = 0;
+            }
         }
-        flush_all(&s);
+        flush(&s);
     }
     koksma_status status = KOKSMA_OK;
     if (s.work > s.budget) {
@@ -226,7 +318,7 @@ static koksma_status search_block(void *context, size_t block)
     }
     p->best[block] = s.best;
     p->upper[block] = s.upper;
-    free(s.x);
+    free(s.memory);
     return status;
 }
 
@@ -246,13 +338,14 @@ static koksma_status bound_row(void *context, size_t row)
             const size_t right = b + l * p->row_side;
             set_sides(p, (tile){a, right < p->n_levels ? right : b, 0}, p->row_side, sides, (int)l);
         }
-        koksma__kernels()->extreme_strips(s.count, s.x, s.y, (const double(*)[LANES])sides, excess, deficit);
+        koksma__kernels()->extreme_strips(s.lists[0].count - 1, s.lists[0].x, s.lists[0].y,
+                                          (const double(*)[LANES])sides, excess, deficit);
         for (int l = 0; l < LANES; l++) {
             s.upper = fmax(s.upper, fmax(excess[l], deficit[l]));
         }
     }
     p->row_upper[row] = s.upper;
-    free(s.x);
+    free(s.memory);
     return KOKSMA_OK;
 }
 
@@ -289,13 +382,13 @@ static koksma_status first_value(plane *p)
     const size_t step = 1 + (p->n_levels - 1) / FIRST_LEVELS;
     for (size_t a = 0; a < p->n_levels && !s.late; a += step) {
         for (size_t b = a; b < p->n_levels && !s.late; b += step) {
-            add_tile(&s, DEPTH - 1, (tile){a, b, HUGE_VAL});
+            add_strip(&s, (tile){a, b, HUGE_VAL});
         }
-        add_tile(&s, DEPTH - 1, (tile){a, p->n_levels - 1, HUGE_VAL});
+        add_strip(&s, (tile){a, p->n_levels - 1, HUGE_VAL});
     }
-    flush_all(&s);
+    flush(&s);
     p->best[0] = s.best;
-    free(s.x);
+    free(s.memory);
     return KOKSMA_OK;
 }
 
