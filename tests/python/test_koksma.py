@@ -626,12 +626,12 @@ class Unknown(unittest.TestCase):
             path = os.path.join(folder, "odd.pbrt")
             with open(path, "w", encoding="ascii") as file:
                 file.write('Camera "perspective" Film "rgb" "integer xresolution" 4 "integer yresolution" 3 WorldBegin\n'
-                           'LightSource "spot" "rgb I" [9 9 9]\nShape "sphere"\n')
+                           'LightSource "goniometric" "rgb I" [9 9 9]\nShape "sphere"\n')
             before = koksma.render(path, spp=1)
             with koksma.refuse_unknown():
                 for call in (lambda: koksma.render(path), lambda: koksma.rank(path, ["random"]),
                              lambda: koksma.datasheet("random", scenes=[path], quick=True)):
-                    with self.assertRaisesRegex(koksma.MalformedError, "odd.pbrt:2: light 'spot'.* are refused"):
+                    with self.assertRaisesRegex(koksma.MalformedError, "odd.pbrt:2: light 'goniometric'.* are refused"):
                         call()
                 koksma.render("ball", spp=1, size=(4, 3))
             np.testing.assert_array_equal(before, koksma.render(path, spp=1))
