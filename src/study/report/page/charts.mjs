@@ -92,7 +92,7 @@ export function chartFigure(block) {
     });
     points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most: 1400 });
     legend.replaceChildren(...series.filter(s => !s.hollow).map(s => element("li", {}, swatch(s.className, s.marks, s.line), s.label)));
-    count.textContent = `Choose lines: ${slots.size} of ${labels.length} are shown, ${lines} at most${block.y.better ? "; the best at the right end to begin with" : ""}`;
+    count.textContent = `Choose lines: ${slots.size} of ${labels.length} are shown, ${lines} at most${block.y.better && labels.length > lines ? "; the best at the right end to begin with" : ""}`;
     boxes.forEach((box, label) => { box.disabled = !slots.has(label) && slots.size >= lines; });
   };
   for (const label of limited ? labels : []) {
