@@ -170,6 +170,7 @@ koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, 
         s.order[i] = (uint32_t)i;
     }
     if (allocated) {
+        s.stopped = !koksma__keep_going(run, 0);
         build(&s, 0, 0, s.n);
         search_pairs(&s, 0, 0);
     }
