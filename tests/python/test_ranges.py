@@ -128,7 +128,8 @@ class Ranges(unittest.TestCase):
         for member in koksma.patterns():
             if member.operand or not (koksma.has_ranges(member.name) and _points.is_sequence(member.name)):
                 continue
-            for first in (1 << 31, (1 << 32) - 5000):
+            end = 3 ** 20 if member.name == "ternary-quads" else 1 << 32  # its matrices have 20 columns
+            for first in (1 << 31, end - 5000):
                 whole = generate(member.name, 5000, 2, 9, first=first)
                 for at in (1, 511, 512, 4095, 4999):
                     np.testing.assert_array_equal(generate(member.name, 5000 - at, 2, 9, first=first + at), whole[at:])
