@@ -35,11 +35,15 @@ koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group
 {
     const size_t width = (size_t)frame->options->width, n = group->start[group->count];
     koksma_status status = KOKSMA_OK;
+    if (frame->sampler.prepare) {
+        frame->sampler.prepare(&frame->sampler, group->first, group->count, use, scratch);
+    }
     for (size_t p = 0; !status && p < group->count; p++) {
         const size_t pixel = group->first + p;
         const float offset[2] = {on_film ? (float)(pixel % width) : 0, on_film ? (float)(pixel / width) : 0};
         status = frame->sampler.draw(&frame->sampler, pixel, use, offset, scratch, pairs + 2 * group->start[p]);
     }
+    scratch->count = 0;
     for (size_t i = n; n && i < koksma__whole_lanes(n); i++) {
         memcpy(pairs + 2 * i, pairs + 2 * (n - 1), 2 * sizeof *pairs);
     }

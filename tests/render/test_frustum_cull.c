@@ -104,8 +104,9 @@ static void make_camera(const koksma__batch_shape *list, double offset, double h
 static void make_places(const double x[2], const double y[2], float xy[2 * KOKSMA__BLOCK])
 {
     for (int i = 0; i < KOKSMA__BLOCK; i++) {
-        const double u = i % 8 / 7.0, v = i / 8 / 7.0;
-        const bool edge = i % 8 == 0 || i % 8 == 7 || i / 8 == 0 || i / 8 == 7;
+        const int last = KOKSMA__BLOCK / 8 - 1;
+        const double u = i % 8 / 7.0, v = (double)(i / 8) / last;
+        const bool edge = i % 8 == 0 || i % 8 == 7 || i / 8 == 0 || i / 8 == last;
         xy[2 * i] = (float)(x[0] + (x[1] - x[0]) * (edge ? u : uniform(0, 1)));
         xy[2 * i + 1] = (float)(y[0] + (y[1] - y[0]) * (edge ? v : uniform(0, 1)));
     }

@@ -62,9 +62,9 @@ void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__h
     }
 }
 
-/* The loop of `aim`; rays: whether shadow rays are needed beside their light. */
+/* The loop of `aim`, which makes shadow rays, and of `light`, which adds to `sum`. */
 INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h, const float *restrict xy, int n,
-                bool rays, koksma__shadows *restrict s)
+                bool rays, koksma__shadows *restrict s, float *restrict sum)
 {
     const koksma__batch_light l = *light;
     int lit = 0;
@@ -84,6 +84,8 @@ INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h
             s->dx[i] = dx;
             s->dy[i] = dy;
             s->dz[i] = dz;
+        } else {
+            sum[i] += facing ? value : 0;
         }
     }
     return lit;
@@ -92,15 +94,13 @@ INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h
 int BATCH_NAME(aim)(const koksma__batch_light *light, const koksma__hits *h, const float *xy, int n,
                     koksma__shadows *s)
 {
-    return send(light, h, xy, n, true, s);
+    return send(light, h, xy, n, true, s, NULL);
 }
 
 int BATCH_NAME(light)(const koksma__batch_light *light, const koksma__hits *h, const float *xy, int n,
                       koksma__shadows *s, float *sum)
 {
-    const int lit = send(light, h, xy, n, false, s);
-    BATCH_NAME(add)(s, n, sum);
-    return lit;
+    return send(light, h, xy, n, false, s, sum);
 }
 
 void BATCH_NAME(add)(const koksma__shadows *shadows, int n, float *sum)

@@ -8,10 +8,10 @@
  * Here y is the point that the ray from x along w hits. The tracer estimates the integral by random paths. A path is
  * a ray and a weight beta, the product of f cos / pdf of all directions so far, with which its light counts for the
  * sample. All paths of a group advance by one vertex together, so that rays and shadow rays are intersected in blocks
- * of 64 lanes (batch.h):
+ * of lanes (batch.h):
  *
  *     queue of paths, bounce b
- *       | closest          intersects 64 rays at once: primitive, position, normal
+ *       | closest          intersects rays, a block at once: primitive, position, normal
  *       | emission         a ray that hits a light, or hits nothing, adds light:    sum += beta L m
  *       | lights           each vertex samples every light, or a chosen one; 64 shadow rays at once
  *       | scatter          each vertex samples a direction (or takes both of glass) from its material

@@ -109,7 +109,6 @@ static void draw_rooks(const koksma__float_set *set, const koksma__batch_table *
 {
     const size_t n = set->n;
     const float *strata = scratch->pairs;
-    batch->order(words, n, scratch->order);
     batch->jitter(set->corners, words + koksma__order_words(n), set->scale, offset, n, scratch->pairs);
     if (order) {
         batch->gather_both(strata, order, scratch->order, n, pairs);
@@ -128,6 +127,7 @@ static koksma_status init_rooks(const koksma_spec *spec, int dim, koksma__float_
         return init_cells(set->n, 1, false, set);
     }
     set->words = koksma__order_words(set->n) + 2 * set->n;
+    set->has_order = true;
     set->draw = draw_rooks;
     return make_strata(set);
 }

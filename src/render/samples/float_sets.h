@@ -28,6 +28,7 @@ struct koksma__float_set {
     size_t n, words;
     int dim;
     bool in_random_order; /* `draw` takes an order even where the pairing does not shuffle the points */
+    bool has_order;       /* the words begin with those of an order, which `draw` finds in scratch->order */
     float *corners;       /* pairs: the corners of cells, or the start of one stratum twice */
     float scale[2];       /* factor from a 24-bit word to an offset within a cell */
     size_t columns, rows;

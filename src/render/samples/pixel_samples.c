@@ -132,37 +132,59 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
     return status;
 }
 
-/* Permutes pairs by the random order of this pixel and set key. */
-static void put_in_order(const pixel_samples *samples, uint64_t pixel, uint32_t set_key, const float *from,
-                         koksma__sample_scratch *room, float *pairs)
+/* What a use takes of random words in each pixel: for its set in floats, or for the order of a set made otherwise. */
+typedef struct demand {
+    const koksma__float_set *floats; /* NULL: made otherwise */
+    bool shuffles, ordered;          /* ordered: the words begin with those of an order by the kernel `order` */
+    size_t counters;                 /* of four words */
+    uint32_t key;
+} demand;
+
+static demand demand_of(const pixel_samples *samples, uint32_t use)
+{
+    const int u = koksma__use_index(use);
+    const size_t n = (size_t)samples->options->spp;
+    const uint32_t set_key = koksma__set_key(&samples->places[u], use);
+    const koksma__float_set *set = samples->floats[u].draw ? &samples->floats[u] : NULL;
+    demand d = {set, set_key != KOKSMA__USE_PIXEL && samples->shuffles[u], false, 0,
+                set ? use : LANE_PAIRING + set_key};
+    d.ordered = (d.shuffles && n <= KOKSMA__ORDERED) || (set && set->in_random_order);
+    d.counters = (d.ordered ? koksma__order_words(n) : !set && d.shuffles ? n : 0) + (set ? set->words : 0);
+    d.counters = (d.counters + 3) / 4;
+    return d;
+}
+
+/* Where the orders within float sets begin. */
+static uint16_t *own_orders(const koksma__sample_scratch *room, size_t n)
+{
+    return room->order + room->room_for * n + 64;
+}
+
+/* Draws the words and makes the orders of these pixels. */
+static void draw_words(const pixel_samples *samples, const demand *d, uint64_t first, size_t count,
+                       koksma__sample_scratch *room)
 {
     const size_t n = (size_t)samples->options->spp;
-    const bool many = n > KOKSMA__ORDERED;
-    const size_t counters = many ? (n + 3) / 4 : koksma__order_words(n) / 4;
-    koksma__kernels()->draws(samples->options->seed, KOKSMA__PURPOSE_PIXEL, pixel * counters, LANE_PAIRING + set_key,
-                             counters, room->words);
-    if (many) {
-        samples->batch->shuffle(from, room->words, n, pairs);
-    } else {
-        samples->batch->order(room->words, n, room->order);
-        samples->batch->gather(from, room->order, n, pairs);
+    if (d->counters) {
+        koksma__kernels()->draws(samples->options->seed, KOKSMA__PURPOSE_PIXEL, first * d->counters, d->key,
+                                 count * d->counters, room->words);
+    }
+    for (size_t p = 0; d->ordered && p < count; p++) { /* an order may write over the next */
+        samples->batch->order(room->words + 4 * p * d->counters, n, room->order + p * n);
+    }
+    const size_t first_own = d->ordered ? koksma__order_words(n) : 0;
+    for (size_t p = 0; d->floats && d->floats->has_order && p < count; p++) {
+        samples->batch->order(room->words + 4 * p * d->counters + first_own, n, own_orders(room, n) + p * n);
     }
 }
 
-/* Draws a set in floats. The random words begin with those of its order, if it has one; the words of its points
-   follow. */
-static void draw_floats(const pixel_samples *samples, const koksma__float_set *set, uint64_t pixel, uint32_t use,
-                        bool shuffles, const float offset[2], koksma__sample_scratch *room, float *pairs)
+static void prepare(const koksma__sampler *sampler, uint64_t first, size_t count, uint32_t use,
+                    koksma__sample_scratch *room)
 {
-    const bool ordered = shuffles || set->in_random_order;
-    const size_t first = ordered ? koksma__order_words(set->n) : 0, counters = (first + set->words + 3) / 4;
-    const koksma__float_scratch scratch = {(uint32_t *)(void *)room->xs, room->pairs, room->order + set->n + 64};
-    koksma__kernels()->draws(samples->options->seed, KOKSMA__PURPOSE_PIXEL, pixel * counters, use, counters,
-                             room->words);
-    if (ordered) {
-        samples->batch->order(room->words, set->n, room->order);
-    }
-    set->draw(set, samples->batch, room->words + first, ordered ? room->order : NULL, offset, &scratch, pairs);
+    const demand d = demand_of(sampler->made, use);
+    room->first = first;
+    room->count = count < room->room_for ? count : room->room_for;
+    draw_words(sampler->made, &d, first, room->count, room);
 }
 
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
@@ -171,28 +193,39 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
     const pixel_samples *samples = sampler->made;
     const int u = koksma__use_index(use);
     const size_t n = (size_t)samples->options->spp;
-    const uint32_t set_key = koksma__set_key(&samples->places[u], use);
-    const bool shuffles = set_key != KOKSMA__USE_PIXEL && samples->shuffles[u];
+    const demand d = demand_of(samples, use);
+    const bool prepared = pixel >= room->first && pixel - room->first < room->count;
+    const size_t at = prepared ? pixel - room->first : 0;
+    const uint32_t *words = room->words + 4 * at * d.counters;
+    const uint16_t *order = d.ordered ? room->order + at * n : NULL;
     const float *from = samples->fixed[u];
-    if (samples->floats[u].draw) {
-        draw_floats(samples, &samples->floats[u], pixel, use, shuffles, offset, room, pairs);
+    if (!prepared) {
+        draw_words(samples, &d, pixel, 1, room);
+    }
+    if (d.floats) {
+        const koksma__float_scratch scratch = {(uint32_t *)(void *)room->xs, room->pairs,
+                                               own_orders(room, n) + at * n};
+        d.floats->draw(d.floats, samples->batch, words + (order ? koksma__order_words(n) : 0), order, offset,
+                       &scratch, pairs);
         return KOKSMA_OK;
     }
     if (from && samples->fixed_sets[u] > 1) {
         from += 2 * n * (koksma__random_seed(samples->options->seed, pixel, use) % samples->fixed_sets[u]);
     }
     if (!from) {
-        const koksma_status status = draw_set(sampler, pixel, use, offset, room, shuffles ? room->pairs : pairs);
-        if (status || !shuffles) {
+        const koksma_status status = draw_set(sampler, pixel, use, offset, room, d.shuffles ? room->pairs : pairs);
+        if (status || !d.shuffles) {
             return status;
         }
         from = room->pairs;
     }
-    if (!shuffles) {
+    if (!d.shuffles) {
         samples->batch->move(from, offset, n, pairs);
-        return KOKSMA_OK;
+    } else if (order) {
+        samples->batch->gather(from, order, n, pairs);
+    } else {
+        samples->batch->shuffle(from, words, n, pairs);
     }
-    put_in_order(samples, pixel, set_key, from, room, pairs);
     return KOKSMA_OK;
 }
 
@@ -411,6 +444,7 @@ static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *s
     status = generate(&options->pattern, options->seed, n, dim, &alone, xs);
     free(xs);
     sampler->draw = draw_native;
+    sampler->prepare = NULL;
     sampler->kept_dim = dim;
     sampler->kept_sets = 1;
     sampler->kept_slots = n < KOKSMA__BLOCK ? KOKSMA__BLOCK / n : 1;
@@ -421,7 +455,8 @@ koksma_status koksma__pixel_samples(const koksma_render_options *options, const 
                                     koksma__sampler *out)
 {
     pixel_samples *samples = calloc(1, sizeof *samples);
-    *out = (koksma__sampler){.most = (size_t)options->spp, .count = count, .draw = draw, .release = release};
+    *out = (koksma__sampler){
+        .most = (size_t)options->spp, .count = count, .prepare = prepare, .draw = draw, .release = release};
     KOKSMA__REQUIRE_MEMORY(samples, sizeof *samples);
     *samples = (pixel_samples){.options = options, .batch = koksma__batch(), .uses = *uses};
     out->made = samples;

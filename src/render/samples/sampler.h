@@ -26,8 +26,9 @@ enum {
 typedef struct koksma__sample_scratch {
     double *xs;
     float *pairs;
-    uint32_t *words; /* buffer for the random words of a use */
-    uint16_t *order; /* buffers for two orders of the samples of a use */
+    uint32_t *words;               /* buffer for the random words of a use in `room_for` pixels */
+    uint16_t *order;               /* buffers for two orders of its samples in each of them */
+    size_t room_for, first, count; /* `prepare` filled them for the pixels first .. first + count - 1 */
     double *kept;
     uint64_t *kept_keys;   /* the key of the set in each slot; 0: none */
     const koksma_run *run; /* the run of the sampler, or one that is never cancelled */
@@ -44,6 +45,10 @@ typedef struct koksma__sampler {
     size_t kept_sets;  /* number of groups; a native pattern counts as one group */
     size_t kept_slots; /* pixels in `kept`; the sets of a pixel are in slot pixel modulo kept_slots */
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
+    /* Draws the random words of a use for several pixels together, which takes less time, before `draw` is called for
+       each of them with the same scratch; NULL: draws alone. */
+    void (*prepare)(const struct koksma__sampler *sampler, uint64_t first, size_t count, uint32_t use,
+                    koksma__sample_scratch *room);
     /* Draws the pairs of a use in a pixel and adds the offset; the second number of a one-dimensional use has no
        meaning. */
     koksma_status (*draw)(const struct koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],

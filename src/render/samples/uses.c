@@ -142,8 +142,9 @@ int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
 koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler)
 {
     static const koksma_run alone = {.threads = 1};
-    const size_t n = sampler->most, words = (2 * n + 6 * KOKSMA__SHUFFLED) / 16 * 16;
-    const size_t orders = 2 * ((n < KOKSMA__ORDERED ? n : KOKSMA__ORDERED) + 64);
+    const size_t n = sampler->most, pixels = sampler->prepare && n && n < KOKSMA__BLOCK ? KOKSMA__BLOCK / n : 1;
+    const size_t words = (pixels * (2 * n + 4 * KOKSMA__SHUFFLED) + 2 * KOKSMA__SHUFFLED) / 16 * 16;
+    const size_t orders = 2 * pixels * (n < KOKSMA__ORDERED ? n : KOKSMA__ORDERED) + 2 * 64;
     const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
     *room = (koksma__sample_scratch){
         .xs = malloc((2 * n + 8) * sizeof *room->xs),
@@ -154,6 +155,7 @@ koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const ko
         .kept = malloc((kept + 1) * sizeof *room->kept),
         .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),
         .run = sampler->run ? sampler->run : &alone,
+        .room_for = pixels,
     };
     if (!room->xs || !room->pairs || !room->words || !room->order || !room->kept || !room->kept_keys) {
         koksma__sample_scratch_fini(room);
