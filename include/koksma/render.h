@@ -146,8 +146,8 @@ KOKSMA_API const char *koksma_scope_name(koksma_scope scope);
 KOKSMA_API const char *koksma_light_selection_name(koksma_light_selection selection);
 
 /* The number of uses. Their order in koksma_use_at is pixel, lens, time, light-choice, lobe, lobe-choice, roulette,
-   light. */
-enum { KOKSMA_N_USES = 8 };
+   distance, light. */
+enum { KOKSMA_N_USES = 9 };
 
 /* A use: a purpose for which a sample needs one or two dimensions. */
 typedef struct koksma_use {
