@@ -6,11 +6,11 @@
  *
  *     L(o, d) = T(end) L(end)   +   integral of T(s) b (integral of p(d, w) L(o + s d, w) dw) ds
  *
- * One of the two terms is sampled. A channel is chosen at random, and a distance s with the density (a + b) T(s) of that
- * channel: beyond the end of the ray the light comes from the end, else from the medium at s. The weight divides by
- * the mean over the channels of their densities (the balance heuristic), so that the estimate is unbiased in every channel,
- * whichever was chosen. Where all channels are equal the weights are exactly b / (a + b) and 1. A medium that only
- * absorbs needs no sample.
+ * One of the two terms is sampled. A channel is chosen in proportion to the weights beta that the path has so far, and a
+ * distance s with the density (a + b) T(s) of that channel: beyond the end of the ray the light comes from the end, else
+ * from the medium at s. The weight divides by the mean of the channels' densities in the same proportion (the balance
+ * heuristic), so that every channel is unbiased, whichever was chosen, and the sum of the weights beta never grows. Where all
+ * channels are equal the weights are exactly b / (a + b) and 1. A medium that only absorbs needs no sample.
  *
  * The phase function of Henyey & Greenstein (1941), with the mean cosine g between the directions before and after, is
  *
@@ -98,23 +98,39 @@ void koksma__medium_transmittance(const koksma__medium *m, const float o[3], con
     }
 }
 
-bool koksma__medium_sample(const koksma__medium *m, const float o[3], const float d[3], double end, float u, float *t,
-                           float weight[3])
+/* Chooses a channel by *u in proportion to beta and makes *u a number in [0,1) for the distance. */
+static int choose_channel(const float beta[3], double share[3], double *u)
+{
+    const double sum = (double)beta[0] + (double)beta[1] + (double)beta[2];
+    double rest = *u;
+    int chosen = 0;
+    for (int k = 0; k < 3; k++) {
+        share[k] = sum > 0 ? (double)beta[k] / sum : 1.0 / 3;
+    }
+    while (chosen < 2 && rest >= share[chosen]) {
+        rest -= share[chosen++];
+    }
+    *u = share[chosen] > 0 ? fmax(0, fmin(rest / share[chosen], 1 - 0x1p-30)) : 0;
+    return chosen;
+}
+
+bool koksma__medium_sample(const koksma__medium *m, const float o[3], const float d[3], double end, float u,
+                           const float beta[3], float *t, float weight[3])
 {
     if (m->scattering[0] == 0 && m->scattering[1] == 0 && m->scattering[2] == 0) {
         koksma__medium_transmittance(m, o, d, end, weight);
         return false;
     }
     const bool grey = extinction(m, 0) == extinction(m, 1) && extinction(m, 0) == extinction(m, 2);
-    const int channel = grey ? 0 : (int)(3 * (double)u);
-    const double rest = grey ? (double)u : 3 * (double)u - channel, chosen = extinction(m, channel);
+    double share[3] = {0}, rest = (double)u;
+    const double chosen = extinction(m, grey ? 0 : choose_channel(beta, share, &rest));
     const stretch inside = stretch_of(m, o, d, end);
     const double s = chosen > 0 ? -koksma__log(1 - rest) / chosen : (double)INFINITY;
     const bool scatters = s < inside.length;
     double passed[3], density = 0;
     for (int k = 0; k < 3; k++) {
         passed[k] = koksma__exp(-extinction(m, k) * (scatters ? s : inside.length));
-        density += (scatters ? extinction(m, k) : 1) * passed[k] / 3;
+        density += grey ? 0 : share[k] * (scatters ? extinction(m, k) : 1) * passed[k];
     }
     for (int k = 0; k < 3; k++) {
         weight[k] = (float)(grey && scatters ? m->scattering[k] / chosen

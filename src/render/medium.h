@@ -16,10 +16,10 @@ koksma_status koksma__medium_check(const koksma_scene *scene);
 void koksma__medium_transmittance(const koksma__medium *medium, const float o[3], const float d[3], double end,
                                   float out[3]);
 
-/* Samples by u where light along the ray o + t d, 0 < t < end, comes from. True: from the medium at *t; false: from
-   the end of the ray. Sets the weight of the light from there. */
+/* Samples by u where light along the ray o + t d, 0 < t < end, comes from, for a path of the weights beta. True:
+   from the medium at *t; false: from the end of the ray. Sets the weight of the light from there. */
 bool koksma__medium_sample(const koksma__medium *medium, const float o[3], const float d[3], double end, float u,
-                           float *t, float weight[3]);
+                           const float beta[3], float *t, float weight[3]);
 
 /* The phase function of Henyey & Greenstein as a material without a normal; parameter 0 is g. No scene file names it. */
 extern const koksma__bsdf koksma__phase_function;

@@ -196,7 +196,7 @@ class Agreement(unittest.TestCase):
         without a surface. After one bounce, three and hardly ever; the sky's box is grey and scatters back."""
         for name, depth, absorbed, scattered, g, light in (
                 ("single", 0, (.05, .1, .2), (.6, .5, .4), .6, "point"), ("some", 2, (.05, .1, .2), (.6, .5, .4), .6, "point"),
-                ("all", 40, (0, .1, .2), (.9, .6, 0), .3, "sphere"), ("sky", 40, (.1,) * 3, (.7,) * 3, -.4, "environment")):
+                ("all", 40, (0, .1, .2), (.9, .7, .5), .3, "sphere"), ("sky", 40, (.1,) * 3, (.7,) * 3, -.4, "environment")):
             lights = {"point": ({"kind": "point", "centre": [.4, 2.6, 1], "intensity": [5, 4, 3]},
                                 f'<emitter type="point"><point name="position" x="0.4" y="2.6" z="1"/>{rgb("intensity", "5, 4, 3")}</emitter>'),
                       "sphere": ({"kind": "sphere", "centre": [.4, 1.5, .4], "radius": .2, "radiance": [5, 4, 3], "visible": True},

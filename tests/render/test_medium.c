@@ -208,6 +208,44 @@ static void single_scattering_is_its_integral(void **state)
     }
 }
 
+/* For any weights of a path: of the rays of length 3 the mean weight of those that pass is the transmittance, that of those that are
+   scattered the part b / (a + b) of the rest, and that before the length 1 likewise; and the sum of the path's weights never
+   grows. */
+static void samples_are_unbiased_for_any_weights(void **state)
+{
+    (void)state;
+    static const double a[3] = {0, 0.3, 0.05}, b[3] = {1.5, 0.4, 0};
+    static const float betas[][3] = {{1, 1, 1}, {0.9f, 0.05f, 0.4f}, {0, 0, 2}, {1e-6f, 3, 0}, {0, 1, 0.01f}};
+    static const float o[3] = {0, 0, 0}, d[3] = {0, 0, 2};
+    const int n = 400000;
+    koksma__medium medium;
+    koksma__medium_init(&medium, a, b, 0);
+    for (size_t c = 0; c < sizeof betas / sizeof *betas; c++) {
+        double passed[3] = {0, 0, 0}, scattered[3] = {0, 0, 0}, early[3] = {0, 0, 0};
+        for (int i = 0; i < n; i++) {
+            float t, weight[3];
+            const bool scatters =
+                koksma__medium_sample(&medium, o, d, 1.5, ((float)i + 0.5f) / (float)n, betas[c], &t, weight);
+            double before = 0, after = 0;
+            for (int k = 0; k < 3; k++) {
+                (scatters ? scattered : passed)[k] += (double)weight[k] / n;
+                early[k] += scatters && t < 0.5f ? (double)weight[k] / n : 0;
+                before += (double)betas[c][k];
+                after += (double)betas[c][k] * (double)weight[k];
+            }
+            assert_true(after <= before * (1 + 1e-6));
+        }
+        for (int k = 0; k < 3; k++) {
+            const double all = a[k] + b[k], part = b[k] / all;
+            if (betas[c][k] > 1e-3f) {
+                assert_near(passed[k], exp(-3 * all), 1e-3);
+                assert_near(scattered[k], part * (1 - exp(-3 * all)), 1e-3);
+                assert_near(early[k], part * (1 - exp(-all)), 1e-3);
+            }
+        }
+    }
+}
+
 /* ---- Many bounces --------------------------------------------------------------------------------------------- */
 
 /* Where nothing absorbs, every path that leaves brings the same light, so that all samples are 1, in each channel's mean too:

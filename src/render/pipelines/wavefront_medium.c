@@ -19,9 +19,10 @@ void koksma__wavefront_travel(const koksma_scene *scene, const float *pairs, kok
     for (int i = 0; i < v->n; i++) {
         const float o[3] = {r->ox[i], r->oy[i], r->oz[i]}, d[3] = {r->dx[i], r->dy[i], r->dz[i]};
         const double end = h->primitive[i] < 0 ? (double)INFINITY : (double)h->t[i];
+        const float beta[3] = {paths->beta[0][i], paths->beta[1][i], paths->beta[2][i]};
         float t, weight[3];
         const bool scatters =
-            koksma__medium_sample(&scene->medium, o, d, end, pairs[2 * (size_t)paths->sample[i]], &t, weight);
+            koksma__medium_sample(&scene->medium, o, d, end, pairs[2 * (size_t)paths->sample[i]], beta, &t, weight);
         for (int k = 0; k < 3; k++) {
             paths->beta[k][i] *= weight[k];
         }
