@@ -501,11 +501,17 @@ static void wrong_media_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(absorption_is_exponential),         cmocka_unit_test(unscattered_light_is_exponential),
-        cmocka_unit_test(single_scattering_is_its_integral), cmocka_unit_test(white_furnaces_are_white),
-        cmocka_unit_test(emitting_enclosures_are_white),     cmocka_unit_test(strategies_agree),
-        cmocka_unit_test(phase_function_is_as_defined),      cmocka_unit_test(threads_do_not_matter),
-        cmocka_unit_test(other_integrators_refuse_media),    cmocka_unit_test(wrong_media_are_refused),
+        cmocka_unit_test(absorption_is_exponential),
+        cmocka_unit_test(unscattered_light_is_exponential),
+        cmocka_unit_test(single_scattering_is_its_integral),
+        cmocka_unit_test(samples_are_unbiased_for_any_weights),
+        cmocka_unit_test(white_furnaces_are_white),
+        cmocka_unit_test(emitting_enclosures_are_white),
+        cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(phase_function_is_as_defined),
+        cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(other_integrators_refuse_media),
+        cmocka_unit_test(wrong_media_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
