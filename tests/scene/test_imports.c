@@ -353,6 +353,27 @@ static void the_cameras_medium_is_read(void **state)
     koksma_scene_close(scene);
 }
 
+/* Points of the medium do not glow where the first triangle does: a light 1,000 away through fog shows nothing. */
+static void fog_does_not_glow(void **state)
+{
+    (void)state;
+    koksma_scene *scene =
+        opened("dark.pbrt", FOG "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"trianglemesh\" "
+                                "\"integer indices\" [0 1 2] \"point3 P\" [0 0 1000  0 1 1000  1 0 1000]");
+    koksma_render_options options = options_of(scene, "random", "path", 16, 8);
+    koksma_image image;
+    const koksma_status status = koksma_render(scene, &options, NULL, &image);
+    assert_true(scene->glows);
+    if (status != KOKSMA_UNSUPPORTED) { /* a build without Embree */
+        assert_ok(status);
+        for (size_t i = 0; i < 8 * 8 * 3; i++) {
+            assert_true(image.pixels[i] == 0);
+        }
+        koksma_image_fini(&image);
+    }
+    koksma_scene_close(scene);
+}
+
 /* ---- What is refused ---------------------------------------------------------------------------------------------- */
 
 static const struct {
@@ -465,6 +486,7 @@ int main(void)
         cmocka_unit_test(a_luminous_room_is_a_geometric_series),
         cmocka_unit_test(unknown_things_are_named),
         cmocka_unit_test(the_cameras_medium_is_read),
+        cmocka_unit_test(fog_does_not_glow),
         cmocka_unit_test(malformed_and_hostile_texts_are_refused),
         cmocka_unit_test(cut_texts_are_survived),
     };
