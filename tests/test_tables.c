@@ -178,8 +178,8 @@ static void uses_keep_their_numbers(void **state)
         const char *name;
         uint32_t number;
         int dim;
-    } all[] = {{"pixel", 0, 2}, {"lens", 1, 2},        {"time", 2, 1},     {"light-choice", 3, 1},
-               {"lobe", 4, 2},  {"lobe-choice", 5, 1}, {"roulette", 6, 1}, {"light", 1024, 2}};
+    } all[] = {{"pixel", 0, 2},       {"lens", 1, 2},     {"time", 2, 1},     {"light-choice", 3, 1}, {"lobe", 4, 2},
+               {"lobe-choice", 5, 1}, {"roulette", 6, 1}, {"distance", 7, 1}, {"light", 1024, 2}};
     assert_int_equal(sizeof all / sizeof *all, KOKSMA_N_USES);
     for (size_t i = 0; i < KOKSMA_N_USES; i++) {
         assert_string_equal(koksma_use_at(i)->name, all[i].name);

@@ -6,7 +6,7 @@ import re
 from docs_site import ROOT
 
 GALLERY = ("random", "jittered", "n-rooks", "multi-jittered", "sobol:scramble=owen")  # the patterns of the page `gallery`
-PATH_TRACED = ("mirror-block", "cornell", "cornell-glossy", "veach-plates", "ajar")  # scenes made for the integrator `path`
+PATH_TRACED = ("mirror-block", "cornell", "cornell-glossy", "veach-plates", "ajar", "fog")  # scenes made for the integrator `path`
 
 def sections(site, kind, title, what, members):
     """One page for the members of a small table: (name, line, source keys, path, picture or "")."""

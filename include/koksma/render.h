@@ -13,10 +13,10 @@
  *
  * A sample has one or two dimensions for each purpose: the position in the pixel and, if the scene needs them, the
  * position on the lens, the time, a point on each light, the choice of a light, the direction of scattering, its
- * kind (reflection or transmission), and Russian roulette. Such a purpose, with its sample dimensions, is called a
- * use; koksma_use_at lists the uses. By default each use has its own point set, which is generated anew for every
- * pixel; the options `scope` and `pairing` change this. Several uses can form a group that shares the dimensions of
- * one set.
+ * kind (reflection or transmission), Russian roulette, and the distance at which a medium scatters. Such a
+ * purpose, with its sample dimensions, is called a use; koksma_use_at lists the uses. By default each use has its own
+ * point set, which is generated anew for every pixel; the options `scope` and `pairing` change this. Several uses can
+ * form a group that shares the dimensions of one set.
  */
 #ifndef KOKSMA_RENDER_H
 #define KOKSMA_RENDER_H
@@ -146,8 +146,8 @@ KOKSMA_API const char *koksma_scope_name(koksma_scope scope);
 KOKSMA_API const char *koksma_light_selection_name(koksma_light_selection selection);
 
 /* The number of uses. Their order in koksma_use_at is pixel, lens, time, light-choice, lobe, lobe-choice, roulette,
-   light. */
-enum { KOKSMA_N_USES = 8 };
+   distance, light. */
+enum { KOKSMA_N_USES = 9 };
 
 /* A use: a purpose for which a sample needs one or two dimensions. */
 typedef struct koksma_use {

@@ -4,7 +4,7 @@ compiler's."""
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_longlong,
                     c_size_t, c_uint, c_uint64, c_void_p, sizeof)
 
-MAX_PARAMS, MAX_MODIFIERS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 8, 512, 16, 8
+MAX_PARAMS, MAX_MODIFIERS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 8, 512, 16, 9
 MAX_USE_GROUPS = N_USES // 2
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
 MAX_SPP, MAX_IMAGE_SIDE, MAX_DEPTH, MAX_AOVS = 1 << 20, 65536, 64, 72

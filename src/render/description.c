@@ -100,7 +100,8 @@ static void add_pixels(koksma_scene *scene)
 /* Computes the members of a scene that follow from others, such as whether it has colours. */
 void koksma__scene_finish(koksma_scene *scene)
 {
-    scene->grey = is_grey(scene->background) && is_grey(scene->ambient);
+    scene->grey = is_grey(scene->background) && is_grey(scene->ambient) && is_grey(scene->medium.absorption) &&
+                  is_grey(scene->medium.scattering);
     for (size_t i = 0; i < scene->n_materials; i++) {
         const koksma__material *m = &scene->materials[i];
         scene->grey &= is_grey(m->albedo[0]) && is_grey(m->albedo[1]) && has_grey_values(m) &&

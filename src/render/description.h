@@ -75,6 +75,15 @@ typedef struct koksma__material {
     char dark[256]; /* why its emission is ignored */
 } koksma__material;
 
+/* A homogeneous medium in the box from low to high, which may be infinite. Coefficients are per unit of length; `phase`
+   is the material of its points, whose parameter 0 is g and whose albedo is that of single scattering. */
+typedef struct koksma__medium {
+    bool is_there;
+    double absorption[3], scattering[3];
+    double low[3], high[3];
+    koksma__material phase;
+} koksma__medium;
+
 /* A flat light emits on the side to which its normal points. A surface of albedo a reflects, of a rectangle's light,
    a * power * the mean over the light of cos cos / distance^2, where power = luminance * area / pi. */
 typedef struct koksma__light {
@@ -130,7 +139,8 @@ struct koksma_scene {
     koksma__camera camera;
     double background[3]; /* radiance of a ray that hits nothing */
     double ambient[3];    /* ambient light: irradiance / pi, without shadows */
-    double clamp;         /* samples are clamped to this; infinity: no clamping */
+    koksma__medium medium;
+    double clamp; /* samples are clamped to this; infinity: no clamping */
     koksma__material *materials;
     koksma__shape *shapes;
     koksma__light *lights;

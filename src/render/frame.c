@@ -68,15 +68,16 @@ static koksma__batch_material make_material(const koksma__material *from)
 
 static koksma_status make_materials(koksma__frame *f)
 {
-    const size_t n = f->scene->n_materials;
+    const size_t n = f->scene->n_materials + f->scene->medium.is_there;
     f->materials = calloc(n + 1, sizeof *f->materials);
     f->shading_materials = calloc(n + 1, sizeof *f->shading_materials);
     if (!f->shading_materials || !f->materials) {
         return koksma__fail_memory((n + 1) * sizeof *f->shading_materials);
     }
     for (size_t i = 0; i < n; i++) {
-        f->materials[i] = make_material(&f->scene->materials[i]);
-        f->shading_materials[i] = koksma__shading_material_of(&f->scene->materials[i]);
+        const koksma__material *from = i < f->scene->n_materials ? &f->scene->materials[i] : &f->scene->medium.phase;
+        f->materials[i] = make_material(from);
+        f->shading_materials[i] = koksma__shading_material_of(from);
     }
     return KOKSMA_OK;
 }
@@ -84,7 +85,7 @@ static koksma_status make_materials(koksma__frame *f)
 /* Copies the materials to arrays for blocks of rays. */
 static koksma_status make_lane_materials(koksma__frame *f)
 {
-    const size_t n = f->scene->n_materials + 1;
+    const size_t n = f->scene->n_materials + f->scene->medium.is_there + 1;
     koksma__lane_materials *t = &f->lane_materials;
     float **const columns[] = {&t->albedo[0][0],  &t->albedo[0][1],  &t->albedo[0][2],  &t->albedo[1][0],
                                &t->albedo[1][1],  &t->albedo[1][2],  &t->parameters[0], &t->parameters[1],
@@ -154,7 +155,8 @@ koksma_light_selection koksma__light_selection(const koksma_scene *scene, const 
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options)
 {
     const koksma__integrator_flags *flags = options->integrator->flags;
-    unsigned lobes = 0;
+    const bool medium = scene->medium.is_there && flags->media;
+    unsigned lobes = medium ? scene->medium.phase.bsdf->lobes : 0;
     for (size_t i = 0; i < scene->n_materials; i++) {
         lobes |= scene->materials[i].bsdf->lobes;
     }
@@ -167,6 +169,7 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
                               .time = scene->moves,
                               .lights = flags->areas ? lights : 0,
                               .light_choice = one,
+                              .distance = medium,
                               .vertices = lobes & flags->followed ? depth_of(options) + 1 + past : 1};
 }
 
@@ -278,6 +281,9 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     *out = (koksma__frame){.scene = scene, .options = options};
     KOKSMA__TRY(check(options));
     out->flags = options->integrator->flags;
+    KOKSMA__FAIL_IF(scene->medium.is_there && !out->flags->media && !out->flags->replace_scene, KOKSMA_ARGUMENT,
+                    "integrator %s leaves out the scene's medium; path and its variants render it",
+                    options->integrator->name);
     out->depth = depth_of(options);
     out->light_selection = koksma__light_selection(scene, options);
     out->together = KOKSMA__BLOCK;

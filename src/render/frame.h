@@ -36,6 +36,7 @@ typedef struct koksma__frame {
        origins[2] */
     float origins[3][3];
     koksma__lights lights;
+    /* those of the scene, then that of the medium, if there is one */
     koksma__batch_material *materials;
     koksma__shading_material *shading_materials;
     koksma__lane_materials lane_materials;

@@ -17,6 +17,7 @@
 #include "image/formats.h"
 #include "image/registry.h"
 #include "render/materials/materials.h"
+#include "render/medium.h"
 #include "render/shapes/shapes.h"
 #include "scene/parse.h"
 
@@ -232,7 +233,7 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
     const uint64_t parts[2] = {scene->hash, koksma__hash(&radiance, sizeof radiance)};
     scene->hash = koksma__hash(parts, sizeof parts);
     koksma__scene_finish(scene);
-    return KOKSMA_OK;
+    return koksma__medium_check(scene);
 }
 
 koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_scene *scene)

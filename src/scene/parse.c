@@ -12,6 +12,7 @@
 
 #include "core/vector.h"
 #include "render/lights/lights.h"
+#include "render/medium.h"
 #include "render/shapes/shapes.h"
 
 /* ---- The camera ----------------------------------------------------------------------------------------- */
@@ -239,11 +240,50 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
     return status;
 }
 
+/* ---- The medium ------------------------------------------------------------------------------------------- */
+
+/* Reads the medium, after the lights, because not every light passes a medium without bounds. */
+static koksma_status parse_medium(const field *root, koksma_scene *scene)
+{
+    field f;
+    double absorption[3] = {0}, scattering[3] = {0}, g = 0, low[3], high[3];
+    if (!koksma__json_has(root, "medium")) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = koksma__json_member(root, "medium", &f);
+    status = status ? status : koksma__json_only(&f, KEYS("sigma_a", "sigma_s", "g", "low", "high"));
+    status = status ? status : koksma__parse_colour(&f, "sigma_a", false, BRIGHT, absorption);
+    status = status ? status : koksma__parse_colour(&f, "sigma_s", false, BRIGHT, scattering);
+    status = status ? status : koksma__json_get_number(&f, "g", false, -0.999, 0.999, &g);
+    if (status) {
+        return status;
+    }
+    bool is_empty = true;
+    for (int k = 0; k < 3; k++) {
+        is_empty &= absorption[k] == 0 && scattering[k] == 0;
+    }
+    KOKSMA__JSON_FAIL_IF(is_empty, &f, "'sigma_a' or 'sigma_s' must be above 0");
+    koksma__medium_init(&scene->medium, absorption, scattering, g);
+    if (koksma__json_has(&f, "low") || koksma__json_has(&f, "high")) {
+        status = koksma__parse_point(&f, "low", low);
+        status = status ? status : koksma__parse_point(&f, "high", high);
+        for (int k = 0; !status && k < 3; k++) {
+            KOKSMA__JSON_FAIL_IF(!(high[k] - low[k] > TINY), &f, "'low' must be below 'high' in every coordinate");
+            scene->medium.low[k] = low[k];
+            scene->medium.high[k] = high[k];
+        }
+    }
+    if (!status && (status = koksma__medium_check(scene))) {
+        status = koksma__json_fail_in(&f, status);
+    }
+    return status;
+}
+
 static koksma_status parse_root(const char *name, const field *root, koksma_scene *scene)
 {
     const char *title = "", *note;
     koksma_status status = koksma__json_only(root, KEYS("title", "note", "image", "camera", "background", "ambient",
-                                                        "clamp", "materials", "shapes", "lights"));
+                                                        "clamp", "medium", "materials", "shapes", "lights"));
     status = status ? status : koksma__json_get_text(root, "title", false, &title);
     snprintf(scene->title, sizeof scene->title, "%s", title);
     scene->clamp = INFINITY;
@@ -254,6 +294,7 @@ static koksma_status parse_root(const char *name, const field *root, koksma_scen
     status = status ? status : koksma__parse_colour(root, "ambient", false, BRIGHT, scene->ambient);
     status = status ? status : koksma__json_get_number(root, "clamp", false, TINY, BRIGHT, &scene->clamp);
     status = status ? status : parse_lists(name, root, scene);
+    status = status ? status : parse_medium(root, scene);
     if (!status) {
         koksma__scene_finish(scene);
     }

@@ -2,7 +2,8 @@
 /*
  * Reads scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4). A scene is a list of
  * directives, each with a text and parameters, that change a graphics state or use it to add a shape or light.
- * pbrt_values.c converts parameters to colours, materials and meshes. Media, motion and curves are not read;
+ * pbrt_values.c converts parameters to colours, materials and meshes. Motion and curves are not read, and
+ * of media only the homogeneous one in which the camera stands;
  * directives that do not describe the scene (Sampler, Integrator, ...) are ignored, because the program's own
  * options choose them.
  * Long because one file knows pbrt's directives.
@@ -18,6 +19,7 @@
 #include "core/vector.h"
 #include "render/fields.h"
 #include "render/lights/lights.h"
+#include "render/medium.h"
 #include "scene/import_shapes.h"
 #include "scene/pbrt_values.h"
 
@@ -26,12 +28,18 @@ enum { MOST_INCLUDED = 16, MOST_STATES = 1024 };
 typedef struct graphics {
     double matrix[12];
     koksma__import_surface surface;
+    char outside[256]; /* the medium outside shapes */
 } graphics;
 
 typedef struct named_space {
     char name[64];
     double matrix[12];
 } named_space;
+
+typedef struct named_medium {
+    char name[256];
+    double absorption[3], scattering[3], g;
+} named_medium;
 
 typedef struct object {
     char name[256];
@@ -47,13 +55,15 @@ typedef struct reader {
     size_t n_stack;
     named_space *spaces;
     object *objects;
-    size_t n_spaces, n_objects;
+    named_medium *media;
+    size_t n_spaces, n_objects, n_media;
     object *open; /* the object to which shapes are added, or NULL */
     bool fixed;   /* only transforms of the end time are being given, which are ignored */
     koksma__pbrt_parameters *parameters;
     /* The camera, which is completed when the aspect ratio of the film is known. */
     bool has_camera;
     koksma__text_place camera_place;
+    char camera_medium[256];
     double camera[12], fov_deg, lens_radius, focus_distance;
     bool orthographic, has_window;
     double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
@@ -402,6 +412,7 @@ static koksma_status take_camera(reader *r, source *s)
     }
     r->has_camera = true;
     r->camera_place = p->place;
+    snprintf(r->camera_medium, sizeof r->camera_medium, "%s", r->now.outside);
     r->fov_deg = koksma__pbrt_number(p, "fov", 90);
     r->lens_radius = koksma__pbrt_number(p, "lensradius", 0);
     r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
@@ -485,20 +496,37 @@ static koksma_status take_options(reader *r, source *s)
 
 static koksma_status take_medium(reader *r, source *s)
 {
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media are ignored"));
-    return take_options(r, s);
+    const koksma__pbrt_parameters *p = r->parameters;
+    named_medium medium = {.g = 0};
+    KOKSMA__TRY(koksma__pbrt_text(s, medium.name, sizeof medium.name));
+    KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
+    if (strcmp(koksma__pbrt_word(p, "type", ""), "homogeneous") != 0 || koksma__pbrt_find(p, "preset") ||
+        koksma__pbrt_find(p, "Le")) {
+        return koksma__import_unknown(r->im, p->place, "media that vary, emit or are presets are ignored");
+    }
+    KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, "sigma_a", medium.absorption));
+    KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, "sigma_s", medium.scattering));
+    medium.g = fmax(-0.999, fmin(koksma__pbrt_number(p, "g", 0), 0.999));
+    named_medium *to = koksma__add_one(&r->media, &r->n_media, sizeof *to);
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    *to = medium;
+    return KOKSMA_OK;
 }
 
+/* Reads the media inside and outside the shapes that follow; a single name is that of both. */
 static koksma_status take_interface(reader *r, source *s)
 {
-    char name[256];
+    char inside[256], outside[256];
     koksma__pbrt_token t;
-    KOKSMA__TRY(koksma__import_unknown(r->im, s->place, "media are ignored"));
-    for (int i = 0; i < 2; i++) {
-        KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
-        KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(s, name, sizeof name) : KOKSMA_OK);
-    }
-    return KOKSMA_OK;
+    KOKSMA__TRY(koksma__pbrt_text(s, inside, sizeof inside));
+    memcpy(outside, inside, sizeof outside);
+    KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
+    KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(s, outside, sizeof outside) : KOKSMA_OK);
+    memcpy(r->now.outside, outside, sizeof outside);
+    return (*inside && strcmp(inside, outside) != 0) || (r->has_camera && strcmp(outside, r->camera_medium) != 0)
+               ? koksma__import_unknown(r->im, s->place,
+                                        "media of shapes are ignored: the camera's medium is everywhere")
+               : KOKSMA_OK;
 }
 
 static koksma_status take_attribute(reader *r, source *s)
@@ -640,6 +668,25 @@ static koksma_status set_camera(reader *r)
     return koksma__import_camera(r->im, r->camera_place, r->camera, 1, &camera);
 }
 
+/* Fills the scene with the medium in which the camera stands. */
+static koksma_status set_medium(reader *r)
+{
+    koksma__medium *to = &r->im->scene->medium;
+    for (size_t i = r->n_media; *r->camera_medium && i-- > 0;) {
+        const named_medium *m = &r->media[i];
+        if (!strcmp(m->name, r->camera_medium)) {
+            koksma__medium_init(to, m->absorption, m->scattering, m->g);
+            break;
+        }
+    }
+    if (koksma__medium_check(r->im->scene)) {
+        to->is_there = false;
+        return koksma__import_unknown(r->im, r->camera_place,
+                                      "the camera's medium is ignored: no light of distant lights would pass it");
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t size)
 {
     reader r = {.im = im, .values = {.im = im}, .now.surface.material = -2};
@@ -654,10 +701,11 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
     status = status ? status : read_source(&r, &s);
     status = status ? status : set_camera(&r);
+    status = status ? status : set_medium(&r);
     for (size_t i = 0; i < r.n_objects; i++) {
         free(r.objects[i].items);
     }
-    KOKSMA__FREE(r.objects, r.spaces, r.stack, r.parameters);
+    KOKSMA__FREE(r.objects, r.spaces, r.media, r.stack, r.parameters);
     koksma__pbrt_scene_fini(&r.values);
     return status;
 }

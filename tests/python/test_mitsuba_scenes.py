@@ -191,6 +191,33 @@ class Agreement(unittest.TestCase):
         self.of_text(scene(rectangle(texture, '<scale value="1.5"/>', turn("x", -90)) + '<emitter type="constant"/>' +
                            ball(diffuse("0.5")), eye="0.5, 5, 2", target="0, 0, 0"))
 
+    def test_medium(self):
+        """A box of haze around a ball on a floor, before a light in it, one outside and a sky, as our JSON and as Mitsuba's cube
+        without a surface. After one bounce, three and hardly ever; the sky's box is grey and scatters back."""
+        for name, depth, absorbed, scattered, g, light in (
+                ("single", 0, (.05, .1, .2), (.6, .5, .4), .6, "point"), ("some", 2, (.05, .1, .2), (.6, .5, .4), .6, "point"),
+                ("all", 40, (0, .1, .2), (.9, .7, .5), .3, "sphere"), ("sky", 40, (.1,) * 3, (.7,) * 3, -.4, "environment")):
+            lights = {"point": ({"kind": "point", "centre": [.4, 2.6, 1], "intensity": [5, 4, 3]},
+                                f'<emitter type="point"><point name="position" x="0.4" y="2.6" z="1"/>{rgb("intensity", "5, 4, 3")}</emitter>'),
+                      "sphere": ({"kind": "sphere", "centre": [.4, 1.5, .4], "radius": .2, "radiance": [5, 4, 3], "visible": True},
+                                 f'<shape type="sphere"><float name="radius" value="0.2"/><point name="center" x="0.4" y="1.5" z="0.4"/>{emitter("5, 4, 3")}</shape>'),
+                      "environment": ({"kind": "environment", "radiance": [1, .8, .6]}, f'<emitter type="constant">{rgb("radiance", "1, 0.8, 0.6")}</emitter>')}[light]
+            ours = {"camera": {"eye": [0, 1, 6], "target": [0, 1, 0], "fov_deg": 39}, "image": {"width": SIDE, "height": SIDE},
+                    "medium": {"sigma_a": absorbed, "sigma_s": scattered, "g": g, "low": [-1.5, -.3, -1.2], "high": [1.5, 2.1, 1.2]},
+                    "materials": [{"name": "m", "kind": "lambert", "albedo": .6}],
+                    "shapes": [{"kind": "sphere", "centre": [0, .7, 0], "radius": .6, "material": "m"},
+                               {"kind": "rectangle", "centre": [0, 0, 0], "normal": [0, 1, 0], "half": [3, 3], "material": "m"}], "lights": [lights[0]]}
+            haze = [f"{a + b}" for a, b in zip(absorbed, scattered)], [f"{b / (a + b)}" for a, b in zip(absorbed, scattered)]
+            cube = (f'<shape type="cube"><transform name="to_world"><scale x="1.5" y="1.2" z="1.2"/>{move(y=.9)}</transform><bsdf type="null"/>'
+                    f'<medium name="interior" type="homogeneous">{rgb("sigma_t", ", ".join(haze[0]))}{rgb("albedo", ", ".join(haze[1]))}'
+                    f'<phase type="hg"><float name="g" value="{g}"/></phase></medium></shape>')
+            floor = rectangle(diffuse("0.6"), '<scale value="3"/>', turn("x", -90))
+            text = scene(cube + floor + ball(diffuse("0.6")) + lights[1], depth=depth + 2).replace('"path"', '"volpath"')
+            path = self.path("haze.json")
+            pathlib.Path(path).write_text(json.dumps(ours), encoding="utf-8")
+            with self.subTest(light=name):
+                self.agree(mi.load_string(text), path, depth=depth)
+
 
 if __name__ == "__main__":
     unittest.main()

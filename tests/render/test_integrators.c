@@ -144,7 +144,13 @@ static size_t compare(const koksma_scene *scene, const koksma_integrator *in, co
     const koksma__pipeline *best = NULL;
     size_t compared = 0;
     koksma_render_options options = options_of(scene, "jittered", in->name, 4, 16);
-    if (((const koksma__integrator_flags *)in->flags)->open) {
+    const koksma__integrator_flags *flags = in->flags;
+    if (scene->medium.is_there && !flags->media && !flags->replace_scene) {
+        assert_int_equal(koksma__frame_open(scene, &options, NULL, &frame), KOKSMA_ARGUMENT);
+        koksma__frame_close(&frame);
+        return 0;
+    }
+    if (flags->open) {
         options.depth = 0; /* no records, which take long */
     }
     assert_ok(koksma__frame_open(scene, &options, NULL, &frame));

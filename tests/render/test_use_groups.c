@@ -431,7 +431,7 @@ static void groups_that_cannot_be_are_refused(void **state)
     REFUSED(KOKSMA_ARGUMENT, bad.pairing = KOKSMA_PAIRING_NATIVE, "'pixel+time' has another");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 1, "a group of 1 uses");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 99, "a group of 99 uses");
-    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = KOKSMA_N_USES, "use number 8 of a group");
+    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = KOKSMA_N_USES, "use number 9 of a group");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = -1, "use number -1 of a group");
     REFUSED(KOKSMA_DIM, bad.groups[0].uses[1] = 1, "4 dimensions");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[3] = bad.groups[0], "use pixel has two patterns");

@@ -290,6 +290,13 @@ static void a_luminous_room_is_a_geometric_series(void **state)
     "</scene>"
 #define BALL(bsdf) MITSUBA("<shape type=\"sphere\">" bsdf "</shape>")
 
+#define FOG                                                                                                          \
+    "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.1 0.2 0.3] \"rgb sigma_s\" [0 0.1 "  \
+    "0.2] "                                                                                                          \
+    "\"float g\" 0.4 \"float scale\" 2 MediumInterface \"\" \"fog\" LookAt 0 0 5  0 0 0  0 1 0 Camera "              \
+    "\"perspective\" Film "                                                                                          \
+    "\"rgb\" " SIZE " WorldBegin\n"
+
 /* A text, and what is said of it; NULL: nothing. */
 static const struct {
     const char *name, *text, *said;
@@ -309,7 +316,18 @@ static const struct {
     {"a.pbrt", PBRT "LightSource \"goniometric\" \"rgb I\" [1 2 3]", "a.pbrt:2: light 'goniometric'"},
     {"a.pbrt", PBRT "LightSource \"distant\" \"blackbody L\" 5000", NULL},
     {"a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 1 500 2 600 3]", "a.pbrt:2: a sampled spectrum"},
-    {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"", "a.pbrt:2: media"},
+    {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"", NULL},
+    {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"uniformgrid\" Shape \"sphere\"",
+     "a.pbrt:2: media that vary, emit or are presets"},
+    {"a.pbrt", PBRT "MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" \"string preset\" \"Wholemilk\"",
+     "a.pbrt:2: media that vary, emit or are presets"},
+    {"a.pbrt",
+     PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\nMediumInterface \"fog\" \"\" Shape \"sphere\"",
+     "a.pbrt:3: media of shapes"},
+    {"a.pbrt", FOG "Shape \"sphere\"", NULL},
+    {"a.pbrt", FOG "MediumInterface \"\" \"fog\" Shape \"sphere\"", NULL},
+    {"a.pbrt", FOG "MediumInterface \"\" Shape \"sphere\"", "a.pbrt:2: media of shapes"},
+    {"a.pbrt", FOG "LightSource \"infinite\" \"rgb L\" [1 1 1]", "a.pbrt:1: the camera's medium is ignored"},
     {"a.pbrt", "Camera \"orthographic\" Film \"rgb\" " SIZE " WorldBegin Shape \"sphere\"", NULL},
     {"a.pbrt", "\nCamera \"orthographic\" \"float screenwindow\" [0 1 0 1] Film \"rgb\" " SIZE " WorldBegin",
      "a.pbrt:2: the screen window has another shape"},
@@ -362,6 +380,46 @@ static void unknown_things_are_named(void **state)
         }
         koksma_scene_close(scene);
     }
+}
+
+/* The camera's medium of pbrt-v4 is the scene's, everywhere. */
+static void the_cameras_medium_is_read(void **state)
+{
+    (void)state;
+    koksma_scene *scene = opened("fog.pbrt", FOG "Shape \"sphere\"");
+    const koksma__medium *m = &scene->medium;
+    assert_true(m->is_there);
+    for (int k = 0; k < 3; k++) {
+        assert_near(m->absorption[k], 2 * 0.1 * (k + 1), 1e-6);
+        assert_near(m->scattering[k], 2 * 0.1 * k, 1e-6);
+        assert_true(isinf(m->low[k]) && isinf(m->high[k]));
+    }
+    assert_near(m->phase.values[0], 0.4, 1e-6);
+    koksma_scene_close(scene);
+    scene = opened("clear.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"");
+    assert_false(scene->medium.is_there);
+    koksma_scene_close(scene);
+}
+
+/* Points of the medium do not glow where the first triangle does: a light 1,000 away through fog shows nothing. */
+static void fog_does_not_glow(void **state)
+{
+    (void)state;
+    koksma_scene *scene =
+        opened("dark.pbrt", FOG "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"trianglemesh\" "
+                                "\"integer indices\" [0 1 2] \"point3 P\" [0 0 1000  0 1 1000  1 0 1000]");
+    koksma_render_options options = options_of(scene, "random", "path", 16, 8);
+    koksma_image image;
+    const koksma_status status = koksma_render(scene, &options, NULL, &image);
+    assert_true(scene->glows);
+    if (status != KOKSMA_UNSUPPORTED) { /* a build without Embree */
+        assert_ok(status);
+        for (size_t i = 0; i < 8 * 8 * 3; i++) {
+            assert_true(image.pixels[i] == 0);
+        }
+        koksma_image_fini(&image);
+    }
+    koksma_scene_close(scene);
 }
 
 /* ---- What is refused ---------------------------------------------------------------------------------------------- */
@@ -473,9 +531,14 @@ static void cut_texts_are_survived(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_scene_is_one_picture), cmocka_unit_test(orthographic_cameras_show_their_height),
-        cmocka_unit_test(spots_light_a_circle),     cmocka_unit_test(a_luminous_room_is_a_geometric_series),
-        cmocka_unit_test(unknown_things_are_named), cmocka_unit_test(malformed_and_hostile_texts_are_refused),
+        cmocka_unit_test(one_scene_is_one_picture),
+        cmocka_unit_test(orthographic_cameras_show_their_height),
+        cmocka_unit_test(spots_light_a_circle),
+        cmocka_unit_test(a_luminous_room_is_a_geometric_series),
+        cmocka_unit_test(unknown_things_are_named),
+        cmocka_unit_test(the_cameras_medium_is_read),
+        cmocka_unit_test(fog_does_not_glow),
+        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
         cmocka_unit_test(cut_texts_are_survived),
     };
     strcpy(folder, "/tmp/koksma-imports-XXXXXX");

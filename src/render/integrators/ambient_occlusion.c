@@ -36,6 +36,7 @@ koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_
         memset(l->radiance, 0, sizeof l->radiance);
         l->visible = false;
     }
+    copy->medium.is_there = false;
     for (int k = 0; k < 3; k++) {
         copy->background[k] = 1;
         copy->ambient[k] = 0;

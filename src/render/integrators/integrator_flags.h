@@ -15,6 +15,7 @@ typedef struct koksma__integrator_flags {
     bool shadows;
     bool ambient;                /* the scene's ambient light replaces light between diffuse surfaces */
     bool branches;               /* glass sends both a reflected and a refracted ray */
+    bool media;                  /* rays are absorbed and scattered by the scene's medium */
     bool roulette;               /* paths of low weight end by Russian roulette */
     koksma__light_weight weight; /* the weight of light that both light sampling and a followed lobe can find */
     /* true if the integrator converges to a value that differs from its formula, even without a depth limit */

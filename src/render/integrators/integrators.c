@@ -88,7 +88,7 @@ static const koksma__integrator_flags ambient_occlusion = {.followed = KOKSMA__L
  */
 #define PATH                                                                                                         \
     .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE, .areas = true, .shadows = true,  \
-    .roulette = true
+    .media = true, .roulette = true
 static const koksma__integrator_flags path = {PATH};
 
 /*

@@ -3,7 +3,7 @@
  * Estimates how much light each light may give to a point, by the formula of koksma__batch_lights (batch.h):
  * `estimate` for all lights at one point, `choose` to select one light at each point of a block. An estimate is never
  * 0 for a light that can reach the point: cosines are at least LEAST, because a light whose centre is at the horizon
- * is half above it.
+ * is half above it. A point with the normal 0 is in a medium, where light from all directions counts in full.
  */
 #include <math.h>
 
@@ -21,11 +21,12 @@ INLINE float estimate_at(const koksma__batch_lights *restrict l, int i, float px
     const float up = nx * dx + ny * dy + nz * dz;
     const float facing = -(l->nx[i] * dx + l->ny[i] * dy + l->nz[i] * dz);
     const float down = l->flat[i] > 0 ? facing : distance;
-    const float at_hit = up * scale > LEAST ? up * scale : LEAST;
+    const int apart = (nx == 0) & (ny == 0) & (nz == 0);
+    const float cosine = apart ? 1 : up * scale, at_hit = cosine > LEAST ? cosine : LEAST;
     const float at_light = down * scale > LEAST ? down * scale : LEAST;
     const int seen = (up + reach > 0) & (down > 0);
     const float here = l->power[i] * at_hit * at_light * (scale * scale);
-    const float away = -(l->nx[i] * nx + l->ny[i] * ny + l->nz[i] * nz);
+    const float away = apart ? 1 : -(l->nx[i] * nx + l->ny[i] * ny + l->nz[i] * nz);
     return (seen ? here : 0) + l->far[i] * (away > 0 ? away : 0) + l->fixed[i];
 }
 

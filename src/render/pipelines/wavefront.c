@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The wavefront path tracer, which renders any scene with any integrator (Laine, Karras & Aila 2013 describe the idea
- * for GPUs). For each sample of the film it estimates the rendering equation (Kajiya 1986)
+ * for GPUs). Long because all stages of a vertex share its block of lanes. For each sample of the film it estimates
+ * the rendering equation (Kajiya 1986)
  *
  *     L(x, out) = E(x, out) + integral of f(w, out) L(y, -w) cos dw
  *
@@ -11,9 +12,9 @@
  * of lanes (batch.h):
  *
  *     queue of paths, bounce b
- *       | closest          intersects rays, a block at once: primitive, position, normal
+ *       | closest          intersects rays, a block at once: primitive, position, normal; a medium may scatter a ray first
  *       | emission         a ray that hits a light, or hits nothing, adds light:    sum += beta L m
- *       | lights           each vertex samples every light, or a chosen one; 64 shadow rays at once
+ *       | lights           each vertex samples every light, or a chosen one; a block of shadow rays at once
  *       | scatter          each vertex samples a direction (or takes both of glass) from its material
  *     queue of paths, bounce b + 1
  *
@@ -42,6 +43,7 @@
 #include "render/aov.h"
 #include "render/lens.h"
 #include "render/pipelines/pipelines.h"
+#include "render/pipelines/wavefront_medium.h"
 #include "render/texture.h"
 #include "render/vector3.h"
 
@@ -441,6 +443,17 @@ static void note_aovs(const koksma__trace *trace, const koksma__vertices *v, int
     }
 }
 
+static koksma_status travel(const koksma__trace *trace, koksma__paths *paths, koksma__vertices *v)
+{
+    const uint32_t use = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE + KOKSMA__USE_DISTANCE;
+    const float *us;
+    if (trace->frame->scene->medium.is_there) {
+        KOKSMA__TRY(koksma__wavefront_draw(trace, use, &us));
+        koksma__wavefront_travel(trace->frame->scene, us, paths, v);
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status trace_block(const koksma__trace *trace, koksma__paths *paths, int n, koksma__values *values)
 {
     static const float black[3] = {0, 0, 0};
@@ -458,6 +471,7 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     v->surfaces.table = &frame->lane_materials;
     fill_lanes(paths, n, v->whole);
     frame->geometry.closest(&frame->geometry, &paths->rays, trace->bounce ? paths->from : NULL, v->whole, hits);
+    KOKSMA__TRY(travel(trace, paths, v));
     if (frame->scene->moves) {
         memcpy(hits->time, paths->rays.time, sizeof hits->time);
     }
@@ -480,6 +494,7 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     for (int i = 0; values->albedo && trace->bounce == trace->first && i < n; i++) {
         note_first(values, v, i);
     }
+    koksma__wavefront_detach(frame->scene, v);
     note_aovs(trace, v, trace->bounce, before, values);
     if (values->parts && !trace->bounce) {
         koksma__aov_note(frame, v, values);

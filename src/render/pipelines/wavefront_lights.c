@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "render/pipelines/wavefront.h"
+#include "render/pipelines/wavefront_medium.h"
 
 static void choose(const koksma__trace *trace, const koksma__vertices *v, const float *us, koksma__light_lanes *l)
 {
@@ -85,6 +86,7 @@ static void add_samples(const koksma__trace *trace, koksma__vertices *v, const k
         frame->geometry.occlude(&frame->geometry, &v->hits, v->whole, &shadows);
         values->rays += (uint64_t)sampled;
     }
+    koksma__wavefront_attenuate(frame->scene, v, &shadows, reflected);
     frame->batch->collect(&shadows, reflected, v);
 }
 

@@ -212,6 +212,9 @@ static size_t list_uses(const koksma__use_list *uses, set *list)
             ADD(base + KOKSMA__USE_LOBE_CHOICE);
             ADD(base + KOKSMA__USE_ROULETTE);
         }
+        if (uses->distance) {
+            ADD(base + KOKSMA__USE_DISTANCE);
+        }
     }
 #undef ADD
     return n;

@@ -208,7 +208,7 @@ static koksma_status parse_uses(const char *part, const char *text, size_t lengt
         const int use = find_use(at, name);
         KOKSMA__FAIL_IF(use < 0, KOKSMA_UNKNOWN,
                         "%s: no such use; a sample is spent on pixel, lens, time, light-choice, light, lobe, "
-                        "lobe-choice and roulette",
+                        "lobe-choice, roulette and distance",
                         part);
         for (int i = 0; i < group->n_uses; i++) {
             KOKSMA__FAIL_IF(group->uses[i] == use, KOKSMA_ARGUMENT,

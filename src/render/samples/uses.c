@@ -103,19 +103,22 @@ bool koksma__use_is_there(const koksma__use_list *uses, int u)
         return uses->lights > 0;
     case KOKSMA__USE_LIGHT_CHOICE:
         return uses->light_choice;
+    case KOKSMA__USE_DISTANCE:
+        return uses->distance;
     default:
         return uses->vertices > 1;
     }
 }
 
 /* In a native pattern each vertex has, in this order, the dimensions of its lights, light choice, lobe, lobe
-   choice and roulette. */
+   choice, roulette and distance. */
 int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
 {
     const int vertex = (int)(use / KOKSMA__USES_A_BOUNCE), number = (int)(use % KOKSMA__USES_A_BOUNCE);
     const int lens = 2, time = lens + 2 * uses->lens, first = time + uses->time;
     const int choice = 2 * uses->lights, lobe = choice + uses->light_choice;
-    const int each = lobe + (uses->vertices > 1 ? 4 : 0), start = first + vertex * each;
+    const int distance = lobe + (uses->vertices > 1 ? 4 : 0), each = distance + uses->distance,
+              start = first + vertex * each;
     if (use == UINT32_MAX) {
         return first + each * uses->vertices;
     }
@@ -134,6 +137,8 @@ int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
         return start + lobe + 2;
     case KOKSMA__USE_ROULETTE:
         return start + lobe + 3;
+    case KOKSMA__USE_DISTANCE:
+        return start + distance;
     default:
         return start + 2 * (number - KOKSMA__USE_LIGHT);
     }

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A homogeneous medium in an axis-parallel box, or everywhere. On the length s a ray loses all but the transmittance
+ * T(s) = exp(-(a + b) s) of its light, with the coefficients of absorption a and of scattering b, and gains the light
+ * that the medium scatters into it (Pharr, Jakob & Humphreys, chapter 11):
+ *
+ *     L(o, d) = T(end) L(end)   +   integral of T(s) b (integral of p(d, w) L(o + s d, w) dw) ds
+ *
+ * One of the two terms is sampled. A channel is chosen in proportion to the weights beta that the path has so far, and a
+ * distance s with the density (a + b) T(s) of that channel: beyond the end of the ray the light comes from the end, else
+ * from the medium at s. The weight divides by the mean of the channels' densities in the same proportion (the balance
+ * heuristic), so that every channel is unbiased, whichever was chosen, and the sum of the weights beta never grows. Where all
+ * channels are equal the weights are exactly b / (a + b) and 1. A medium that only absorbs needs no sample.
+ *
+ * The phase function of Henyey & Greenstein (1941), with the mean cosine g between the directions before and after, is
+ *
+ *     p(c) = (1 - g^2) / (4 pi (1 + g^2 - 2 g c)^(3/2))
+ *
+ * Its inverse cumulative distribution samples it exactly, so that the weight of a direction is 1. exp and log are those of
+ * core/elementary.h, whose bits are the same everywhere.
+ */
+#include "render/medium.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "core/elementary.h"
+#include "core/status.h"
+#include "render/elementary.h"
+#include "render/lights/lights.h"
+#include "render/vector3.h"
+
+void koksma__medium_init(koksma__medium *m, const double absorption[3], const double scattering[3], double g)
+{
+    *m = (koksma__medium){.is_there = true,
+                          .low = {-INFINITY, -INFINITY, -INFINITY},
+                          .high = {INFINITY, INFINITY, INFINITY},
+                          .phase = {.bsdf = &koksma__phase_function, .values = {g}}};
+    for (int k = 0; k < 3; k++) {
+        m->absorption[k] = absorption[k];
+        m->scattering[k] = scattering[k];
+        m->phase.albedo[0][k] = scattering[k] > 0 ? scattering[k] / (absorption[k] + scattering[k]) : 0;
+    }
+}
+
+koksma_status koksma__medium_check(const koksma_scene *scene)
+{
+    const koksma__medium *m = &scene->medium;
+    bool endless = false;
+    for (int k = 0; m->is_there && k < 3; k++) {
+        endless |= !isfinite(m->low[k]) || !isfinite(m->high[k]);
+    }
+    KOKSMA__FAIL_IF(endless && (scene->background[0] > 0 || scene->background[1] > 0 || scene->background[2] > 0),
+                    KOKSMA_MALFORMED,
+                    "no light of the background passes an endless medium; give it 'low' and 'high'");
+    for (size_t i = 0; endless && i < scene->n_lights; i++) {
+        KOKSMA__FAIL_IF(scene->lights[i].kind->distance != KOKSMA__LIGHT_NEAR, KOKSMA_MALFORMED,
+                        "no light of the %s light passes an endless medium; give it 'low' and 'high'",
+                        scene->lights[i].kind->kind.name);
+    }
+    return KOKSMA_OK;
+}
+
+/* The part of a ray in the medium: from t = first, `length` long; a step of 1 in t is `speed` long. */
+typedef struct stretch {
+    double first, length, speed;
+} stretch;
+
+static stretch stretch_of(const koksma__medium *m, const float o[3], const float d[3], double end)
+{
+    double first = 0, last = end, square = 0;
+    for (int k = 0; k < 3; k++) {
+        const double at = (double)o[k], along = (double)d[k], low = m->low[k] - at, high = m->high[k] - at;
+        square += along * along;
+        if (along == 0) {
+            last = low > 0 || high < 0 ? 0 : last;
+            continue;
+        }
+        first = fmax(first, (along > 0 ? low : high) / along);
+        last = fmin(last, (along > 0 ? high : low) / along);
+    }
+    const double speed = sqrt(square);
+    /* finite, so that a channel with the coefficient 0 has transmittance 1 at any length */
+    return (stretch){first, last > first ? fmin((last - first) * speed, DBL_MAX) : 0, speed};
+}
+
+static double extinction(const koksma__medium *m, int k)
+{
+    return m->absorption[k] + m->scattering[k];
+}
+
+void koksma__medium_transmittance(const koksma__medium *m, const float o[3], const float d[3], double end,
+                                  float out[3])
+{
+    const stretch inside = stretch_of(m, o, d, end);
+    for (int k = 0; k < 3; k++) {
+        out[k] = (float)koksma__exp(-extinction(m, k) * inside.length);
+    }
+}
+
+/* Chooses a channel by *u in proportion to beta and makes *u a number in [0,1) for the distance. */
+static int choose_channel(const float beta[3], double share[3], double *u)
+{
+    const double sum = (double)beta[0] + (double)beta[1] + (double)beta[2];
+    double rest = *u;
+    int chosen = 0;
+    for (int k = 0; k < 3; k++) {
+        share[k] = sum > 0 ? (double)beta[k] / sum : 1.0 / 3;
+    }
+    while (chosen < 2 && rest >= share[chosen]) {
+        rest -= share[chosen++];
+    }
+    *u = share[chosen] > 0 ? fmax(0, fmin(rest / share[chosen], 1 - 0x1p-30)) : 0;
+    return chosen;
+}
+
+bool koksma__medium_sample(const koksma__medium *m, const float o[3], const float d[3], double end, float u,
+                           const float beta[3], float *t, float weight[3])
+{
+    if (m->scattering[0] == 0 && m->scattering[1] == 0 && m->scattering[2] == 0) {
+        koksma__medium_transmittance(m, o, d, end, weight);
+        return false;
+    }
+    const bool grey = extinction(m, 0) == extinction(m, 1) && extinction(m, 0) == extinction(m, 2);
+    double share[3] = {0}, rest = (double)u;
+    const double chosen = extinction(m, grey ? 0 : choose_channel(beta, share, &rest));
+    const stretch inside = stretch_of(m, o, d, end);
+    const double s = chosen > 0 ? -koksma__log(1 - rest) / chosen : (double)INFINITY;
+    const bool scatters = s < inside.length;
+    double passed[3], density = 0;
+    for (int k = 0; k < 3; k++) {
+        passed[k] = koksma__exp(-extinction(m, k) * (scatters ? s : inside.length));
+        density += grey ? 0 : share[k] * (scatters ? extinction(m, k) : 1) * passed[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        weight[k] = (float)(grey && scatters ? m->scattering[k] / chosen
+                            : grey           ? 1
+                                             : (scatters ? m->scattering[k] : 1) * passed[k] / density);
+    }
+    *t = scatters ? (float)(inside.first + s / inside.speed) : 0;
+    return scatters;
+}
+
+/* ---- The phase function --------------------------------------------------------------------------------------- */
+
+static double density_of(double g, double cosine)
+{
+    const double square = fmax(1 + g * g - 2 * g * cosine, DBL_MIN);
+    return (1 - g * g) / (4 * M_PI * square * sqrt(square));
+}
+
+static float value(const koksma__surface *s, const float w[3], unsigned lobes, float out[3])
+{
+    (void)lobes;
+    out[0] = out[1] = out[2] = (float)density_of((double)s->material->values[0], -(double)koksma__dot3(s->out, w));
+    return out[0];
+}
+
+static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
+{
+    const double g = (double)s->material->values[0], part = (1 - g * g) / (1 - g + 2 * g * (double)u[1]);
+    const double cosine =
+        fabs(g) < 1e-6 ? 1 - 2 * (double)u[1] : fmax(-1, fmin((1 + g * g - part * part) / (2 * g), 1));
+    const float sine = (float)sqrt(1 - cosine * cosine);
+    float x, y;
+    (void)lobes;
+    (void)choice;
+    koksma__sine_cosine_turns(u[0], &y, &x);
+    const koksma__v3 forward = {-s->out[0], -s->out[1], -s->out[2]};
+    koksma__v3_to(koksma__v3_about(forward, sine * x, sine * y, (float)cosine), out->w);
+    out->weight[0] = out->weight[1] = out->weight[2] = 1;
+    out->pdf = (float)density_of(g, cosine);
+    out->lobe = KOKSMA__LOBE_DIFFUSE;
+    return true;
+}
+
+const koksma__bsdf koksma__phase_function = {.kind = {.name = "henyey-greenstein",
+                                                      .title = "the phase function of a medium",
+                                                      .cite = "henyey1941",
+                                                      .is_implied = true},
+                                             .lobes = KOKSMA__LOBE_DIFFUSE,
+                                             .reciprocal = true,
+                                             .form = KOKSMA__FORM_RAYS,
+                                             .value = value,
+                                             .sample = sample};

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A homogeneous medium, along one ray and at one point: transmittance, sampled distances, and the phase function as a
+   material. medium.c has the formulas. */
+#ifndef KOKSMA_RENDER_MEDIUM_H
+#define KOKSMA_RENDER_MEDIUM_H
+
+#include "render/materials/materials.h"
+
+/* Makes a medium from its coefficients and g; the box is infinite. */
+void koksma__medium_init(koksma__medium *medium, const double absorption[3], const double scattering[3], double g);
+
+/* Fails if a medium without bounds keeps the light of the background or of distant lights away. Errors: MALFORMED. */
+koksma_status koksma__medium_check(const koksma_scene *scene);
+
+/* The part of the light along o + t d, 0 < t < end, that the medium neither absorbs nor scatters; end may be infinite. */
+void koksma__medium_transmittance(const koksma__medium *medium, const float o[3], const float d[3], double end,
+                                  float out[3]);
+
+/* Samples by u where light along the ray o + t d, 0 < t < end, comes from, for a path of the weights beta. True:
+   from the medium at *t; false: from the end of the ray. Sets the weight of the light from there. */
+bool koksma__medium_sample(const koksma__medium *medium, const float o[3], const float d[3], double end, float u,
+                           const float beta[3], float *t, float weight[3]);
+
+/* The phase function of Henyey & Greenstein as a material without a normal; parameter 0 is g. No scene file names it. */
+extern const koksma__bsdf koksma__phase_function;
+
+#endif

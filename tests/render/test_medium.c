@@ -1,0 +1,517 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The homogeneous medium against what is known of it: the exponential law, the integral of single scattering by
+ * quadrature, white furnaces, and the phase function's definition. Every integrator that renders media is under test.
+ */
+#include "render/integrators/integrator_flags.h"
+#include "render/medium.h"
+#include "rendering.h"
+
+#define EYE(fov) "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": " fov "}, "
+#define LAMBERT "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.6}], "
+#define NOTHING "\"materials\": [], \"shapes\": []"
+
+static bool renders_media(const koksma_integrator *in)
+{
+    return ((const koksma__integrator_flags *)in->flags)->media;
+}
+
+/* The means of the image's channels, three times the same of a grey one, and their standard errors. */
+static void means_of(const koksma_image *image, double mean[3], double error[3])
+{
+    const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
+    for (size_t k = 0; k < 3; k++) {
+        double sum = 0, squares = 0;
+        for (size_t i = 0; i < n; i++) {
+            sum += (double)image->pixels[i * channels + k % channels];
+        }
+        mean[k] = sum / (double)n;
+        for (size_t i = 0; i < n; i++) {
+            const double off = (double)image->pixels[i * channels + k % channels] - mean[k];
+            squares += off * off;
+        }
+        error[k] = sqrt(squares / (double)(n - 1) / (double)n);
+    }
+}
+
+static void render_means(const koksma_scene *scene, const koksma_render_options *options, double mean[3],
+                         double error[3])
+{
+    koksma_image image;
+    assert_ok(koksma_render(scene, options, NULL, &image));
+    means_of(&image, mean, error);
+    koksma_image_fini(&image);
+}
+
+/* ---- Absorption ----------------------------------------------------------------------------------------------- */
+
+/* A medium that only absorbs leaves exp(-sigma_a d) of the light of an emitter, a point and the sky, without noise: d is the
+   length inside the box, from the eye to the surface, and again from there to the light. */
+static void absorption_is_exponential(void **state)
+{
+    (void)state;
+    static const double sigma[3] = {0.3, 0.7, 0};
+    static const struct {
+        const char *what, *box, *scene;
+        double light, length;
+    } cases[] = {
+        {"emitter through a slab", "\"low\": [-9, -9, 1], \"high\": [9, 9, 3]",
+         "\"materials\": [], \"shapes\": [], \"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], "
+         "\"normal\": "
+         "[0, 0, 1], \"half\": [1, 1], \"radiance\": 2, \"visible\": true}]",
+         2, 2},
+        {"emitter from inside", "\"low\": [-9, -9, 1], \"high\": [9, 9, 9]",
+         "\"materials\": [], \"shapes\": [], \"lights\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": "
+         "1, \"radiance\": 2, \"visible\": true}]",
+         2, 4},
+        {"emitter everywhere", "",
+         "\"materials\": [], \"shapes\": [], \"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], "
+         "\"normal\": "
+         "[0, 0, 1], \"half\": [1, 1], \"radiance\": 2, \"visible\": true}]",
+         2, 5},
+        {"no medium on the way", "\"low\": [-9, -9, -3], \"high\": [9, 9, -1]",
+         "\"materials\": [], \"shapes\": [], \"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], "
+         "\"normal\": "
+         "[0, 0, 1], \"half\": [1, 1], \"radiance\": 2, \"visible\": true}]",
+         2, 0},
+        {"background", "\"low\": [-9, -9, -7], \"high\": [9, 9, -4.5]", "\"background\": 3, " NOTHING, 3, 2.5},
+        {"sky", "\"low\": [-9, -9, -7], \"high\": [9, 9, -4.5]",
+         NOTHING ", \"lights\": [{\"kind\": \"environment\", \"radiance\": 3}]", 3, 2.5},
+        {"point", "",
+         LAMBERT
+         "\"shapes\": [{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], "
+         "\"material\": \"m\"}], \"lights\": [{\"kind\": \"point\", \"centre\": [0, 3, 4], \"intensity\": 5}]",
+         0.6 / M_PI * 5 * (4.0 / 5) / 25, 10},
+        {"point through a slab", "\"low\": [-9, -9, 1], \"high\": [9, 9, 2]",
+         LAMBERT
+         "\"shapes\": [{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], "
+         "\"material\": \"m\"}], \"lights\": [{\"kind\": \"point\", \"centre\": [0, 3, 4], \"intensity\": 5}]",
+         0.6 / M_PI * 5 * (4.0 / 5) / 25, 1 + 5.0 / 4},
+        {"directional", "\"low\": [-50, -9, 0], \"high\": [50, 2, 6]",
+         LAMBERT
+         "\"shapes\": [{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], "
+         "\"material\": \"m\"}], \"lights\": [{\"kind\": \"directional\", \"direction\": [0, -3, -4], "
+         "\"irradiance\": 5}]",
+         0.6 / M_PI * 5 * 0.8, 5 + 2 / 0.6},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        char text[2048];
+        snprintf(text, sizeof text, EYE("0.01") "\"medium\": {\"sigma_a\": [%g, %g, %g]%s%s}, %s}", sigma[0],
+                 sigma[1], sigma[2], *cases[c].box ? ", " : "", cases[c].box, cases[c].scene);
+        koksma_scene *scene = scene_of(text);
+        for (size_t i = 0; koksma_integrator_at(i); i++) {
+            if (!renders_media(koksma_integrator_at(i))) {
+                continue;
+            }
+            koksma_render_options options = options_of(scene, "random", koksma_integrator_at(i)->name, 1, 4);
+            double mean[3], error[3];
+            render_means(scene, &options, mean, error);
+            for (int k = 0; k < 3; k++) {
+                const double expected = cases[c].light * exp(-sigma[k] * cases[c].length);
+                if (!(fabs(mean[k] - expected) <= 1e-5 * expected)) {
+                    fail_msg("%s by %s, channel %d: %.8g, expected %.8g", cases[c].what,
+                             koksma_integrator_at(i)->name, k, mean[k], expected);
+                }
+            }
+        }
+        koksma_scene_close(scene);
+    }
+}
+
+/* Of an emitter behind a medium that scatters, too, the light that was not scattered is exp(-(sigma_a + sigma_s) d) in each
+   channel. */
+static void unscattered_light_is_exponential(void **state)
+{
+    (void)state;
+    koksma_scene *scene =
+        scene_of(EYE("0.01") "\"medium\": {\"sigma_a\": [0.1, 0, 0.2], \"sigma_s\": [0.2, 0.05, 0], "
+                             "\"low\": [-9, -9, 1], \"high\": [9, 9, 4]}, " NOTHING
+                             ", \"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": "
+                             "[0, 0, 1], \"half\": [1, 1], \"radiance\": 1, \"visible\": true}]}");
+    koksma_render_options options = options_of(scene, "random", "path", 16, 64);
+    koksma_aovs aovs;
+    koksma_layers layers;
+    double mean[3], error[3];
+    assert_ok(koksma_aovs_parse("bounce:0", &aovs));
+    assert_ok(koksma_render_aovs(scene, &options, NULL, &aovs, &layers));
+    means_of(&aovs.images[0], mean, error);
+    assert_mean(mean[0], error[0], exp(-0.3 * 3));
+    assert_mean(mean[1], error[1], exp(-0.05 * 3));
+    assert_mean(mean[2], error[2], exp(-0.2 * 3));
+    koksma_aovs_fini(&aovs);
+    koksma_layers_fini(&layers);
+    koksma_scene_close(scene);
+}
+
+/* ---- Single scattering ---------------------------------------------------------------------------------------- */
+
+static double henyey_greenstein(double g, double cosine)
+{
+    return (1 - g * g) / (4 * M_PI * pow(1 + g * g - 2 * g * cosine, 1.5));
+}
+
+/* The light of a point of intensity 2 at (0, 1, 2), scattered once into the ray from (0, 0, 5) along -z, in the medium
+   between z = -3 and z = 4: Simpson's rule in 4,000 steps. */
+static double scattered_once(double absorption, double scattering, double g)
+{
+    const int steps = 4000;
+    double sum = 0;
+    for (int i = 0; i <= steps; i++) {
+        const double s = 7.0 * i / steps, z = 4 - s, to[2] = {1, 2 - z}, distance = hypot(to[0], to[1]);
+        const double cosine = to[1] / distance; /* light travels along -to and leaves along +z */
+        const double value = scattering * henyey_greenstein(g, -cosine) * 2 / (distance * distance) *
+                             exp(-(absorption + scattering) * (s + distance));
+        sum += value * (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2);
+    }
+    return sum * (7.0 / steps) / 3;
+}
+
+/* With depth 0 light is scattered once. By every integrator, pairing and scope, for three phase functions, in colour. */
+static void single_scattering_is_its_integral(void **state)
+{
+    (void)state;
+    static const double gs[] = {-0.5, 0, 0.7}, a[3] = {0.05, 0, 0.2}, b[3] = {0.1, 0.3, 0.02};
+    static const struct {
+        const char *pattern;
+        koksma_pairing pairing;
+        koksma_scope scope;
+    } ways[] = {{"random", KOKSMA_PAIRING_SHUFFLED, KOKSMA_SCOPE_PIXEL},
+                {"random", KOKSMA_PAIRING_NATIVE, KOKSMA_SCOPE_PIXEL},
+                {"sobol:scramble=owen", KOKSMA_PAIRING_NATIVE, KOKSMA_SCOPE_PIXEL},
+                {"random", KOKSMA_PAIRING_SHUFFLED, KOKSMA_SCOPE_IMAGE}};
+    for (size_t c = 0; c < 3; c++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 EYE("0.01") "\"medium\": {\"sigma_a\": [%g, %g, %g], \"sigma_s\": [%g, %g, %g], \"g\": %g, "
+                             "\"low\": [-9, -9, "
+                             "-3], \"high\": [9, 9, 4]}, " NOTHING
+                             ", \"lights\": [{\"kind\": \"point\", \"centre\": [0, 1, 2], \"intensity\": 2}]}",
+                 a[0], a[1], a[2], b[0], b[1], b[2], gs[c]);
+        koksma_scene *scene = scene_of(text);
+        for (size_t i = 0; koksma_integrator_at(i); i++) {
+            for (size_t w = 0; renders_media(koksma_integrator_at(i)) && w < 4; w++) {
+                koksma_render_options options =
+                    options_of(scene, ways[w].pattern, koksma_integrator_at(i)->name, 16, 48);
+                double mean[3], error[3];
+                options.depth = 0;
+                options.pairing = ways[w].pairing;
+                options.scope = ways[w].scope;
+                options.seed = 1 + c;
+                render_means(scene, &options, mean, error);
+                for (int k = 0; k < 3; k++) {
+                    assert_mean(mean[k], error[k], scattered_once(a[k], b[k], gs[c]));
+                    assert_true(error[k] < 0.05 * mean[k]);
+                }
+            }
+        }
+        koksma_scene_close(scene);
+    }
+}
+
+/* For any weights of a path: of the rays of length 3 the mean weight of those that pass is the transmittance, that of those that are
+   scattered the part b / (a + b) of the rest, and that before the length 1 likewise; and the sum of the path's weights never
+   grows. */
+static void samples_are_unbiased_for_any_weights(void **state)
+{
+    (void)state;
+    static const double a[3] = {0, 0.3, 0.05}, b[3] = {1.5, 0.4, 0};
+    static const float betas[][3] = {{1, 1, 1}, {0.9f, 0.05f, 0.4f}, {0, 0, 2}, {1e-6f, 3, 0}, {0, 1, 0.01f}};
+    static const float o[3] = {0, 0, 0}, d[3] = {0, 0, 2};
+    const int n = 400000;
+    koksma__medium medium;
+    koksma__medium_init(&medium, a, b, 0);
+    for (size_t c = 0; c < sizeof betas / sizeof *betas; c++) {
+        double passed[3] = {0, 0, 0}, scattered[3] = {0, 0, 0}, early[3] = {0, 0, 0};
+        for (int i = 0; i < n; i++) {
+            float t, weight[3];
+            const bool scatters =
+                koksma__medium_sample(&medium, o, d, 1.5, ((float)i + 0.5f) / (float)n, betas[c], &t, weight);
+            double before = 0, after = 0;
+            for (int k = 0; k < 3; k++) {
+                (scatters ? scattered : passed)[k] += (double)weight[k] / n;
+                early[k] += scatters && t < 0.5f ? (double)weight[k] / n : 0;
+                before += (double)betas[c][k];
+                after += (double)betas[c][k] * (double)weight[k];
+            }
+            assert_true(after <= before * (1 + 1e-6));
+        }
+        for (int k = 0; k < 3; k++) {
+            const double all = a[k] + b[k], part = b[k] / all;
+            if (betas[c][k] > 1e-3f) {
+                assert_near(passed[k], exp(-3 * all), 1e-3);
+                assert_near(scattered[k], part * (1 - exp(-3 * all)), 1e-3);
+                assert_near(early[k], part * (1 - exp(-all)), 1e-3);
+            }
+        }
+    }
+}
+
+/* ---- Many bounces --------------------------------------------------------------------------------------------- */
+
+/* Where nothing absorbs, every path that leaves brings the same light, so that all samples are 1, in each channel's mean too:
+   a grey medium around white surfaces exactly, by whatever path. */
+static void white_furnaces_are_white(void **state)
+{
+    (void)state;
+    static const double gs[] = {-0.5, 0, 0.7};
+    for (size_t c = 0; c < 3; c++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            EYE("30") "\"background\": 1, \"medium\": {\"sigma_s\": 1.5, \"g\": %g, \"low\": [-1, -1, -1], \"high\": "
+                      "[1, 1, "
+                      "1]}, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}, {\"name\": "
+                      "\"g\", "
+                      "\"kind\": \"mirror\", \"reflectance\": 1}], \"shapes\": [{\"kind\": \"sphere\", \"centre\": "
+                      "[0, 0, "
+                      "0], \"radius\": 0.4, \"material\": \"m\"}, {\"kind\": \"sphere\", \"centre\": [0.6, 0.6, 0], "
+                      "\"radius\": 0.3, \"material\": \"g\"}]}",
+            gs[c]);
+        koksma_scene *scene = scene_of(text);
+        koksma_render_options options = options_of(scene, "random", "path", 16, 16);
+        koksma_image image;
+        options.depth = KOKSMA_MAX_DEPTH;
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        for (size_t i = 0; i < 16 * 16; i++) {
+            assert_near((double)image.pixels[i], 1, 1e-5);
+        }
+        koksma_image_fini(&image);
+        koksma_scene_close(scene);
+    }
+}
+
+/* Between walls that emit 1, on all sides of a medium that scatters differently in each channel, radiance is 1 everywhere. By
+   light sampling alone the variance is infinite, for the light of a wall's position grows as 1 / distance^2. */
+static void emitting_enclosures_are_white(void **state)
+{
+    (void)state;
+    static const double gs[] = {-0.5, 0, 0.7};
+    for (size_t c = 0; c < 3; c++) {
+        char text[4096], walls[2048] = "";
+        for (int side = 0; side < 6; side++) {
+            int normal[3] = {0, 0, 0};
+            normal[side / 2] = side % 2 ? 1 : -1;
+            snprintf(
+                walls + strlen(walls), sizeof walls - strlen(walls),
+                "%s{\"kind\": \"rectangle\", \"centre\": [%d, %d, %d], \"normal\": [%d, %d, %d], \"half\": [6, 6], "
+                "\"radiance\": 1, \"visible\": true}",
+                side ? ", " : "", -6 * normal[0], -6 * normal[1], -6 * normal[2], normal[0], normal[1], normal[2]);
+        }
+        snprintf(text, sizeof text,
+                 EYE("30") "\"medium\": {\"sigma_s\": [0.1, 0.2, 0.3], \"g\": %g}, \"materials\": [{\"name\": \"m\", "
+                           "\"kind\": "
+                           "\"lambert\", \"albedo\": 1}], \"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], "
+                           "\"radius\": "
+                           "1, \"material\": \"m\"}], \"lights\": [%s]}",
+                 gs[c], walls);
+        koksma_scene *scene = scene_of(text);
+        for (size_t i = 0; koksma_integrator_at(i); i++) {
+            const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
+            if (flags->media && flags->weight != KOKSMA__WEIGHT_ONE) {
+                koksma_render_options options = options_of(scene, "random", koksma_integrator_at(i)->name, 16, 24);
+                double mean[3], error[3];
+                options.depth = 40;
+                render_means(scene, &options, mean, error);
+                for (int k = 0; k < 3; k++) {
+                    assert_mean(mean[k], error[k] + 1e-4, 1);
+                }
+            }
+        }
+        koksma_scene_close(scene);
+    }
+}
+
+/* All strategies and all ways to choose among lights of all distances, some of them beside, behind and within the medium, have the
+   same mean as the other ones. */
+static void strategies_agree(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(EYE(
+        "30") "\"medium\": {\"sigma_a\": 0.1, \"sigma_s\": [0.3, 0.4, 0.2], \"g\": 0.6, \"low\": [-2, -2, -2], "
+              "\"high\": "
+              "[2, 2, 4]}, " LAMBERT
+              "\"shapes\": [{\"kind\": \"rectangle\", \"centre\": [0, -1, 0], \"normal\": [0, 1, "
+              "0], \"half\": [3, 3], \"material\": \"m\"}], \"lights\": [{\"kind\": \"sphere\", \"centre\": [-1, "
+              "0.5, 0], "
+              "\"radius\": 0.4, \"radiance\": 2, \"visible\": true}, {\"kind\": \"rectangle\", \"centre\": [0, 3, "
+              "0], "
+              "\"normal\": [0, -1, 0], \"half\": [1, 1], \"radiance\": 3, \"visible\": true}, {\"kind\": \"point\", "
+              "\"centre\": [3, 0, 0], \"intensity\": 2}, {\"kind\": \"directional\", \"direction\": [1, -1, -1], "
+              "\"irradiance\": 4}, {\"kind\": \"environment\", \"radiance\": 0.1}]}");
+    double first[3], first_error[3];
+    koksma_render_options options = options_of(scene, "random", "path", 64, 32);
+    options.depth = 4;
+    options.seed = 99;
+    render_means(scene, &options, first, first_error);
+    for (size_t i = 0; koksma_integrator_at(i); i++) {
+        for (int lights = 0; renders_media(koksma_integrator_at(i)) && koksma_light_selection_name(lights);
+             lights++) {
+            double mean[3], error[3];
+            options.integrator = koksma_integrator_at(i);
+            options.lights = (koksma_light_selection)lights;
+            options.seed = 100 + 10 * i + (uint64_t)lights;
+            render_means(scene, &options, mean, error);
+            for (int k = 0; k < 3; k++) {
+                if (!(fabs(mean[k] - first[k]) <= 4.5 * hypot(error[k], first_error[k]))) {
+                    fail_msg("%s, lights %s, channel %d: %g +- %.2g, by path %g +- %.2g", options.integrator->name,
+                             koksma_light_selection_name(options.lights), k, mean[k], error[k], first[k],
+                             first_error[k]);
+                }
+            }
+        }
+    }
+    koksma_scene_close(scene);
+}
+
+/* ---- The phase function --------------------------------------------------------------------------------------- */
+
+/* By its definition: the integral over the sphere is 1, the mean cosine g, exchanged directions give the same value; samples have
+   weight 1, the density that value() says, mean cosine g and no preferred side. */
+static void phase_function_is_as_defined(void **state)
+{
+    (void)state;
+    static const double gs[] = {-0.999, -0.5, -1e-5, 0, 1e-5, 0.3, 0.7, 0.95, 0.999};
+    for (size_t c = 0; c < sizeof gs / sizeof *gs; c++) {
+        const double none[3] = {0, 0, 0}, one[3] = {1, 1, 1}, g = gs[c];
+        koksma__medium medium;
+        koksma__medium_init(&medium, none, one, g);
+        const koksma__shading_material m = koksma__shading_material_of(&medium.phase);
+        koksma__surface s = {.material = &m, .out = {0.36f, -0.48f, 0.8f}}, other = {.material = &m};
+        double integral = 0, mean = 0, sampled = 0, side[3] = {0, 0, 0};
+        const int steps = 200000, side_n = 200;
+        for (int i = 0; i < steps; i++) { /* the cosine is 1 - x^3 from the peak on, whose width is 1e-3^2 */
+            const double x = (i + 0.5) / steps * cbrt(2), from_peak = x * x * x;
+            const double cosine = g < 0 ? from_peak - 1 : 1 - from_peak, dx = 3 * x * x * cbrt(2) / steps;
+            const float w[3] = {(float)sqrt(1 - cosine * cosine), 0, (float)cosine};
+            const koksma__surface along_z = {.material = &m, .out = {0, 0, -1}};
+            float value[3];
+            const float pdf = m.bsdf->value(&along_z, w, m.bsdf->lobes, value);
+            assert_true(pdf == value[0] && pdf == value[1] && pdf == value[2]);
+            integral += 2 * M_PI * (double)pdf * dx;
+            mean += 2 * M_PI * (double)pdf * cosine * dx;
+        }
+        assert_near(integral, 1, fabs(g) > 0.99 ? 0.02 : 1e-4);
+        assert_near(mean, g, fabs(g) > 0.99 ? 0.02 : 1e-4);
+        for (int i = 0; i < side_n * side_n; i++) {
+            const float u[2] = {((float)(i % side_n) + 0.5f) / (float)side_n,
+                                ((float)(i / side_n) + 0.5f) / (float)side_n};
+            koksma__scatter to;
+            float value[3], back[3];
+            assert_true(m.bsdf->sample(&s, m.bsdf->lobes, u, 0, &to));
+            const float pdf = m.bsdf->value(&s, to.w, m.bsdf->lobes, value);
+            double length = 0, cosine = 0;
+            for (int k = 0; k < 3; k++) {
+                length += (double)to.w[k] * (double)to.w[k];
+                cosine -= (double)to.w[k] * (double)s.out[k];
+                side[k] += (double)to.w[k] / (side_n * side_n);
+                other.out[k] = to.w[k];
+                assert_true(to.weight[k] == 1);
+            }
+            assert_near(length, 1, 1e-5);
+            /* near the peak the density changes by the rounding of a direction */
+            assert_true(fabs((double)to.pdf - (double)pdf) <= (fabs(g) > 0.9 ? 2 : 1e-3) * (double)pdf);
+            assert_true(m.bsdf->value(&other, s.out, m.bsdf->lobes, back) == pdf);
+            sampled += cosine / (side_n * side_n);
+        }
+        assert_near(sampled, g, 2e-3);
+        for (int k = 0; k < 3; k++) {
+            assert_near(side[k], -g * (double)s.out[k], 2e-3);
+        }
+    }
+}
+
+/* ---- The same bits, and refusals ------------------------------------------------------------------------------ */
+
+static void threads_do_not_matter(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_image one, many;
+    assert_ok(koksma_scene_open("fog", &scene));
+    koksma_render_options options = options_of(scene, "sobol:scramble=owen", "path", 4, 24);
+    assert_ok(koksma_render(scene, &options, &(koksma_run){.threads = 1}, &one));
+    assert_ok(koksma_render(scene, &options, &(koksma_run){.threads = 5}, &many));
+    assert_memory_equal(one.pixels, many.pixels, 24 * 24 * 3 * sizeof *one.pixels);
+    koksma_image_fini(&one);
+    koksma_image_fini(&many);
+    koksma_scene_close(scene);
+}
+
+/* Integrators without media name those that have them; ambient occlusion depends on shapes alone. */
+static void other_integrators_refuse_media(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(EYE("30") "\"medium\": {\"sigma_s\": 5}, " NOTHING "}");
+    size_t refused = 0;
+    for (size_t i = 0; koksma_integrator_at(i); i++) {
+        const koksma_integrator *in = koksma_integrator_at(i);
+        const koksma__integrator_flags *flags = in->flags;
+        koksma_render_options options = options_of(scene, "random", in->name, 1, 4);
+        koksma_image image;
+        if (!flags->media && !flags->replace_scene) {
+            assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_ARGUMENT);
+            assert_non_null(strstr(koksma_error_text(), in->name));
+            assert_non_null(strstr(koksma_error_text(), "path"));
+            refused++;
+        } else {
+            assert_ok(koksma_render(scene, &options, NULL, &image));
+            assert_near((double)image.pixels[0], flags->replace_scene ? 1 : 0, 1e-6);
+            koksma_image_fini(&image);
+        }
+    }
+    assert_true(refused > 0);
+    koksma_scene_close(scene);
+    scene = scene_of(EYE("30") "\"medium\": {\"sigma_s\": 5}, " NOTHING "}");
+    assert_int_equal(koksma_scene_set_sky(scene, NULL, 1), KOKSMA_MALFORMED);
+    koksma_scene_close(scene);
+}
+
+static void wrong_media_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *medium, *rest, *message;
+    } bad[] = {
+        {"{}", "", "'sigma_a' or 'sigma_s' must be above 0"},
+        {"{\"sigma_a\": 0}", "", "'sigma_a' or 'sigma_s' must be above 0"},
+        {"{\"sigma_a\": -1}", "", "sigma_a"},
+        {"{\"sigma_s\": [1, 2]}", "", "sigma_s"},
+        {"{\"sigma_s\": 1, \"g\": 1}", "", "g"},
+        {"{\"sigma_s\": 1, \"G\": 0.5}", "", "G"},
+        {"{\"sigma_s\": 1, \"low\": [0, 0, 0]}", "", "high"},
+        {"{\"sigma_s\": 1, \"low\": [0, 0, 0], \"high\": [1, 0, 1]}", "", "'low' must be below 'high'"},
+        {"{\"sigma_s\": 1}", ", \"background\": [0, 0, 1]", "no light of the background"},
+        {"{\"sigma_s\": 1}", ", \"lights\": [{\"kind\": \"environment\", \"radiance\": 1}]", "the environment light"},
+        {"{\"sigma_s\": 1}",
+         ", \"lights\": [{\"kind\": \"directional\", \"direction\": [0, 1, 0], \"irradiance\": 1}]",
+         "the directional light"},
+        {"3", "", "medium"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char text[1024];
+        koksma_scene *scene;
+        snprintf(text, sizeof text, EYE("30") NOTHING ", \"medium\": %s%s}", bad[i].medium, bad[i].rest);
+        assert_int_equal(koksma__scene_open_text("test.json", text, strlen(text), &scene), KOKSMA_MALFORMED);
+        if (!strstr(koksma_error_text(), bad[i].message)) {
+            fail_msg("%s: %s", bad[i].medium, koksma_error_text());
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(absorption_is_exponential),
+        cmocka_unit_test(unscattered_light_is_exponential),
+        cmocka_unit_test(single_scattering_is_its_integral),
+        cmocka_unit_test(samples_are_unbiased_for_any_weights),
+        cmocka_unit_test(white_furnaces_are_white),
+        cmocka_unit_test(emitting_enclosures_are_white),
+        cmocka_unit_test(strategies_agree),
+        cmocka_unit_test(phase_function_is_as_defined),
+        cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(other_integrators_refuse_media),
+        cmocka_unit_test(wrong_media_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
