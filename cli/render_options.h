@@ -24,7 +24,7 @@
         CLI_INTEGRATOR_OPTION, {0, "depth", "D", "the most bounces (default: the integrator's)"}, CLI_FILTER_OPTION, \
     {                                                                                                                \
         0, "splat", NULL,                                                                                            \
-            "add samples to all pixels that the filter reaches, instead of drawing from it: less error"              \
+            "add each sample to all pixels that the filter reaches, instead of sampling the filter: less error"      \
     }
 
 /* Reads --integrator and --filter; *integrator and *filter hold the defaults before. Returns false after an error

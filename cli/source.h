@@ -28,8 +28,8 @@ bool cli_names_pattern(const char *text);
    Returns false past the end. */
 bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC]);
 
-/* Removes "pattern:" and "@N" from `text`, the patterns of uses "[USE=]SPEC@N;..", where N is the number of samples a
-   pixel. *n: this number, 0 as long as it is unknown. Returns false after an error if two numbers differ. */
+/* Removes "pattern:" and "@N" from each pattern of `text`, "[USE=]SPEC@N;..", and stores N, the number of samples a pixel,
+   in *n, which is 0 as long as no number is known. Returns false after an error if two numbers differ. */
 bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n);
 
 /* What an operand names: a file, or a pattern with its number of points and dimensions. */

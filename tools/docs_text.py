@@ -30,7 +30,7 @@ def head_comment(path):
     else:
         raise SystemExit(f"{path}: it has no head comment")
     if text[: found.start()].replace("/* SPDX-License-Identifier: Apache-2.0 */", "").strip():
-        raise SystemExit(f"{path}: its first comment stands below code")
+        raise SystemExit(f"{path}: its first comment is below code")
     return _lines(found[1])
 
 

@@ -14,7 +14,7 @@ import sys
 
 
 def paragraphs(text):
-    """Comments, and string literals that stand next to each other, each as one paragraph."""
+    """Comments, and adjacent string literals, each as one paragraph."""
     for comment in re.findall(r"/\*(.*?)\*/", text, re.S):
         for part in re.split(r"\n\s*\*?\s*\n", re.sub(r"^\s*\*(?=\s)", "", comment, flags=re.M)):
             yield part

@@ -11,9 +11,9 @@
 Rules: a directory includes and uses only those named in MAY_USE; that relation has no cycle, and neither has that of
 files (a header and its .c file count as one). A shared function (koksma__) is declared in the header of the file
 that defines it. No type name is defined twice. No header holds code for a single file. How often
-a directory may break a rule stands in tools/layers_exceptions.txt; these numbers can only shrink.
+a directory may break a rule is in tools/layers_exceptions.txt; these numbers can only shrink.
 
-How: comments and strings are removed; an include names a file; a name koksma_... that stands in one file and that
+How: comments and strings are removed; an include names a file; a name koksma_... that occurs in one file and that
 another file defines (a function or a variable at the start of a line) is a use. The public headers are no way around
 this: who calls koksma_evaluate uses the file that defines it. With BUILD, a build folder, the uses are checked against
 the undefined symbols of the object files, by nm: what the text shows must contain all that the linker sees.

@@ -4,7 +4,7 @@
 
 Documents are docs/*.md, commands are PROGRAM's manual pages, references are the comments of the public headers and the
 docstrings of the Python package. A page of a pattern or measure has the head comment of its source file, what `koksma list`
-prints, and pictures and numbers that PROGRAM makes with the commands that stand beside them. --quick makes fewer and
+prints, and pictures and numbers that PROGRAM makes with the commands beside them. --quick makes fewer and
 smaller ones. The explorer is put in where make explorer has built it.
 """
 import argparse

@@ -29,7 +29,7 @@ def measured(program, measure, points):
 
 
 def read(name):
-    """(what stands in the brackets of RECORD and behind them, points) for each set of a file; none if it is not there."""
+    """(what is in the brackets of RECORD and after them, points) for each set of a file; none if it is not there."""
     text = (FOLDER / name).read_text(encoding="utf-8") if (FOLDER / name).exists() else "#else"
     lines, coordinates = text.split("#else")
     numbers = [int(x) for x in re.findall(r"\d{1,12}(?=,)", coordinates)]

@@ -368,8 +368,8 @@ typedef struct koksma_ranking {
     bool complete;    /* true: every pair of patterns is decided */
     bool cut_short;   /* true: the time limit ended the work */
     long long trials; /* number of trials of the pattern that has the most */
-    /* if not settled: approximate number of trials of each pattern that would decide the best; 0: unknown, or no
-       number would because the reference is too noisy */
+    /* if not settled: approximate number of trials of each pattern that would decide the best; 0: unknown, or the
+       reference is too noisy for any number of trials to decide */
     long long needed_trials;
     double needed_s; /* seconds that needed_trials would take; 0: unknown */
     int width, height;

@@ -12,8 +12,8 @@
    doubled. */
 KOKSMA__LAB void koksma__csv_put(FILE *stream, const char *text);
 
-/* Write numbers, which need no quotes, to a text of this size: whole ones as digits, others as "%.17g" in the C locale;
-   NaN is an empty field. They return the number of characters, and write no terminating 0. */
+/* Write a number as a field, which needs no quotes: whole numbers as digits, others as "%.17g" in the C locale, NaN as an
+   empty field. `text` has KOKSMA__CSV_NUMBER bytes. They return the number of characters, and write no terminating 0. */
 enum { KOKSMA__CSV_NUMBER = 32 };
 KOKSMA__LAB size_t koksma__csv_whole(uint64_t number, char text[KOKSMA__CSV_NUMBER]);
 KOKSMA__LAB size_t koksma__csv_number(double number, char text[KOKSMA__CSV_NUMBER]);

@@ -49,7 +49,8 @@ size_t koksma__domain_find(const double *sums, size_t count, double at)
             low = middle + 1;
         }
     }
-    while (low > 0 && sums[low] <= sums[low - 1]) { /* `at` was rounded to the sum of all */
+    /* where `at` was rounded up to the total: the last entry that is not empty */
+    while (low > 0 && sums[low] <= sums[low - 1]) {
         low--;
     }
     return low;

@@ -19,7 +19,7 @@
 
 typedef struct density {
     size_t width, height;
-    double *sums; /* of the luminance of all pixels up to this one */
+    double *sums; /* entry i: the summed luminance of pixels 0 to i */
 } density;
 
 static void draw(const void *data, uint64_t seed, uint64_t i, double *x, double *unit)

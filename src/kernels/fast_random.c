@@ -275,8 +275,8 @@ INLINE void insert(const uint32_t *at, uint32_t first, uint32_t count, uint32_t 
     }
 }
 
-/* Computing random numbers waits for multiplications, inserting them for the caches. To overlap the two, each round
-   for a block of numbers is followed by inserting a part of the block before. */
+/* Computing random numbers waits for multiplications; inserting them into the permutation waits for the caches. To overlap
+   the two, each round of one block's random numbers is followed by inserting a part of the previous block. */
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
 {
     enum { WORDS = 4 * LANES, SHARE = WORDS / ROUNDS };

@@ -213,7 +213,7 @@ static koksma_status take_material(koksma__gltf *g, size_t i, koksma__file_mater
     return KOKSMA_OK;
 }
 
-/* Reads all materials in use; the last one stands for primitives without a material. */
+/* Reads all materials in use; the last one is that of primitives without a material. */
 koksma_status koksma__gltf_read_materials(koksma__gltf *g)
 {
     const size_t n = g->n[KOKSMA__GLTF_MATERIALS];

@@ -126,7 +126,7 @@ static koksma_status take_property(ply *p, const char *line)
     if (!to->item || (to->slot == CORNERS && to->item->kind == REAL)) {
         return koksma__text_wrong(&p->text, "no property of a known type");
     }
-    /* as text at least a digit and a blank */
+    /* the least that a value can take; in a text file that is a digit and a blank */
     e->bytes += p->is_text ? 2 : to->count ? to->count->bytes : to->item->bytes;
     p->n_properties++;
     e->n++;

@@ -44,8 +44,8 @@ enum { MAX_N = 4096, PATIENCE = 2000, CYCLES = 256, GUIDES = 16, MAX_EDGES = 16,
 /* Parameters of a search for n points. Among few points searches look widely, because lattices are far from the best
    sets; among many points they look near the best set. */
 typedef struct width {
-    double threshold; /* how far a walk may rise above its least F, at most */
-    double accepted;  /* how far the F of a start may be above the best F, at most */
+    double threshold; /* a walk rises at most this far above the least F that it has met */
+    double accepted;  /* a walk starts only from a set whose F is at most this far above the best F */
     double again;     /* the share of searches that start from the best set */
 } width;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * correlated-multi-jittered: multi-jittered points with one permutation of the rows shared by all columns and one of
- * the columns shared by all rows, in random order. Hashes give each point independently of the others.
+ * the columns shared by all rows, in random order. Each point is computed from hashes alone, without the others.
  *
  *     x = (c + (p(j) + u) / r) / m,   y = (j + (q(c) + v) / m) / r,   (c, j) = the cell of the permuted index
  *

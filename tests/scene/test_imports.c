@@ -531,14 +531,10 @@ static void cut_texts_are_survived(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_scene_is_one_picture),
-        cmocka_unit_test(orthographic_cameras_show_their_height),
-        cmocka_unit_test(spots_light_a_circle),
-        cmocka_unit_test(a_luminous_room_is_a_geometric_series),
-        cmocka_unit_test(unknown_things_are_named),
-        cmocka_unit_test(the_cameras_medium_is_read),
-        cmocka_unit_test(fog_does_not_glow),
-        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
+        cmocka_unit_test(one_scene_is_one_picture), cmocka_unit_test(orthographic_cameras_show_their_height),
+        cmocka_unit_test(spots_light_a_circle),     cmocka_unit_test(a_luminous_room_is_a_geometric_series),
+        cmocka_unit_test(unknown_things_are_named), cmocka_unit_test(the_cameras_medium_is_read),
+        cmocka_unit_test(fog_does_not_glow),        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
         cmocka_unit_test(cut_texts_are_survived),
     };
     strcpy(folder, "/tmp/koksma-imports-XXXXXX");

@@ -117,7 +117,7 @@ static void wrong_groups(void **state)
                    "'checker'");
     wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]},\n{\"title\": \"g\", "
                                "\"scenes\": [\"ball\"]}]",
-                   "plan 'p': line 4: questions[0].groups[1]: title 'g': another group has it");
+                   "plan 'p': line 4: questions[0].groups[1]: title 'g': another group has the same title");
     wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"ball\"]}]",
                    "plan 'p': line 5: questions[0].groups[0].scenes[1]: 'ball' is listed twice");
     wrong_question(CORRELATION "\"groups\": []", "plan 'p': line 3: questions[0].groups: an empty list");

@@ -109,7 +109,7 @@ static koksma_status check_groups(const koksma__json_node *question, const koksm
         const koksma__json_node group = koksma__json_item(&list, g);
         for (size_t before = 0; before < g; before++) {
             KOKSMA__JSON_FAIL_IF(!strcmp(q->groups[before].title, q->groups[g].title), &group,
-                                 "title '%s': another group has it", q->groups[g].title);
+                                 "title '%s': another group has the same title", q->groups[g].title);
         }
         status = koksma__json_member(&group, "scenes", &scenes);
         for (size_t s = 0; !status && s < q->groups[g].scenes.n; s++) {

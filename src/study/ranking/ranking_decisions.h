@@ -82,7 +82,7 @@ typedef struct koksma__rank_table {
     koksma__rank_entrant *entrants;
     koksma__rank_pair *pairs; /* pair (i, j) at i * n + j */
     size_t leader;            /* the best pattern; KOKSMA__RANK_NOBODY until it is decided, then never changed */
-    size_t advised;           /* the best pattern whose error is not coherent; decided once like `leader` */
+    size_t advised;           /* the same for the best pattern whose error is not coherent */
 } koksma__rank_table;
 
 /* What the rounds of a ranking are to decide: the pattern of smallest error, the best of the patterns whose error is

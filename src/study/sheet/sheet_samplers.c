@@ -251,7 +251,8 @@ static koksma_status try_sizes(const koksma__sheet *sheet, const koksma__sheet_s
     return status;
 }
 
-/* Adds a sampler. One that samplers[0] is compared with is left out, with a note, if it lacks a size. */
+/* Adds a sampler. One that cannot make the points of some size is an error if it is the first, the sheet's subject; a
+   later one, with which the first is compared, is left out with a note. Missing and malformed files are errors. */
 static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by_default)
 {
     koksma__sheet_sampler *sampler = &sheet->all[sheet->n_samplers];
