@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the tests of several claims use. They read points; nothing here makes patterns but the sets of check_means. */
+/* What the tests of several claims use. They read points; nothing here makes patterns but make_sets_of_means. */
 #include "claims/claims.h"
 
 double param_of(const koksma_spec *spec, const char *name, double fallback)
@@ -116,39 +116,58 @@ static double share_of_band(const koksma_points *points, size_t n, double from)
     return inside;
 }
 
-void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only)
+void check_means_of(const koksma_spec *spec, const koksma_points *sets, bool first_only)
 {
-    enum { SETS = 120, BANDS = 3 };
+    enum { BANDS = 3 };
     static const double bands[BANDS] = {0.98, 0.105, 0.355};
     double sum[BANDS + 1] = {0}, square[BANDS + 1] = {0}, volume = 1;
-    if (points->n > 32 || points->n < 4 || points->dim > 3 || seed != 0) {
-        return;
-    }
-    koksma_points other;
-    assert_ok(koksma_points_init(&other, points->n, points->dim));
-    for (uint64_t s = 0; s < SETS; s++) {
-        if (koksma_generate(spec, 1000 + s, NULL, &other)) {
-            fail_claim(spec, points, "seed %d: %s", (int)(1000 + s), koksma_error_text());
-        }
-        const size_t n = first_only ? 1 : other.n;
+    for (size_t s = 0; s < MEANS_SETS; s++) {
+        const size_t n = first_only ? 1 : sets[s].n;
         for (int b = 0; b <= BANDS; b++) {
-            const double inside = b < BANDS ? share_of_band(&other, n, bands[b]) : share_of_box(&other, n);
+            const double inside = b < BANDS ? share_of_band(&sets[s], n, bands[b]) : share_of_box(&sets[s], n);
             sum[b] += inside;
             square[b] += inside * inside;
         }
     }
-    for (int k = 0; k < points->dim; k++) {
+    for (int k = 0; k < sets->dim; k++) {
         volume *= means_side[k % 2];
     }
     for (int b = 0; b <= BANDS; b++) {
-        const double mean = sum[b] / SETS, variance = fmax(square[b] / SETS - mean * mean, 1e-6);
+        const double mean = sum[b] / MEANS_SETS, variance = fmax(square[b] / MEANS_SETS - mean * mean, 1e-6);
         const double expected = b < BANDS ? 0.04 : volume;
-        if (fabs(mean - expected) > 4.5 * sqrt(variance / SETS) + 1e-3) {
-            fail_claim(spec, points, "a %s of volume %.4f holds %.4f of the points in the mean",
+        if (fabs(mean - expected) > 4.5 * sqrt(variance / MEANS_SETS) + 1e-3) {
+            fail_claim(spec, sets, "a %s of volume %.4f holds %.4f of the points in the mean",
                        b < BANDS ? "band" : "box", expected, mean);
         }
     }
-    koksma_points_fini(&other);
+}
+
+void make_sets_of_means(const koksma_spec *spec, size_t n, int dim, koksma_points sets[MEANS_SETS])
+{
+    for (uint64_t s = 0; s < MEANS_SETS; s++) {
+        assert_ok(koksma_points_init(&sets[s], n, dim));
+        if (koksma_generate(spec, MEANS_SEED + s, NULL, &sets[s])) {
+            fail_claim(spec, &sets[s], "seed %d: %s", (int)(MEANS_SEED + s), koksma_error_text());
+        }
+    }
+}
+
+void free_sets_of_means(koksma_points sets[MEANS_SETS])
+{
+    for (size_t s = 0; s < MEANS_SETS; s++) {
+        koksma_points_fini(&sets[s]);
+    }
+}
+
+void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only)
+{
+    koksma_points sets[MEANS_SETS];
+    if (points->n > 32 || points->n < 4 || points->dim > 3 || seed != 0) {
+        return;
+    }
+    make_sets_of_means(spec, points->n, points->dim, sets);
+    check_means_of(spec, sets, first_only);
+    free_sets_of_means(sets);
 }
 
 /* All ways of writing n = b^m as a product of powers of b along the coordinates. */

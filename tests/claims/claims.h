@@ -56,7 +56,15 @@ bool is_net_in_base(const koksma_points *points, size_t n, size_t b);
 /* Coordinates k .. k + count - 1 of all points. */
 koksma_points projection_of(const koksma_points *points, int k, int count);
 
-/* Means over sets of what a box and bands hold of all points, or of the first, in standard errors. */
+/* The sets of a pattern that check_means_of takes, of seeds MEANS_SEED, MEANS_SEED + 1, ... */
+enum { MEANS_SETS = 120, MEANS_SEED = 1000 };
+void make_sets_of_means(const koksma_spec *spec, size_t n, int dim, koksma_points sets[MEANS_SETS]);
+void free_sets_of_means(koksma_points sets[MEANS_SETS]);
+
+/* Fails unless the mean over the sets of what a box and bands hold of all points, or of the first, is their volume. */
+void check_means_of(const koksma_spec *spec, const koksma_points *sets, bool first_only);
+
+/* The same for sets that it makes, of a few points in up to 3 dimensions; only for the seed 0. */
 void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only);
 
 #endif

@@ -45,10 +45,20 @@ static void renew_leaf(volume *v, uint32_t at)
     v->winner[v->leaves + at] = v->set[at] == v->clusters ? at : v->n;
 }
 
-static void renew_above(volume *v, uint32_t at)
+/* Renews all nodes above `count` leaves, level by level: neighbours in a row share most of their path, so that each level
+   has about half the nodes of the level below. Overwrites `nodes`, the numbers of the leaves. */
+static void renew_above(volume *v, uint32_t *nodes, int count)
 {
-    for (uint32_t node = (v->leaves + at) / 2; node; node /= 2) {
-        v->winner[node] = better(v, v->winner[2 * node], v->winner[2 * node + 1]);
+    while (nodes[0] > 1) {
+        int parents = 0;
+        for (int i = 0; i < count; i++) {
+            const uint32_t node = nodes[i] / 2;
+            if (!parents || nodes[parents - 1] != node) {
+                v->winner[node] = better(v, v->winner[2 * node], v->winner[2 * node + 1]);
+                nodes[parents++] = node;
+            }
+        }
+        count = parents;
     }
 }
 
@@ -86,20 +96,26 @@ static int neighbours(int c, int side, int *at, int *offset)
 static void change(volume *v, uint32_t at, bool on)
 {
     int places[3][SPAN], offsets[3][SPAN], counts[3];
-    uint32_t rest = at;
+    uint32_t rest = at, nodes[SPAN * SPAN * SPAN];
     for (int k = 0; k < 3; k++) {
         counts[k] = neighbours((int)(rest % (uint32_t)v->sides[k]), v->sides[k], places[k], offsets[k]);
         rest /= (uint32_t)v->sides[k];
     }
     v->set[at] = on;
     renew_leaf(v, at);
-    for (int i = 0; i < counts[0] * counts[1] * counts[2]; i++) {
-        const int x = i % counts[0], y = i / counts[0] % counts[1], z = i / counts[0] / counts[1];
-        const double weight = v->gauss[offsets[0][x]] * v->gauss[offsets[1][y]] * v->gauss[offsets[2][z]];
-        const uint32_t voxel = (uint32_t)((places[2][z] * v->sides[1] + places[1][y]) * v->sides[0] + places[0][x]);
-        v->energy[voxel] += on ? weight : -weight;
-        renew_above(v, voxel);
+    int count = 0;
+    for (int z = 0; z < counts[2]; z++) {
+        for (int y = 0; y < counts[1]; y++) {
+            const int row = (places[2][z] * v->sides[1] + places[1][y]) * v->sides[0];
+            for (int x = 0; x < counts[0]; x++) {
+                const double weight = v->gauss[offsets[0][x]] * v->gauss[offsets[1][y]] * v->gauss[offsets[2][z]];
+                const uint32_t voxel = (uint32_t)(row + places[0][x]);
+                v->energy[voxel] += on ? weight : -weight;
+                nodes[count++] = v->leaves + voxel;
+            }
+        }
     }
+    renew_above(v, nodes, count);
 }
 
 static koksma_status begin(volume *v, uint64_t seed, const koksma_run *run, uint32_t *count)
