@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """optimise_kills.py KOKSMA: `koksma optimise` is killed (SIGKILL) at random moments, again and again on one file, with --from it
-where it exists: 8 times for each method of `koksma list methods`, and with a target power. After each kill the file, if it is there,
+where it exists: 8 times (with sanitizers 3) for each method of `koksma list methods`, and with a target power. After each kill the file, if it is there,
 is a whole set with the value that its comment says, never worse than after the kill before, and nothing but it and what the next
 run removes is left; a run that is not killed then goes on from it. Values are those that `koksma measure` gives of the file; those
 of a sequence are its prefixes' geometric mean, and those of a power come from its definition."""
@@ -19,7 +19,7 @@ import tempfile
 import time
 
 KOKSMA = os.path.abspath(sys.argv[1])
-KILLS, FILE, N = 8, "best.txt", 16
+KILLS, FILE, N = 3 if os.environ.get("KOKSMA_SANITIZED") == "1" else 8, "best.txt", 16
 # method, its measure, further arguments
 SEARCHES = [("star-plane", "star", []), ("star-space", "star", ["-d", "3"]), ("anneal", "l2-star", []), ("descent", "l2-periodic", []),
             ("exchange", "l2-centered", ["--keep", "latin"]), ("digital", "star", ["--keep", "sequence"]),
