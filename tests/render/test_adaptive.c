@@ -332,6 +332,34 @@ static void a_pixel_that_had_samples_is_never_black(void **state)
     koksma_scene_close(scene);
 }
 
+static bool stop_within_a_task(void *context, double fraction)
+{
+    (void)fraction;
+    int *looks = context;
+    return ++*looks < 3;
+}
+
+/* One task of 128 pixels, which a thread asks before and several times within: the picture is left unfinished. */
+static void an_interruption_ends_a_task(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_layers layers;
+    int looks = 0;
+    const koksma_run run = {.threads = 1, .keep_going = stop_within_a_task, .context = &looks};
+    const koksma_adaptive_options adaptive = adaptive_of("two-stage:threshold=0.05,most=6,first=2", 0);
+    koksma_adaptive_report report;
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options options = options_for(scene, 1 << 12);
+    options.width = 16;
+    options.height = 8;
+    assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, &run, &layers, &report), KOKSMA_INTERRUPTED);
+    assert_true(looks >= 3);
+    assert_true(report.samples > 0 && report.samples < 128ull << 12);
+    koksma_layers_fini(&layers);
+    koksma_scene_close(scene);
+}
+
 static void errors_are_said(void **state)
 {
     (void)state;
@@ -376,6 +404,7 @@ int main(void)
         cmocka_unit_test(shown_strata_are_a_partition),
         cmocka_unit_test(rays_are_counted_once),
         cmocka_unit_test(a_pixel_that_had_samples_is_never_black),
+        cmocka_unit_test(an_interruption_ends_a_task),
         cmocka_unit_test(errors_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,6 +2,7 @@
 /* Runs the rounds of adaptive sampling: draws the samples of the selected pixels, traces them with the pipeline,
    passes their values to the method, and writes the image. */
 #include <math.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -11,7 +12,7 @@
 #include "render/pipelines/pipelines.h"
 #include "render/samples/adaptive/adaptive_strata.h"
 
-enum { PIXELS_A_TASK = 128 };
+enum { PIXELS_A_TASK = 128, SAMPLES_A_LOOK = 1 << 12 };
 
 typedef struct job {
     koksma__adaptive *run;
@@ -21,6 +22,10 @@ typedef struct job {
     bool first; /* true in the first round, which sets the layers albedo, normal and depth */
     size_t capacity;
     atomic_ullong rays;
+    const koksma_run *how;
+    pthread_t caller; /* the only thread that may call how->keep_going */
+    double fraction;  /* of the tasks of a round, as koksma__parallel last reported it to the caller */
+    atomic_bool stop;
 } job;
 
 typedef struct room {
@@ -87,14 +92,21 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
     run->demands[pixel] = demand;
 }
 
+/* Prepares pixels only here, because an interruption between groups must not leave strata without values. */
 static koksma_status render_group(const job *j, room *r, const koksma__group *group)
 {
     const koksma__frame *f = &j->frame;
-    if (!group->start[group->count]) {
-        return KOKSMA_OK;
+    koksma__adaptive *run = j->run;
+    koksma_status status = KOKSMA_OK;
+    for (size_t pixel = group->first; !status && pixel < group->first + group->count; pixel++) {
+        if (run->demands[pixel].selected && !run->probing && run->method->prepare) {
+            status = run->method->prepare(run, pixel);
+        }
     }
-    koksma_status status =
-        koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->pixels.draw, r->pixels.values.film);
+    if (status || !group->start[group->count]) {
+        return status;
+    }
+    status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->pixels.draw, r->pixels.values.film);
     if (!status) {
         koksma__film_place(f, group, false, &r->pixels.values);
         status = j->pipeline->trace(f, r->pixels.pipeline_scratch, group, &r->pixels.values);
@@ -107,6 +119,25 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
     return status;
 }
 
+/* keep_going of the caller, also within a task, which may take minutes; what stops the caller stops the helpers. */
+static bool goes_on(void *context, double fraction)
+{
+    job *j = context;
+    j->fraction = fraction;
+    if (!koksma__keep_going(j->how, fraction)) {
+        atomic_store(&j->stop, true);
+    }
+    return !atomic_load(&j->stop);
+}
+
+static koksma_status look(job *j)
+{
+    if (pthread_equal(pthread_self(), j->caller)) {
+        goes_on(j, j->fraction);
+    }
+    return atomic_load(&j->stop) ? koksma__fail_interrupted() : KOKSMA_OK;
+}
+
 static koksma_status render_task(void *context, size_t task)
 {
     job *j = context;
@@ -115,15 +146,13 @@ static koksma_status render_task(void *context, size_t task)
     const size_t end = first + PIXELS_A_TASK < run->pixels ? first + PIXELS_A_TASK : run->pixels;
     koksma_status status = KOKSMA_OK;
     size_t selected = 0;
-    for (size_t pixel = first; !status && pixel < end; pixel++) {
+    for (size_t pixel = first; pixel < end; pixel++) {
         selected += run->demands[pixel].selected;
-        if (run->demands[pixel].selected && !run->probing && run->method->prepare) {
-            status = run->method->prepare(run, pixel);
-        }
     }
-    if (status || !selected) {
-        return status;
+    if (!selected) {
+        return KOKSMA_OK;
     }
+    size_t samples = 0; /* since the last look */
     room r = {.scratch = malloc(run->scratch + 1)};
     koksma__group group;
     status = koksma__task_scratch_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);
@@ -133,6 +162,11 @@ static koksma_status render_task(void *context, size_t task)
     for (size_t pixel = first; !status && pixel < end; pixel += group.count) {
         koksma__group_fill(&j->frame, pixel, end, &group);
         status = render_group(j, &r, &group);
+        samples += group.start[group.count];
+        if (!status && samples >= SAMPLES_A_LOOK) {
+            samples = 0;
+            status = look(j);
+        }
     }
     if (!run->probing) {
         atomic_fetch_add(&j->rays, r.pixels.values.rays);
@@ -146,6 +180,7 @@ static koksma_status render_task(void *context, size_t task)
 
 static koksma_status render_round(job *j, const koksma_run *how)
 {
+    const koksma_run outer = {.threads = koksma__threads(how), .keep_going = goes_on, .context = j};
     koksma__adaptive *run = j->run;
     size_t most = (size_t)j->frame.options->spp;
     for (size_t p = 0; p < run->pixels; p++) {
@@ -154,7 +189,7 @@ static koksma_status render_round(job *j, const koksma_run *how)
     }
     j->frame.sampler.most = most;
     j->capacity = koksma__group_capacity(&j->frame, most);
-    return koksma__parallel(how, (run->pixels + PIXELS_A_TASK - 1) / PIXELS_A_TASK, render_task, j);
+    return koksma__parallel(&outer, (run->pixels + PIXELS_A_TASK - 1) / PIXELS_A_TASK, render_task, j);
 }
 
 static koksma_status render_rounds(job *j, const koksma_run *how)
@@ -299,7 +334,7 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
     *out = (koksma_layers){0};
     KOKSMA__TRY(check(options, adaptive));
     koksma__adaptive run = {.options = adaptive, .method = adaptive->method->functions, .budget = UINT64_MAX};
-    job j = {.run = &run, .layers = out};
+    job j = {.run = &run, .layers = out, .how = how, .caller = pthread_self()};
     koksma_status status = koksma__frame_open(scene, options, how, &j.frame);
     if (!status) {
         run.frame = &j.frame;
