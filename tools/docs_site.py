@@ -49,14 +49,14 @@ class Program:
             raise SystemExit(f"koksma {' '.join(arguments)}: {error}")
         return [json.loads(line) for line in out.splitlines()], "koksma " + " ".join(permitted(arguments))
 
-    def picture(self, name, *arguments, alt):
-        """A figure with its command, or the reason why there is none."""
+    def picture(self, name, *arguments, alt, label=""):
+        """A figure with its label and command, or the reason why there is none."""
         _, error = self.try_run(*arguments, "-q", "--threads", "1", "-o", name)
         command = html.escape("koksma " + " ".join(permitted(arguments + ("-o", name))))
         if error:
             return f"<p class='none'>No picture: {html.escape(error)}</p>"
         return (f"<figure><img src='../pictures/{name}' alt='{html.escape(alt, quote=True)}'>"
-                f"<figcaption><code>{command}</code></figcaption></figure>")
+                f"<figcaption>{label and f'<b>{html.escape(label)}</b> '}<code>{command}</code></figcaption></figure>")
 
 
 def slug(text):

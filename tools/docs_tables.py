@@ -36,9 +36,9 @@ def small_tables(site):
     def gallery(scene):
         """A scene by five patterns at 16 samples a pixel."""
         size = ["--size", "24x18" if program.quick else "96x72"]
-        return "<div class='row'>" + "".join(
+        return "<div class='gallery'>" + "".join(
             program.picture(f"gallery-{scene}-{pattern.split(':')[0]}.png", "render", scene, "-p", pattern, *spp, *size,
-                            *(["--integrator", "path"] if scene in PATH_TRACED else []), alt=f"{scene} by {pattern}")
+                            *(["--integrator", "path"] if scene in PATH_TRACED else []), alt=f"{scene} by {pattern}", label=pattern)
             for pattern in GALLERY) + "</div>"
 
     def of(kind, key):

@@ -1,7 +1,8 @@
 #!/bin/sh
 # readme.sh PROGRAM: the commands that README.md, docs/commands.md and the examples of every --help show are run, in their
 # order and in one folder; rankings and studies of papers, which take minutes, with their --help. Files that they speak of
-# are there before. Every command has an example, in its manual page as well.
+# are there before. Every command has an example, in its manual page as well;
+# README says how many patterns there are.
 set -u
 program=$(readlink -f "$1")
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -47,5 +48,11 @@ while read -r command; do
   fi
   count=$((count + 1))
 done <commands
+# README's number of patterns: those that need no file, program or numbers of the user.
+own=$(koksma list patterns --json | grep -c '"reads":"-"')
+grep -q "^| patterns | $own |" "$root/README.md" || {
+  echo "README.md: the row 'patterns' does not say $own"
+  failed=$((failed + 1))
+}
 echo "$count commands, $failed failed"
 [ "$failed" -eq 0 ] && [ "$count" -ge 60 ]

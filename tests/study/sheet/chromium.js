@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// chromium.js SHEET.html: the page of a datasheet shows all sections, verdict first, without errors and without a sideways scroll of
-// page or tables at 400 pixels, in both colour schemes; the keyboard alone opens the commands. Exit code 77: no Chromium.
+// chromium.js SHEET.html: the page of a datasheet shows all sections, verdict first, without errors, without a sideways scroll
+// of page or tables at 400 pixels, and without a word of a table on two lines, in both colour schemes; the keyboard alone
+// opens the commands. Exit code 77: no Chromium.
 "use strict";
 const path = require("path");
 const fs = require("fs");
@@ -16,6 +17,20 @@ if (!fs.existsSync(chromium)) {
   console.log("skipped: no chromium (scripts/setup browser)");
   process.exit(77);
 }
+// Words of tables that are broken within: letters or digits on two lines.
+const brokenWords = () => {
+  const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), broken = new Set();
+  while (texts.nextNode()) {
+    const text = texts.currentNode, range = document.createRange();
+    if (!text.parentElement.closest("td, th")) continue;
+    for (const { 0: word, index } of text.data.matchAll(/[\p{L}\p{N}]+/gu)) {
+      range.setStart(text, index), range.setEnd(text, index + word.length);
+      if (new Set([...range.getClientRects()].map(box => Math.round(box.top))).size > 1) broken.add(word);
+    }
+  }
+  return [...broken];
+};
+
 let problems = 0;
 const expect = (holds, text) => {
   if (!holds) problems++, console.log(text);
@@ -41,6 +56,8 @@ async function look(browser, width, colorScheme) {
   const wide = await page.evaluate(() => [document.documentElement, ...document.querySelectorAll(".scroll")]
     .filter(e => e.scrollWidth > e.clientWidth + 1).map(e => `${e.getAttribute("aria-label") ?? "the page"} ${e.scrollWidth} > ${e.clientWidth}`));
   expect(!wide.length, `${at}: scrolls sideways: ${wide.join("; ")}`);
+  const broken = await page.evaluate(brokenWords);
+  expect(!broken.length, `${at}: words on two lines: ${broken.join(" ")}`);
   const charts = await page.locator("svg.chart").count();
   expect(charts >= 12, `${at}: ${charts} charts`);
   const [ink, paper] = await page.evaluate(() => [getComputedStyle(document.body).color, getComputedStyle(document.body).backgroundColor]

@@ -60,14 +60,17 @@ function verdictMark(cell, withNumber) {
   return element("span", { class: name, title: number }, withNumber ? `${mark} ${number}` : mark);
 }
 
+// A text that may break between the parts of a name ("sobol:" "scramble=" "owen"), not within a word.
+const nameParts = text => text.split(/(?<=[_:=,./])(?=[^\s_:=,./])/).flatMap((part, i) => i ? [element("wbr", {}), part] : [part]);
+
 // The content of a cell, whose data are a text, a number, [value, low, high], or an object with more fields.
 function cellContent(cell, column) {
-  if (typeof cell === "string") return [cell];
+  if (typeof cell === "string") return nameParts(cell);
   if (typeof cell === "number") return [shown(cell, column)];
   const data = Array.isArray(cell) ? { value: cell[0], low: cell[1], high: cell[2] } : cell ?? {};
   if (column.type === "verdict") return [verdictMark(data, true)];
   const content = [];
-  if (data.text !== undefined) content.push(data.text);
+  if (data.text !== undefined) content.push(...nameParts(data.text));
   else if (typeof data.value === "number") content.push(shown(data.value, column), ...spread(data, column));
   else content.push(dash);
   if (data.sets) content.push(" ", small(`(${data.sets} set${data.sets > 1 ? "s" : ""})`));
@@ -155,7 +158,7 @@ function rowNode(rows, r, visible) {
     if (cell === undefined) return null;
     const spanned = column.merged ? span(rows, r, column.c) : 1, name = column.type === "text" ? "name" : null;
     if (!spanned) return null;
-    if (column.merged) return element("th", { scope: "rowgroup", rowspan: spanned, class: "name" }, cell);
+    if (column.merged) return element("th", { scope: "rowgroup", rowspan: spanned, class: "name" }, ...cellContent(cell, column));
     return element(i === 0 && name ? "th" : "td", { class: name, scope: i === 0 && name ? "row" : null }, ...cellContent(cell, column));
   }));
 }
@@ -168,7 +171,7 @@ export function table(block) {
   let order = block.sort ? { ...block.sort, c: block.columns.findIndex(column => column.name === block.sort.column) } : null, wanted = "";
   // Chromium repeats the head of a table on each printed page, but without its buttons, so CSS prints data-head.
   const heads = visible.map(column => element("th", { scope: "col", class: column.type === "text" ? "name" : null, "data-head": moves ? column.title ?? column.name : null },
-    moves ? element("button", { type: "button" }, column.title ?? column.name) : column.title ?? column.name));
+    ...(moves ? [element("button", { type: "button" }, ...nameParts(column.title ?? column.name))] : nameParts(column.title ?? column.name))));
   const show = () => {
     const has = [wanted, field.value.trim().toLowerCase()], shown = (order ? sorted(rows, order) : rows).filter(r => has.every(text => r.text.includes(text)));
     body.replaceChildren(...(moves ? shown : rows).map(r => r.node));
