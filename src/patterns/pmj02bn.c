@@ -22,9 +22,9 @@
  * packing's distance. Time: proportional to 4^levels for any n, plus that of pmj02.
  *
  * A single point is not uniform over seeds, because the masks are chosen: over 6,000 sets of 16 points, the density
- * of points 0, 1, 2, 3 and 15 in 16 bins was off by 7 to 11 % (root mean square). The density of whole sets of 4^d
- * points is uniform in the mean. The pattern thus does not claim to be unbiased; where few samples must be unbiased,
- * use pmj02.
+ * of points 0, 1, 2, 3 and 15 in 16 bins was off by 7 to 11 % (root mean square). Averaged over all points
+ * of a set of 4^d points, the density is uniform. The pattern thus does not claim to be unbiased;
+ * where few samples must be unbiased, use pmj02.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -12,7 +12,7 @@
 #include "core/status.h"
 #include "measures/shared/amplitudes.h"
 
-/* Constants of the quality numbers; see koksma/spectrum.h. */
+/* Constants in the definitions of the quality numbers, which koksma/spectrum.h explains. */
 #define NYQUIST_SHARE 0.1
 #define SIGNAL_SHARE 0.5
 #define RISEN 0.98
