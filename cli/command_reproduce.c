@@ -59,7 +59,7 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
         bool found;
         status = koksma_study_table_row(study, table, SIZE_MAX, &row, &found);
     }
-    work->share = options->folder ? 0.95 : 1; /* part of the progress bar; the rest is for the report */
+    work->share = options->folder ? 0.95 : 1; /* fraction of the progress bar; the rest is the report's */
     status = status ? status : koksma_study_run(study, &work->run, summary);
     *refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = *refused ? KOKSMA_OK : status;

@@ -227,7 +227,7 @@ static int estimate(const cli_arguments *arguments)
     if (!study_options(arguments, &options, &work)) {
         return CLI_USAGE;
     }
-    if (koksma_study_mpi_rank() > 0) { /* under MPI only rank 0 estimates */
+    if (koksma_study_mpi_rank() > 0) { /* under MPI only rank 0 estimates the time that the study takes */
         return CLI_YES;
     }
     options.folder = NULL;

@@ -189,7 +189,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'e', "expect", "PROPERTY,..", "exit with 1 unless these properties all hold"},
-    {0, "record", NULL, "the star discrepancy beside the best known; exit with 1 unless it is lower"},
+    {0, "record", NULL, "compare the star discrepancy with the best known value; exit with 1 unless it is lower"},
     {'m', "measure", "MEASURE", "with --record: another measure than star, such as l2-star"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},

@@ -495,7 +495,7 @@ static bool parse(scene_job *j)
     if (!cli_text(arguments, "n", NULL) || !cli_text(arguments, "output", NULL)) {
         cli_usage_error(arguments, "%s, is missing",
                         cli_text(arguments, "n", NULL) ? "-o FILE, where the set is kept"
-                                                       : "-n SPP, the samples a pixel");
+                                                       : "-n SPP, the samples per pixel");
         return false;
     }
     if (!cli_whole(arguments, "n", 0, 1, 4096, &spp) || !cli_whole(arguments, "seed", 0, 0, UINT32_MAX, &j->seed) ||

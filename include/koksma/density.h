@@ -10,8 +10,8 @@
  *
  * Candidates are independent, with the wanted density. Where the density is p times its mean, distances are divided
  * by 1/sqrt(p); of the two points of a pair the smaller 1/sqrt(p) counts ("smaller disks", Mitchell et al. 2012). On a
- * surface distances are those of space, as in Yuksel's paper, not those along the surface. Points do not depend on
- * threads.
+ * surface distances are those of space, as in Yuksel's paper, not those along the surface. The points are
+ * the same for any number of threads.
  */
 #ifndef KOKSMA_DENSITY_H
 #define KOKSMA_DENSITY_H

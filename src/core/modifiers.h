@@ -10,7 +10,7 @@
 /* The parameters of a pattern (NULL: none), followed by the modifiers; an entry whose name is NULL ends the list. */
 typedef struct koksma__all_params {
     koksma_param params[KOKSMA_MAX_PARAMS + KOKSMA_MAX_MODIFIERS + 1];
-    size_t own; /* how many precede the modifiers */
+    size_t own; /* number of the pattern's own parameters, which precede the modifiers */
 } koksma__all_params;
 
 void koksma__all_params_init(koksma__all_params *all, const koksma_param *own);

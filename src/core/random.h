@@ -45,8 +45,8 @@ static inline koksma__words koksma__random(uint64_t seed, uint32_t purpose, uint
     return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
 }
 
-/* 128 random bits by 7 rounds, the fewest that pass BigCrush (Salmon et al. 2011, table 2). The renderer uses them
-   because it draws more random numbers than all other parts. */
+/* 128 random bits by 7 rounds, the fewest that pass BigCrush (Salmon et al. 2011, table 2). Used in the
+   renderer, which draws more random numbers than any other part of the library. */
 static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane)
 {
     const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};

@@ -21,8 +21,8 @@ typedef struct koksma__json_step {
     size_t item;
 } koksma__json_step;
 
-/* A value in a document. `path` is its position as text for messages, and may be cut; `steps` lead to the value,
-   up to KOKSMA__JSON_STEPS of them. */
+/* A value in a document. `path` is its position as text, for messages; a long one is truncated. `steps` are the keys
+   and indices that lead from the root to the value, at most KOKSMA__JSON_STEPS. */
 typedef struct koksma__json_node {
     const koksma__json *document;
     const void *value;

@@ -18,7 +18,8 @@
 
 typedef koksma__json_node field;
 
-#define WIDEST 1e30 /* bound of a material's numbers, which are clamped later */
+/* Largest magnitude that a number of a material may have in the file; values are clamped to their ranges later. */
+#define WIDEST 1e30
 
 /* ---- Textures ----------------------------------------------------------------------------------------------- */
 

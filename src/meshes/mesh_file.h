@@ -30,7 +30,8 @@ typedef struct koksma__file_texture {
     size_t size;
     bool moved, nearest; /* moved: the texture coordinates, with v upwards, are transformed to matrix (u, v, 1) */
     float matrix[6], scale;
-    int wrap[2]; /* glTF's numbers: 10497 repeated, 33071 clamped to the edge, 33648 mirrored; 0: repeated */
+    /* glTF's wrap modes along u and v: 0 or 10497 repeat, 33071 clamp to the edge, 33648 mirrored repeat */
+    int wrap[2];
 } koksma__file_texture;
 
 /* A material as its file gives it. The values of textures are multiplied by colour and glow. */

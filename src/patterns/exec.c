@@ -27,7 +27,7 @@ enum { NAME = KOKSMA_MAX_SPEC + 8, BYTES_A_COORDINATE = 64, BYTES_BESIDE = 1 << 
 
 static const uint64_t MOST_MEMORY = UINT64_C(8) << 30;
 
-/* Parses the program's output, of which n points of dim coordinates below 1 are required. */
+/* Parses the program's output, which must be n points of dim coordinates, each less than 1. */
 static koksma_status parse(const char *name, char *text, size_t size, const koksma_points *wanted, koksma_points *out)
 {
     KOKSMA__FAIL_IF(!size, KOKSMA_MALFORMED, "%s: it printed nothing", name);

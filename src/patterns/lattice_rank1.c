@@ -15,11 +15,11 @@
  *
  * The weight: with gamma = 1 the products of many coordinates outweigh all pairs, so that from about 8 dimensions on
  * one multiplier is chosen again and again (n = 4096: 1615), which puts the points on diagonals. Weights 1/k^2 for
- * coordinate k are customary where the first coordinates matter most, which is not assumed here; with them
- * multipliers still repeat (n = 256: within 32 dimensions). With gamma = 0.038 neither z nor n - z was chosen twice
- * before all phi(n)/2 multipliers had been, for each n from 5 to 700 in 64 dimensions and for powers of two to 65,536
- * in 128 dimensions, although no theorem rules repetitions out. In more dimensions than phi(n)/2 some points lie on
- * diagonals. In two dimensions the minimiser does not depend on the weight.
+ * coordinate k are customary where the first coordinates matter most, which is not assumed here; even with such
+ * weights a multiplier is chosen twice (n = 256: within 32 dimensions). With gamma = 0.038 neither z nor n - z was
+ * chosen twice before all phi(n)/2 multipliers had been, for each n from 5 to 700 in 64 dimensions and for powers of
+ * two to 65,536 in 128 dimensions, although no theorem rules repetitions out. In more dimensions than
+ * phi(n)/2 some points lie on diagonals. In two dimensions the minimiser does not depend on the weight.
  *
  * Ties: z and n - z always have equal errors, and the smaller is taken, except for n = 12 and a few others below 30
  * (lattice.h); among other multipliers whose sums are equal to the last bit, the smallest is taken.

@@ -6,10 +6,10 @@
  *     x = x' XOR the mask for the first `levels` bits of x', x' from pmj02; y likewise, with other masks
  *     energy of 4^d points = sum over pairs in adjacent cells of max(0, 1 - |p - q|^2 / (1.2 / 2^d)^2)^8
  *
- * Source: Christensen, Kensler & Kilpatrick 2018 for the aim. These authors choose each new point among candidates that keep
- * the net. But a (0,m,2)-net of 2^m points determines the position of a new point down to 1/2^(m+1): every box of
- * area 2^-m has one old and one new point, in opposite quadrants, so that the box of one shape determines the next
- * bit of each coordinate, which determines the box of the next shape, and so on. Only the position in a square of
+ * Source: Christensen, Kensler & Kilpatrick 2018 for the aim. These authors choose each new point among candidates
+ * that keep the net. But a (0,m,2)-net of 2^m points determines the position of a new point down to 1/2^(m+1): every
+ * box of area 2^-m has one old and one new point, in opposite quadrants, so that the box of one shape determines the
+ * next bit of each coordinate, which determines the box of the next shape, and so on. Only the position in a square of
  * side 1/(2n) is free. Candidates there (Helmer, Christensen & Kensler 2021) gain nothing from about 4,000 points on,
  * crowd at the ends of their strata, and made the error of a step edge 1.8 times that of pmj02. This file uses
  * another freedom: the bit of weight 2^-(d+1), which a scrambling may flip in each of the 2^d strata of either axis;
@@ -22,9 +22,9 @@
  * packing's distance. Time: proportional to 4^levels for any n, plus that of pmj02.
  *
  * A single point is not uniform over seeds, because the masks are chosen: over 6,000 sets of 16 points, the density
- * of points 0, 1, 2, 3 and 15 in 16 bins was off by 7 to 11 % (root mean square). The density of whole sets of 4^d
- * points is uniform in the mean. The pattern thus does not claim to be unbiased; where few samples must be unbiased,
- * use pmj02.
+ * of points 0, 1, 2, 3 and 15 in 16 bins was off by 7 to 11 % (root mean square). Averaged over all points
+ * of a set of 4^d points, the density is uniform. The pattern thus does not claim to be unbiased;
+ * where few samples must be unbiased, use pmj02.
  */
 #include <math.h>
 #include <stdlib.h>

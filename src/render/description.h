@@ -84,8 +84,10 @@ typedef struct koksma__medium {
     koksma__material phase;
 } koksma__medium;
 
-/* A flat light emits on the side to which its normal points. A surface of albedo a reflects, of a rectangle's light,
-   a * power * the mean over the light of cos cos / distance^2, where power = luminance * area / pi. */
+/* A flat light emits on the side to which its normal points. A diffuse surface of albedo a
+   under a rectangular light reflects the radiance
+       a * power * (mean over the light's area of cos(surface) cos(light) / distance^2),
+   power = luminance * area / pi. */
 typedef struct koksma__light {
     const struct koksma__light_kind *kind;
     double centre[3], axis_u[3], axis_v[3], normal[3];

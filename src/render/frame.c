@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Data that all pixels of an image share, computed once: materials and lights in floats, the camera as steps on the
- * film (of the directions; of an orthographic camera, of the origins), the sampler, the filter's table and the geometry. The geometry (for meshes Embree's tree) is shared by all
- * images of a scene: it is stored in the scene (scene_cache), under a lock, until the scene is released.
+ * film (of the directions; of an orthographic camera, of the origins), the sampler, the filter's table and the
+ * geometry. The geometry (for meshes Embree's tree) is shared by all images of a scene: it is stored in the
+ * scene (scene_cache), under a lock, until the scene is released.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The smallest distance between two points of a set in any dimension, by a k-d tree (Bentley 1975): a node halves its
- * points at the median of its longest side. The closest pair lies within one half or between them. Two nodes whose boxes
- * are further apart than the best pair so far are left out; else the larger one is halved, and two leaves try all their
- * pairs. On the torus the distance of two boxes is the shorter way around in each coordinate. O(n log n) for evenly spread
- * points in few dimensions; in many, where most boxes are near each other, O(n^2).
+ * The smallest distance between two points of a set in any dimension, by a k-d tree (Bentley 1975): a node splits
+ * its points at the median along its longest side. The closest pair lies within one half or between the two halves. A
+ * pair of nodes is skipped if their boxes are further apart than the closest pair found so far; otherwise the larger
+ * node is replaced by its two children, and of two leaves all pairs of points are compared. On the
+ * torus the distance of two boxes is the shorter way around in each coordinate. O(n log n) for evenly spread points in
+ * few dimensions; in many, where most boxes are near each other, O(n^2).
  */
 #include "measures/shared/closest_space.h"
 

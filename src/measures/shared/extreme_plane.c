@@ -48,7 +48,7 @@ typedef struct plane {
     double *x, *y;     /* points in order of y */
     double *levels;    /* the distinct values of x, with 0 and 1 */
     best_strip *best;  /* for each block of left sides */
-    double *upper;     /* for each block, the bound of tiles left at the deadline; infinite if some have none */
+    double *upper;     /* for each block, the bound of tiles left at the deadline; infinite: one has no bound */
     double *row_upper; /* for each row of wide tiles, of row_side left sides each, its bound after the deadline */
     size_t row_side;
     double deadline_s;
@@ -140,8 +140,8 @@ static void add_strip(searcher *s, tile t)
     }
 }
 
-/* The list of the strips of a tile, or of neighbouring tiles up to the one that begins at end; `from` itself where a
-   list with runs would be no shorter. */
+/* Builds in *to the run list for the strips of the tile t, or of all tiles from t to the one that begins at `end`.
+   Returns `from` where the new list would be no shorter. */
 static const koksma__run_list *narrowed(searcher *s, const koksma__run_list *from, tile t, size_t end, size_t side,
                                         koksma__run_list *to)
 {

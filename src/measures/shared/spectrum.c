@@ -12,7 +12,7 @@
 #include "core/status.h"
 #include "measures/shared/amplitudes.h"
 
-/* Constants of the quality numbers; see koksma/spectrum.h. */
+/* Constants in the definitions of the quality numbers, which koksma/spectrum.h explains. */
 #define NYQUIST_SHARE 0.1
 #define SIGNAL_SHARE 0.5
 #define RISEN 0.98
@@ -178,8 +178,8 @@ koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring
     return KOKSMA_OK;
 }
 
-/* The oscillation over the rings from the first whose mean has risen to RISEN, about 1, up to BAND sqrt(n) beyond.
-   This band does not depend on the size of the spectrum. NaN if the spectrum ends before it does. */
+/* The oscillation over a band of rings: it begins at the first ring whose mean exceeds RISEN (about 1) and is
+   BAND sqrt(n) rings wide, whatever the size of the spectrum. NaN if the band ends beyond the spectrum. */
 static double oscillation(const koksma_spectrum *s)
 {
     int from = 1;

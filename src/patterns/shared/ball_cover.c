@@ -4,8 +4,9 @@
  *
  * Cells are at least d wide, so that the 3^dim cells around a position hold all points within d of it. A ball that
  * contains a whole child of a cube contains the cube's centre, a corner of that child: only the points within d of the
- * centre are compared with the 2^dim children. They are found once for each region of 4^dim cubes. On the torus the largest distance from a point to a box is found axis
- * by axis, where it is at most 1/2, so that distances above 1/2 need no images.
+ * centre are compared with the 2^dim children. They are found once for each region of 4^dim cubes. On the
+ * torus the largest distance from a point to a box is found axis by axis, where it is at most 1/2, so that distances
+ * above 1/2 need no images.
  */
 #include "patterns/shared/ball_cover.h"
 

@@ -10,8 +10,8 @@
  * round arrive as a Poisson process in time; all tiles together are one Poisson process over the cover. Whether a
  * dart is kept depends only on earlier darts near it. Each tile thus decides its darts in order of time, except darts
  * near its border, which may depend on another tile, and later darts near such a dart: these wait for the end of the
- * round and are then decided in order of time. The distribution is therefore that of a single tile, and most darts
- * need only memory that is in the cache.
+ * round and are then decided in order of time. The points are therefore distributed as if the whole
+ * grid were one tile, and most darts need only memory that is in the cache.
  *
  * Positions are also stored as fixed-point numbers in units of 2^-12 of a cell (kernels/dart_cells.h), which decide
  * all but the closest cases; doubles decide those. Darts are drawn in batches of some hundreds. Darts too near to

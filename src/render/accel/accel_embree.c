@@ -735,7 +735,7 @@ static koksma_status make(const koksma_scene *scene, koksma__geometry *out)
     e->device = rtcNewDevice("threads=1,set_affinity=0");
     koksma_status status = HOST->shapes(scene, &e->shapes);
     if (!status && (!e->device || !e->shared)) {
-        status = koksma__fail(KOKSMA_SYSTEM, "Embree makes no device");
+        status = koksma__fail(KOKSMA_SYSTEM, "Embree cannot create its device (rtcNewDevice)");
     }
     if (!status) {
         e->wide = rtcGetDeviceProperty(e->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;

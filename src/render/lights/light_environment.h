@@ -19,8 +19,8 @@ typedef struct koksma__environment {
     float turn; /* rotation, as a fraction of a full turn */
     float mean;
     /* Cumulative tables, of `height` entries over the rows and of `width` over the columns of each row; row r's table
-       begins at column_cdf + r stride. Each is padded with numbers above 1 to whole strides of 16 and one more.
-       coarse: every 16th number. */
+       begins at column_cdf + r stride. Each is padded with values above 1 to a multiple of 16, and by another 16.
+       row_coarse, column_coarse: every 16th entry, searched first. */
     float *row_cdf, *column_cdf, *row_coarse, *column_coarse;
     size_t stride;
 } koksma__environment;

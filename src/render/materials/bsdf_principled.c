@@ -10,8 +10,9 @@
  *
  * glTF's sample implementation has 1 - F at the facet in place of the two factors, and so reflects more light than
  * arrives at grazing angles. The model here never reflects more than arrives and is reciprocal. It reflects up to
- * an eighth of c less than real surfaces, because light that bounces between facets and the diffuse part is lost. A direction is sampled by the facets with a
- * probability estimated from their reflectance, at least .1 if both lobes exist.
+ * an eighth of c less than real surfaces, because light that bounces between facets and the diffuse part is lost.
+ * A direction is sampled by the facets with a probability estimated from their reflectance, at least .1 if both lobes
+ * exist.
  */
 #include "render/materials/facets.h"
 #include "render/materials/lobes.h"

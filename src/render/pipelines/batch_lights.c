@@ -47,9 +47,9 @@ float BATCH_NAME(estimate)(const koksma__batch_lights *l, const float p[3], cons
     return total;
 }
 
-/* In this kernel each lane is a point. Each light in turn is estimated at all points; then the inverse of the
-   cumulative sums at u total selects a light. If rounding exhausts the sums, the last light with a positive
-   estimate is selected. */
+/* In this kernel each lane is a point. It estimates the contribution of each light to each point, then selects for
+   each point the first light at which the cumulative sum of the estimates exceeds u times their total. If rounding
+   leaves no such light, it selects the last light with a positive estimate. */
 void BATCH_NAME(choose)(const koksma__batch_lights *l, const koksma__hits *restrict h, const float *restrict u, int n,
                         float (*restrict estimates)[KOKSMA__BLOCK], int32_t *restrict light,
                         float *restrict probability)

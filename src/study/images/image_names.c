@@ -93,7 +93,7 @@ koksma_status koksma__image_name_read(const char *places, const char *path, koks
     return KOKSMA_OK;
 }
 
-/* Replaces each place by a star and escapes all other characters. */
+/* Makes a pattern for glob(): replaces each placeholder in braces by a star and escapes all other characters. */
 koksma_status koksma__image_names_pattern(const char *places, char *pattern, size_t size)
 {
     size_t used = 0;

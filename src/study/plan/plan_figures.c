@@ -116,7 +116,7 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
         status ? status : koksma__json_get_number(node, "exposure", false, MIN_EXPOSURE, MAX_EXPOSURE, &f->exposure);
     status = status ? status : koksma__variants_parse(node, &variants);
     if (!status && variants.n != 1) {
-        status = koksma__json_fail(node, "a figure has one word an option");
+        status = koksma__json_fail(node, "a figure takes one value of each option");
     }
     if (!status) {
         f->variant = variants.at[0];

@@ -9,7 +9,7 @@
 
 #include "study/report/questions/topic.h"
 
-/* Most patterns of a case: the time of the bootstrap grows with the square of their number. */
+/* Maximum number of patterns of a case, because the time of the bootstrap grows with the square of that number. */
 enum { KOKSMA__CASE_PATTERNS = 256 };
 
 /* A measure of points of `dim` dimensions; one measure in two and in three dimensions counts as two. */

@@ -23,7 +23,7 @@
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
-/* The limit of jobs in a plan. Two bits per job (done; in the store) then take 256 MiB. */
+/* The maximum number of jobs in a plan. Two bits per job (done; in the store) then take 256 MiB. */
 static const long long MOST_JOBS = 1 << 30;
 
 /* A job's seed is the hash of the task's key and the trial. The options are not part of it, so that different options

@@ -73,7 +73,7 @@ typedef struct koksma__kept_rows {
 typedef struct koksma__known_series {
     /* true: the four values of a row are one result; false: a row has one value each of up to four series */
     bool alone;
-    long long end, count; /* one past the highest trial; the number of trials */
+    long long end, count; /* index of the last trial, plus 1; number of trials in the store */
 } koksma__known_series;
 
 struct koksma__store {

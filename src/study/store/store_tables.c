@@ -122,8 +122,8 @@ koksma_status koksma__seal_fail(const koksma__store *store)
 {
     return koksma__fail(KOKSMA_MALFORMED,
                         "%s: damaged or changed by hand: %lld rows with the checksum %016" PRIx64
-                        " where runs wrote %lld with %016" PRIx64 "; 'koksma study audit' names what differs; "
-                        "restore a copy, or move it away to begin anew",
+                        " are stored, but runs wrote %lld with %016" PRIx64 "; 'koksma study audit' names what "
+                        "differs; restore a copy, or move it away to begin anew",
                         koksma__database_path(store->database), store->found.rows, store->found.sum, store->seal.rows,
                         store->seal.sum);
 }

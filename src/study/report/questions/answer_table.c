@@ -25,7 +25,7 @@ typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
     const char *scene, *variant; /* for images */
-    const char *measure, *warp;  /* for points; warp "": none */
+    const char *measure, *warp;  /* for measures of points; warp "": the points are not warped */
     const koksma__texts *patterns;
     const koksma__wholes *n;
     const char *name, *last; /* heading of the table; head of its last column */
