@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints the tables of docs/findings/pairs-and-quadruples.md:
 
-    pairs_and_quadruples.py KOKSMA evenness|scrambled|all-pairs|integrals
+    pairs_and_quadruples.py KOKSMA evenness|scrambled|ternary|all-pairs|integrals
     pairs_and_quadruples.py KOKSMA images STUDY
 
 Evenness: D* and t of the coordinates 2k, 2k + 1 (24 pairs) and 4k .. 4k + 3 (12 quadruples) of 48 dimensions, mean and worst,
 as `koksma measure` gives them. Scrambled: D* of SETS Owen scramblings, the mean over groups with its standard error over sets,
-and the worst. All pairs: t of all 1,128 pairs of 48 dimensions, by ranks of matrices. Integrals: RMS errors of `koksma integrate`
+and the worst. Ternary: the same, plain and scrambled, at powers of 3, and t in base 3 of `ternary-quads`. All pairs: t of all 1,128 pairs of 48 dimensions, by ranks of matrices. Integrals: RMS errors of `koksma integrate`
 in two and four coordinates, Owen-scrambled. Images: root mean square errors of the study's images, those of Joe & Kuo's
 numbers and the differences of the others from them with 95 % intervals; the last row has the geometric means.
 """
@@ -92,6 +92,22 @@ def scrambled(folder):
             print(f"| {n} | {' | '.join(cells)} |", flush=True)
 
 
+def ternary(folder):
+    patterns = "sobol", "sobol:numbers=groups", "ternary-quads"
+    for group, sizes in (2, (27, 81, 243, 729, 2187)), (4, (27, 81, 243, 729)):
+        print(f"\n| n | `ternary-quads` t in base 3: mean, worst | {' | '.join(f'`{p}` D*; scrambled' for p in patterns)} |\n"
+              f"|---|---|{'---|' * len(patterns)}")
+        for n in sizes:
+            cells = [summary(measured(groups(folder, patterns[-1], n, group), "t-value:base=3"))]
+            for pattern in patterns:
+                scramble = "scramble=owen" if pattern == patterns[-1] else "owen=1"
+                spec = pattern + ("," if ":" in pattern else ":") + scramble
+                sets = [measured(groups(folder, spec, n, group, "-s", str(seed)), "star") for seed in range(SETS)]
+                cells.append(f"{summary(measured(groups(folder, pattern, n, group), 'star'))}; "
+                             f"{mean_and_error([sum(stars) / len(stars) for stars in sets])}")
+            print(f"| {n} | {' | '.join(cells)} |", flush=True)
+
+
 def t_of_pair(a, b, m):
     """t of the first 2^m points: a and b hold the rows of the generator matrices, bit c the digit of column c."""
     mask, least, upper = (1 << m) - 1, m, []
@@ -172,4 +188,4 @@ def percent(log, variance):
 
 
 with tempfile.TemporaryDirectory() as work:
-    {"evenness": evenness, "scrambled": scrambled, "all-pairs": all_pairs, "integrals": integrals, "images": images}[sys.argv[2]](work)
+    {"evenness": evenness, "scrambled": scrambled, "ternary": ternary, "all-pairs": all_pairs, "integrals": integrals, "images": images}[sys.argv[2]](work)
