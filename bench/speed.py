@@ -497,11 +497,13 @@ REASONS = [
     ("fast spectrum", "Spreading points is 20 %, the transform 17 %, its rows and columns 17 %, clearing and copying memory 13 %, rings 6 %."),
     ("pmj02 2D 1M, avx2", "Of 1.78 ms, 0.70 are Philox (10 rounds, half a counter a point), 0.58 storing rows of doubles (plain stores of "
                           "16 MiB take 0.40), 0.50 growing columns; a ratio of 2 would need growth for nothing."),
-    ("ball, regular", "62 instructions a sample (AVX2), 79 at c86c5f3. 52 % of the time are rays and light, as long as at c86c5f3, 26 % "
-                      "putting the samples of lights in order, 22 % film, file and start."),
-    ("ball, pmj02", "With AVX2 44 % are samples (Philox 19 %, growing nets 13 %, orders 8 %), 41 % rays and light; c86c5f3 drew pmj02 faster "
-                    "than jittered points, 130 ms beside 137."),
-    ("ball, n-rooks", "With AVX-512 48 % are samples, of which each use takes two random orders, 31 % rays and light."),
+    ("ball, regular", "With AVX2 17 % of the time puts the samples of lights in order, half is rays, light and shading, "
+                      "the rest film, file and start: a lattice has no random numbers whose drawing could be made "
+                      "faster."),
+    ("ball, pmj02", "With AVX2 43 % are samples (Philox 18 %, growing nets 18 %, orders 6 %), 40 % rays and light; "
+                    "c86c5f3 drew pmj02 faster than jittered points, 130 ms beside 137."),
+    ("ball, n-rooks", "With AVX-512 about half are samples, of which each use takes two random orders (Philox 15 %, "
+                      "orders 14 %, gathering 11 %, offsets 9 %), a quarter is rays and light."),
     ("ball, correlated", "With AVX2 50 % are samples (Philox 17 %, three orders a use 11 %, corners 9 %), 36 % rays and light."),
     ("ball, ", "About half is rays and light, which take as long at c86c5f3."),
 ]
