@@ -504,6 +504,8 @@ REASONS = [
                     "c86c5f3 drew pmj02 faster than jittered points, 130 ms beside 137."),
     ("ball, n-rooks", "With AVX-512 about half are samples, of which each use takes two random orders (Philox 15 %, "
                       "orders 14 %, gathering 11 %, offsets 9 %), a quarter is rays and light."),
+    ("bunny", "Half of the time is Embree (39 %) and handing rays to it (11 %), which c86c5f3 spent, too; finding texels by the "
+              "environment's distribution, a search that waits for memory, is 22 %."),
     ("ball, correlated", "With AVX2 50 % are samples (Philox 17 %, three orders a use 11 %, corners 9 %), 36 % rays and light."),
     ("ball, ", "About half is rays and light, which take as long at c86c5f3."),
 ]
