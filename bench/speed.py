@@ -16,8 +16,9 @@ older commit, which is built on the first run (build/speed/base, 3 minutes):
     KOKSMA_BENCH_POINTS      points of the large file (10^8)
     KOKSMA_BENCH_ROUNDS      turns (3)
 
-scipy, QMCPy, POV-Ray and Blender count where they are installed: run it by a Python that has the first two."""
+scipy, QMCPy, Mitsuba, POV-Ray and Blender count where they are installed: run it by a Python that has the first three."""
 import argparse
+import array
 import datetime
 import json
 import math
@@ -449,6 +450,43 @@ def renderers(table):
             found = re.search(r"jittered ([\d.]+) \((\d+) times\)", out)
             if found:
                 table.add(part, "ball, jittered, whole program", found[1], "Msamples/s", peer=name, ratio=found[2])
+    mitsuba_box(table, part)
+
+
+def mitsuba_box(table, part):
+    """Mitsuba's own Cornell box: 6 bounces, 64 random samples of each of 128 x 128 pixels, by its scalar path tracer and by ours."""
+    what = "Mitsuba's Cornell box, path, random"
+    try:
+        import mitsuba as mi
+    except ImportError:
+        return
+    if not table.has(part, what):
+        return
+    mi.set_variant("scalar_rgb")
+    given, samples = mi.cornell_box(), 64
+    given["sensor"]["film"].update(width=128, height=128, rfilter={"type": "box"})
+    xml, picture = os.path.join(WORK, "box.xml"), os.path.join(WORK, "box.pfm")
+    mi.parser.write_file(mi.parser.parse_dict(mi.parser.ParserConfig(mi.variant()), given), xml)
+    scene, means = mi.load_dict(given), {}
+
+    def theirs():
+        start = time.process_time()
+        image = mi.render(scene, spp=samples)
+        seconds = time.process_time() - start
+        means["Mitsuba"] = sum(image.array) / (3 * 128 * 128)
+        return seconds
+
+    def ours():
+        seconds = run(KOKSMA, "render", xml, "--integrator", "path", "--depth", "6", "-p", "random", "-n", str(samples),
+                      "--threads", "1", "-o", picture)
+        with open(picture, "rb") as file:
+            values = array.array("f", file.read()[-12 * 128 * 128:])
+        means["koksma"] = sum(values) / len(values)
+        return seconds
+    table.versus(part, what, ours, theirs, "Mitsuba %s, scalar" % mi.__version__, unit="Msamples/s",
+                 figure=lambda s: 128 * 128 * samples * 1e-6 / s)
+    if means and abs(means["koksma"] - means["Mitsuba"]) > .03 * means["Mitsuba"]:
+        sys.exit("speed.py: the pictures of Mitsuba's box differ: %s" % means)
 
 
 # ---- The page ---------------------------------------------------------------------------------------------------
