@@ -607,6 +607,9 @@ static koksma_status emitter(reader *r, const node *n)
         point(r, n, "position", light.centre);
         if (!strcmp(type, "spot")) {
             const double outer = number(r, n, "cutoff_angle", 20);
+            const node *picture = property(r, n, "texture");
+            KOKSMA__TRY(picture ? koksma__import_unknown(r->im, picture->place, "a spot's texture is ignored")
+                                : KOKSMA_OK);
             for (int k = 0; k < 3; k++) {
                 along[k] = m[4 * k + 2];
             }

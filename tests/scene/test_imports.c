@@ -347,6 +347,10 @@ static const struct {
      "a.xml:2: anisotropic"},
     {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid': it is left out"},
     {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), "a.xml:2: a spot's edge"},
+    {"a.xml",
+     MITSUBA("<emitter type=\"spot\"><float name=\"beam_width\" value=\"20\"/>"
+             "<texture type=\"bitmap\" name=\"texture\"/></emitter>"),
+     "a.xml:2: a spot's texture is ignored"},
     {"a.xml", MITSUBA("<emitter type=\"projector\"/>"), "a.xml:2: emitter 'projector': a point"},
     {"a.xml", MITSUBA("<emitter type=\"sunsky\"/>"), "a.xml:2: emitter 'sunsky': a white sky"},
     {"a.xml", MITSUBA("<shape type=\"cube\"/>"), NULL},
