@@ -199,7 +199,10 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
         /* if no pattern was ranked in time, the advice says so */
         if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) {
-            cli_say("rank", "%s is not ranked: %s", options->patterns[table[i].pattern], table[i].reason);
+            const char *name = options->patterns[table[i].pattern], *reason = table[i].reason;
+            const size_t length = strlen(name);
+            const bool repeats = !strncmp(reason, name, length) && !strncmp(reason + length, ": ", 2);
+            cli_say("rank", "%s is not ranked: %s", name, reason + (repeats ? length + 2 : 0));
         }
     }
     *settled = ranking.settled;
