@@ -214,8 +214,8 @@ static koksma_status check_length(const ply *p)
     }
     if (bytes > (double)(t->end - t->next) + 1) { /* the last blank may be missing */
         return koksma__fail(KOKSMA_MALFORMED,
-                            "%s: its elements take %.0f bytes at least, and after the header are %td", t->path, bytes,
-                            t->end - t->next);
+                            "%s: its elements take %.0f bytes at least, but the file has only %td after its header",
+                            t->path, bytes, t->end - t->next);
     }
     return KOKSMA_OK;
 }

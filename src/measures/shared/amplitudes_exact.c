@@ -108,7 +108,7 @@ static koksma_status row_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Sums over all chunks of points for the blocks of a band; steps is the number of bands times chunks. */
+/* Sums over all chunks of points for the blocks of a band. steps: the number of chunks in all bands, for progress. */
 static koksma_status add_band(job *j, size_t n_blocks, double steps)
 {
     const size_t n = j->points->n;

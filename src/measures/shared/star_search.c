@@ -38,7 +38,7 @@ typedef struct walk {
     size_t cut[DIMS];
     uint8_t *outside;
     uint64_t seed, index;
-    uint32_t lane, n_walks; /* lane: the number of this walk */
+    uint32_t lane, n_walks; /* this walk is number `lane` of n_walks */
     const koksma_run *run;
     double deadline_s;
     bool stopped, late;

@@ -59,7 +59,8 @@ typedef struct koksma__tree {
 typedef struct koksma__strata {
     uint32_t m, levels;
     float threshold;
-    bool shuffled, selective; /* selective: only the cells of the base use are split with their stratum */
+    bool shuffled;
+    bool selective; /* when a stratum is split, its cells are split in the base use only */
     int phase, reuse;
     double below; /* threshold of the method `selective` on the contiguity ratio */
     koksma__tree *trees;
