@@ -204,6 +204,8 @@ static void list_records(cli_rows *rows)
         cli_row_number(rows, "value", r->value);
         cli_row_number(rows, "published", r->published > 0 ? r->published : (double)NAN);
         cli_row_text(rows, "source", r->source);
+        cli_row_number(rows, "seed", r->steps ? (double)r->seed : (double)NAN);
+        cli_row_number(rows, "steps", r->steps ? (double)r->steps : (double)NAN);
         cli_row_end(rows);
     }
 }

@@ -1,16 +1,23 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes src/patterns/shared/records.inc: make_records.py PROGRAM FOLDER
+"""Writes src/patterns/shared/records.inc, the sets of the pattern record: make_records.py PROGRAM FOLDER
 
-FOLDER has sets that `koksma optimise star -n N -o FOLDER/N.txt` wrote. Coordinates are rounded to multiples of 10^-12, and
-the values are those that PROGRAM measures of the rounded sets. A set that is there already stays if it is not worse.
+FOLDER has sets that `koksma optimise MEASURE -n N [-d D] --seed S --steps K -o FOLDER/ANY.txt` wrote. Of each measure, dim and n
+the best is kept, with its seed and steps, from which that command makes it again. A set that is there already stays if it is not
+worse. Coordinates are rounded to whole numbers of units of 10^-12, and the values are those that PROGRAM measures of the rounded
+sets.
 """
 import glob
+import json
 import os
+import re
+import subprocess
 import sys
+import tempfile
+from pathlib import Path
 
-sys.dont_write_bytecode = True
-import record_sets
+FILE = Path(__file__).resolve().parent.parent / "src/patterns/shared/records.inc"
+MEASURES = ["star", "l2-star", "l2-periodic", "l2-centered"]  # in the order of record.c
 
 # The best published values of the 2D star discrepancy that were at hand.
 CLEMENT = {16: .0739, 20: .0604, 30: .0424}
@@ -19,26 +26,70 @@ OPENEVOLVE = {40: .033127, 50: .027842, 60: .023363, 80: .018192, 100: .015038, 
               580: .003772, 620: .00386, 660: .0036, 700: .003789, 740: .003456, 780: .003104, 820: .002941, 860: .003162,
               900: .002957, 940: .002889, 980: .002803, 1020: .00245}
 
-HEAD = """Made by tools/make_records.py of sets that `koksma optimise` found. A line RECORD(measure, dim, n, value, published,
-   source) for each set, in order of n; 0: no published value was at hand. Then the coordinates of all sets, in that order,
-   point by point, in units of 10^-12."""
+HEAD = """/* SPDX-License-Identifier: Apache-2.0 */
+/* Made by tools/make_records.py of sets that `koksma optimise` found. A line RECORD(measure, dim, n, value, published, source,
+   seed, steps) for each set, in order of measure, dim and n; published 0: no published value was at hand. The command
+   `koksma optimise MEASURE -n N -d DIM --seed SEED --steps STEPS` makes the set; steps 0: an earlier form of the search did. Then the coordinates of all sets, in that order,
+   point by point, in units of 10^-12. */
+#ifdef RECORD
+"""
 
 
-def line(n, value):
-    published, source = (CLEMENT[n], "clement2023") if n in CLEMENT else (OPENEVOLVE[n], "sadikov2025") if n in OPENEVOLVE else (0, "-")
-    return f'RECORD(STAR, 2, {n}, {value!r}, {published}, "{source}")'
+def rounded(line):
+    """The point of a line of a set's file."""
+    return tuple(min(round(float(x) * 10**12), 10**12 - 1) for x in line.split())
+
+
+def measured(program, measure, points):
+    """What the program measures of these points."""
+    with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+        file.write("".join(" ".join(f"0.{x:012d}" for x in point) + "\n" for point in points))
+        file.flush()
+        rows = subprocess.run([program, "measure", file.name, "-m", measure, "--json"], check=True, capture_output=True,
+                              text=True).stdout
+    return json.loads(rows)["value"]
+
+
+def shipped():
+    """(key, (value, points, seed, steps)) of each set in FILE; a key sorts as the file does."""
+    text = FILE.read_text(encoding="utf-8") if FILE.exists() else "#else"
+    lines, coordinates = text.split("#else")
+    numbers = [int(x) for x in re.findall(r"\d{1,12}(?=,)", coordinates)]
+    for fields in re.findall(r"^RECORD\((.*)\)$", lines, re.M):
+        name, dim, n, value, _, _, seed, steps = fields.split(", ")
+        dim, n = int(dim), int(n)
+        points = [tuple(numbers[i * dim:(i + 1) * dim]) for i in range(n)]
+        yield (MEASURES.index(name.lower().replace("_", "-")), dim, n), (float(value), points, seed, steps)
+        numbers = numbers[n * dim:]
+
+
+def line(key, value, seed, steps):
+    index, dim, n = key
+    table, source = (CLEMENT, "clement2023") if n in CLEMENT else (OPENEVOLVE, "sadikov2025")
+    known = index == 0 and dim == 2 and n in table
+    return (f'RECORD({MEASURES[index].upper().replace("-", "_")}, {dim}, {n}, {value!r}, '
+            f'{table[n] if known else 0}, "{source if known else "-"}", {seed}, {steps})\n')
 
 
 def main():
     program, folder = sys.argv[1:]
-    sets = {len(points): (record_sets.measured(program, "star", points), points)
-            for _, _, points in record_sets.read("records.inc")}
-    for path in glob.glob(os.path.join(folder, "[0-9]*.txt")):
-        points = [record_sets.rounded(row) for row in open(path, encoding="utf-8") if not row.startswith("#")]
-        value = record_sets.measured(program, "star", points)
-        if len(points) not in sets or value < sets[len(points)][0]:
-            sets[len(points)] = (value, points)
-    record_sets.write("records.inc", "points", HEAD, [(line(n, value), points) for n, (value, points) in sorted(sets.items())])
+    sets = dict(shipped())
+    for path in sorted(glob.glob(os.path.join(folder, "*.txt"))):
+        rows = open(path, encoding="utf-8").read().splitlines()
+        head = dict(re.findall(r"^# (optimised for|seed|steps) (.*)$", "\n".join(rows), re.M))
+        points = [rounded(row) for row in rows if row[:1] != "#"]
+        key = (MEASURES.index(head["optimised for"]), len(points[0]), len(points))
+        value = measured(program, head["optimised for"], points)
+        if key not in sets or value < sets[key][0]:
+            sets[key] = (value, points, head["seed"], head["steps"])
+    with open(FILE, "w", encoding="utf-8") as out:
+        out.write(HEAD)
+        out.writelines(line(key, value, seed, steps) for key, (value, _, seed, steps) in sorted(sets.items()))
+        out.write("#else\nstatic const uint64_t points[] = {\n")
+        for _, (_, points, _, _) in sorted(sets.items()):
+            numbers = [f"{x}," for point in points for x in point]
+            out.writelines(" ".join(numbers[i:i + 8]) + "\n" for i in range(0, len(numbers), 8))
+        out.write("};\n#endif\n")
 
 
 main()

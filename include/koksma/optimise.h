@@ -134,6 +134,8 @@ typedef struct koksma_record {
     double value;       /* value of the measure for this set */
     double published;   /* best published value that is known to us, with the digits published; 0: none is known */
     const char *source; /* source of the published value: a key of docs/references.bib, or "-" */
+    uint64_t seed;      /* `koksma optimise MEASURE -n N -d DIM --seed SEED --steps STEPS` makes the set */
+    uint64_t steps;     /* 0: an earlier form of the search made it */
 } koksma_record;
 
 /* Returns record i, sorted by measure and n, or NULL past the last record. */

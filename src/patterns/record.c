@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * record: the best known sets of n points for a measure, found by `koksma optimise`; `koksma list records` prints
- * their values and the best published ones. Any other n is an error. The sets are in shared/records.inc (star
- * discrepancy in the plane) and shared/records_made.inc (star discrepancy in 3 dimensions and L2 discrepancies, with
- * the commands that make them).
+ * their values, the best published ones, and the seed and steps that make them. Any other n is an error.
  *     x_ik = t_ik / 10^12, t_ik a whole number from a table
  *
  * Source: this project's searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 14
@@ -25,21 +23,13 @@
 static const char *const names[] = {STAR, L2_STAR, L2_PERIODIC, L2_CENTERED, NULL};
 
 static const koksma_record records[] = {
-#define RECORD(measure, dim, n, value, published, source) {(measure), (n), (dim), (value), (published), (source)},
-#include "patterns/shared/records.inc"
-#include "patterns/shared/records_made.inc"
-#undef RECORD
-};
-
-enum {
-    STARS = 0 /* records whose coordinates are in the first file */
-#define RECORD(measure, dim, n, value, published, source) +1
+#define RECORD(measure, dim, n, value, published, source, seed, steps)                                               \
+    {(measure), (n), (dim), (value), (published), (source), (seed), (steps)},
 #include "patterns/shared/records.inc"
 #undef RECORD
 };
 
 #include "patterns/shared/records.inc"
-#include "patterns/shared/records_made.inc"
 
 const koksma_record *koksma_record_at(size_t i)
 {
@@ -55,7 +45,6 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     for (size_t i = 0; i < sizeof records / sizeof *records; i++) {
         const koksma_record *r = &records[i];
         const bool alike = !strcmp(r->measure, measure) && r->dim == out->dim;
-        xs = i == STARS ? points_made : xs;
         if (alike && r->n == out->n) {
             for (size_t c = 0; c < out->n * (size_t)out->dim; c++) {
                 out->xs[c] = (double)xs[c] / 1e12;
@@ -89,7 +78,7 @@ const koksma_pattern koksma__pattern_record = {
     .min_dim = 2,
     .max_dim = 3,
     .claims = KOKSMA_CLAIM_DETERMINISTIC,
-    .revision = 3,
+    .revision = 4,
     .params = params,
     .generate = generate,
 };
