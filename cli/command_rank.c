@@ -199,6 +199,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
         /* if no pattern was ranked in time, the advice says so */
         if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) {
+            /* a pattern's own reason begins with its name; that of another in its text does not */
             const char *name = options->patterns[table[i].pattern], *reason = table[i].reason;
             const size_t length = strlen(name);
             const bool repeats = !strncmp(reason, name, length) && !strncmp(reason + length, ": ", 2);

@@ -29,8 +29,8 @@ OPENEVOLVE = {40: .033127, 50: .027842, 60: .023363, 80: .018192, 100: .015038, 
 HEAD = """/* SPDX-License-Identifier: Apache-2.0 */
 /* Made by tools/make_records.py of sets that `koksma optimise` found. A line RECORD(measure, dim, n, value, published, source,
    seed, steps) for each set, in order of measure, dim and n; published 0: no published value was at hand. The command
-   `koksma optimise MEASURE -n N -d DIM --seed SEED --steps STEPS` makes the set; steps 0: an earlier form of the search did. Then the coordinates of all sets, in that order,
-   point by point, in units of 10^-12. */
+   `koksma optimise MEASURE -n N -d DIM --seed SEED --steps STEPS` makes the set; steps 0: an earlier form of the search did.
+   Then the coordinates of all sets, in that order, point by point, in units of 10^-12. */
 #ifdef RECORD
 """
 

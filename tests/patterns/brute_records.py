@@ -7,8 +7,8 @@
 x, y and z coordinates of points, or 1, in numpy, which shares no code with the library; L2 discrepancies as sums over all pairs
 (Warnock 1972; Hickernell 1998; Hinrichs & Oettershagen 2016). The value that is listed must be that to 1e-14 (of L2 1e-11, as it
 is the root of a difference of near numbers), and, where a value is published, not above it by more than the rounding of its
-last digit. Sets of up to LARGEST points (8 when left out; 1020 takes an hour of one core) are made again by `koksma optimise` from
-the listed seed and steps.
+last digit. Sets of up to LARGEST points (8 when left out) are made again by `koksma optimise`
+from the listed seed and steps.
 """
 import json
 import subprocess

@@ -45,11 +45,10 @@ typedef struct best_strip {
 
 typedef struct plane {
     size_t n, n_levels;
-    double *x, *y;    /* points in order of y */
-    double *levels;   /* the distinct values of x, with 0 and 1 */
-    best_strip *best; /* for each block of left sides */
-    double
-        *upper; /* for each block, a bound on the tiles that were left at the deadline; infinite: not bounded yet */
+    double *x, *y;     /* points in order of y */
+    double *levels;    /* the distinct values of x, with 0 and 1 */
+    best_strip *best;  /* for each block of left sides */
+    double *upper;     /* for each block, a bound on the tiles left at the deadline; infinite: not bounded yet */
     double *row_upper; /* for each row of wide tiles, of row_side left sides each, its bound after the deadline */
     size_t row_side;
     double deadline_s;
