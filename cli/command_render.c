@@ -202,21 +202,20 @@ static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *co
     return !status;
 }
 
-/* Reads --aov, which needs one pass whose samples are not splatted. Returns false after an error. */
-static bool parse_aovs(const cli_arguments *arguments, const koksma_render_options *options,
-                       const cli_adaptive *adaptive, koksma_aovs *out, int *code)
+/* Reads --aov, whose samples are not splatted. Returns false after an error. */
+static bool parse_aovs(const cli_arguments *arguments, const koksma_render_options *options, cli_adaptive *adaptive,
+                       koksma_aovs *out, int *code)
 {
     const char *text = cli_text(arguments, "aov", NULL);
     const koksma_status status = text ? koksma_aovs_parse(text, out) : KOKSMA_OK;
     if (status) {
         *code = cli_fail(arguments, status);
-    } else if (text && (options->splat || adaptive->options.method)) {
-        cli_usage_error(arguments,
-                        "--aov goes without --%s: its layers are those of one pass over each pixel's samples",
-                        options->splat ? "splat" : "adaptive");
+    } else if (text && options->splat) {
+        cli_usage_error(arguments, "--aov goes without --splat: its layers are of each pixel's own samples");
         *code = CLI_USAGE;
         return false;
     }
+    adaptive->options.aovs = text ? out : NULL;
     return !status;
 }
 

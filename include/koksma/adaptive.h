@@ -69,6 +69,8 @@ typedef struct koksma_adaptive_options {
                    probes */
     koksma_strata *strata; /* receives the strata of one pixel; may be NULL. Only methods with own_samples accept
                               it */
+    koksma_aovs *aovs; /* receives further images, as koksma_render_aovs allocates them (the caller must free them,
+                              also after an error); may be NULL */
 } koksma_adaptive_options;
 
 enum { KOKSMA_MAX_PROBES = 256 };
@@ -95,7 +97,10 @@ typedef struct koksma_adaptive_report {
 /* Renders a scene with adaptive sampling; allocates out, which koksma_layers_fini frees.
      options  as for koksma_render_layers; spp is the number of samples of the first round
      out      `samples` has the number of samples of each pixel; `variance` estimates the variance of the pixel's
-              luminance as if its samples were independent; albedo, normal and depth come from the first round
+              luminance as if its samples were independent; albedo, normal, depth and the AOV "id" come from the
+              first round. The AOVs of light weigh the samples as the image does, and add up to it; "half:even" and
+              "half:odd" are every second sample of those that count, or every second stratum. With AOVs all scenes
+              take the same pipeline, whose rounding may move a decision of the method
      report   may be NULL
    Errors: those of koksma_render_layers; also ARGUMENT for splatting, for scope image, for a pattern that gives the
    same set for every seed, and for options with which the method would never stop. */

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from ctypes import byref, c_void_p
+from ctypes import byref, c_void_p, pointer
 from dataclasses import dataclass, field
 from typing import Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
@@ -132,8 +132,8 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     further = s.Aovs()
     if isinstance(aov, str):
         raise ArgumentError(f"aov {aov!r}: it takes a list of texts")
-    if aov and (not layers or adaptive is not None):
-        raise ArgumentError("aov takes layers=True, and no method of adaptive sampling")
+    if aov and not layers:
+        raise ArgumentError("aov takes layers=True")
     if aov:
         check(lab().koksma_aovs_parse(text(",".join(aov)), byref(further)))
     choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),
@@ -166,6 +166,8 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
             if method.method.contents.own_samples and pattern != "n-rooks":
                 raise ArgumentError(f"pattern '{pattern}': adaptive method {adaptive} draws strata of its own")
             method.budget = budget
+            if aov:
+                method.aovs = pointer(further)
             call(lab().koksma_render_adaptive, handle, byref(options), byref(method), byref(every), byref(report),
                  threads=threads, run_at=3)
         elif budget:

@@ -266,7 +266,7 @@ class Adaptive(Structure):
 
 class AdaptiveOptions(Structure):
     _fields_ = [("method", POINTER(Adaptive)), ("params", c_double * MAX_PARAMS), ("budget", c_double), ("probes", c_int),
-                ("strata", c_void_p)]
+                ("strata", c_void_p), ("aovs", POINTER(Aovs))]
 
 
 class AdaptiveReport(Structure):

@@ -198,6 +198,16 @@ static float mean_of(const float *numbers, size_t stride, size_t k, const float 
     return n ? (float)(sum / (double)n) : 0;
 }
 
+void koksma__aov_ids(const koksma__frame *frame, const koksma__values *values, size_t pixel, size_t first, size_t end)
+{
+    const koksma__aovs *aovs = frame->aovs;
+    for (size_t a = 0; first < end && aovs && a < aovs->n; a++) {
+        if (aovs->items[a].kind == KOKSMA__AOV_ID) {
+            aovs->items[a].image->pixels[pixel] = most_common(values->ids + first, end - first);
+        }
+    }
+}
+
 void koksma__aov_film(const koksma__frame *frame, const koksma__group *group, const koksma__values *values,
                       const float *weights)
 {
@@ -208,11 +218,7 @@ void koksma__aov_film(const koksma__frame *frame, const koksma__group *group, co
         size_t part = 0;
         for (size_t a = 0; first < end && a < aovs->n; a++) {
             const koksma__aov *aov = &aovs->items[a];
-            if (aov->kind == KOKSMA__AOV_ID) {
-                aov->image->pixels[pixel] = most_common(values->ids + first, end - first);
-                continue;
-            }
-            for (size_t k = 0; k < channels; k++) {
+            for (size_t k = 0; aov->kind != KOKSMA__AOV_ID && k < channels; k++) {
                 aov->image->pixels[pixel * channels + k] =
                     aov->kind == KOKSMA__AOV_HALF
                         ? mean_of(values->rgb, channels, k, weights, first + (size_t)aov->first, end, 2)
@@ -220,5 +226,6 @@ void koksma__aov_film(const koksma__frame *frame, const koksma__group *group, co
             }
             part += aov->kind == KOKSMA__AOV_LIGHT;
         }
+        koksma__aov_ids(frame, values, pixel, first, end);
     }
 }

@@ -40,6 +40,11 @@ void koksma__aov_note(const koksma__frame *frame, const koksma__vertices *v, kok
 /* Reduces the parts of sample i, channel k, by the factor by which the sample was clamped. */
 void koksma__aov_clamp(const koksma__aovs *aovs, koksma__values *values, size_t i, int k, float factor);
 
+/* Sets the pixel of the AOVs of objects, if there are any, to the one that most of the samples first .. end - 1 hit; sorts
+   their ids. */
+void koksma__aov_ids(const koksma__frame *frame, const koksma__values *values, size_t pixel, size_t first,
+                     size_t end);
+
 /* Adds the samples of a group to the images. weights: of the filter, or NULL. */
 void koksma__aov_film(const koksma__frame *frame, const koksma__group *group, const koksma__values *values,
                       const float *weights);

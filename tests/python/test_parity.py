@@ -103,10 +103,24 @@ class Rendering(unittest.TestCase):
         self.assertGreater(found.aovs["indirect"].max(), 0)
         self.assertEqual(list(koksma.render("ball", spp=4, size=(8, 8), layers=True, aov=["half"]).aovs), ["half:even", "half:odd"])
         for arguments, said in ((dict(aov=["direct"]), "layers=True"), (dict(aov="direct", layers=True), "a list of texts"),
-                                (dict(aov=["direct"], layers=True, adaptive="contrast"), "adaptive"), (dict(aov=["odd"], layers=True), "odd"),
+                                (dict(aov=["odd"], layers=True), "odd"),
                                 (dict(aov=["id", "id"], layers=True), "twice"), (dict(aov=["id"], layers=True, splat=True), "splat")):
             with self.subTest(arguments=arguments), self.assertRaisesRegex(koksma.ArgumentError, said):
                 koksma.render("ball", spp=4, size=(8, 8), **arguments)
+
+    def test_adaptive_aovs(self):
+        """The bits of the program's files, by a method of strata and one of sets."""
+        names = ["direct", "indirect", "id", "half:even", "half:odd"]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "image.pfm")
+            for method in ("hierarchical", "contrast"):
+                program("render", "cornell", "--integrator", "path", "--size", "24x18", "-n", "4", "-q", "--adaptive", method,
+                        "--budget", "20", "--aov", ",".join(names), "-o", path)
+                found = koksma.render("cornell", spp=4, size=(24, 18), integrator="path", layers=True, aov=names, adaptive=method, budget=20)
+                self.assertEqual(list(found.aovs), names)
+                for name, array in found.aovs.items():
+                    np.testing.assert_array_equal(array, koksma.read_image(os.path.join(folder, f"image.{name.replace(':', '-')}.pfm")), name)
+                np.testing.assert_allclose(found.aovs["direct"] + found.aovs["indirect"], found.image, atol=1e-5)
 
     def test_adaptive(self):
         """The budget holds; more samples are where the variance is."""

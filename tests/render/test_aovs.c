@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The further images of a render: their sums, closed forms, objects and halves. */
+#include <koksma/adaptive.h>
+
 #include "rendering.h"
 
 /* A coloured scene with everything that adds light: seen and unseen lights, sky, ambient light, mirror, glass, gloss. */
@@ -154,6 +156,104 @@ static void objects_and_halves(void **state)
     koksma_scene_close(scene);
 }
 
+/* Renders with method i of adaptive sampling, which stops by a budget, by the strata's threshold, or by both. */
+static koksma_layers render_adaptive(const koksma_scene *scene, const koksma_render_options *options, size_t i,
+                                     const char *names, koksma_aovs *aovs)
+{
+    koksma_adaptive_options adaptive;
+    koksma_layers layers;
+    char text[64];
+    snprintf(text, sizeof text, "%s", koksma_adaptive_at(i)->name);
+    assert_ok(koksma_adaptive_parse(text, &adaptive));
+    assert_ok(koksma_aovs_parse(names, aovs));
+    adaptive.budget = 60;
+    adaptive.aovs = aovs;
+    assert_ok(koksma_render_adaptive(scene, options, &adaptive, NULL, &layers, NULL));
+    return layers;
+}
+
+/* The halves of samples that all count equally make the picture: of n samples, (n + 1) / 2 are even. */
+static void assert_halves(const koksma_layers *layers, const koksma_image *even, const koksma_image *odd)
+{
+    const size_t channels = (size_t)layers->image.channels;
+    for (size_t i = 0; i < channels * (size_t)layers->image.width * (size_t)layers->image.height; i++) {
+        const long n = lroundf(layers->samples.pixels[i / channels]), left = n / 2;
+        const double sum = (double)(n - left) * (double)even->pixels[i] + (double)left * (double)odd->pixels[i];
+        assert_near(sum / (double)n, (double)layers->image.pixels[i], 1e-5 * (1 + (double)layers->image.pixels[i]));
+    }
+}
+
+/* With every method and both kinds of filters the parts add up to the picture, though samples weigh differently and pilots
+   do not count, and halves of samples make it. Two sets of 9 samples: even ones are odd ones of the next set. */
+static void adaptive_parts_add_up(void **state)
+{
+    (void)state;
+    static const char names[] = "direct,half,indirect,id,bounce:0,bounce:1,bounce:2,bounce:3,bounce:4,bounce:5";
+    koksma_scene *scene = scene_of(EVERYTHING(""));
+    for (size_t i = 0; koksma_adaptive_at(i); i++) {
+        for (int filter = 0; filter < 2; filter++) {
+            koksma_render_options options = options_of(scene, "n-rooks", "path", 9, 20);
+            koksma_aovs aovs;
+            options.depth = 4;
+            options.filter = koksma_filter_find(filter ? "mitchell" : "box");
+            koksma_layers layers = render_adaptive(scene, &options, i, names, &aovs);
+            float lo = layers.samples.pixels[0], hi = lo;
+            for (size_t k = 0; k < 20 * 20; k++) {
+                lo = fminf(lo, layers.samples.pixels[k]);
+                hi = fmaxf(hi, layers.samples.pixels[k]);
+                assert_true(aovs.images[4].pixels[k] >= 0 && aovs.images[4].pixels[k] <= 6);
+            }
+            assert_true(hi > lo); /* it was adaptive */
+            koksma_aovs two = {.n = 2, .images = {aovs.images[0], aovs.images[3]}};
+            assert_sum(&layers, &two, 0, 2, koksma_adaptive_at(i)->name);
+            assert_sum(&layers, &aovs, 5, 11, koksma_adaptive_at(i)->name);
+            const bool pilot = !strcmp(koksma_adaptive_at(i)->name, "two-stage");
+            if (!filter && !koksma_adaptive_at(i)->own_samples && !pilot) {
+                assert_halves(&layers, &aovs.images[1], &aovs.images[2]);
+            }
+            koksma_layers_fini(&layers);
+            koksma_aovs_fini(&aovs);
+        }
+    }
+    koksma_scene_close(scene);
+}
+
+/* A wall of radiance 1 before a wall of radiance 0: in a pixel that the edge divides, strata are split, and the half of the
+   strata, which is divided by its own volume, is as bright as the whole but for the noise of strata; where all is equal, it
+   is equal. Two quarters of the film see the wall, so that its id is there. */
+static void adaptive_halves_are_halves(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": [], \"shapes\": "
+        "[], "
+        "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [-4.93, 0, 0], \"normal\": [0, 0, 1], \"half\": [5, 50], "
+        "\"radiance\": 1, \"visible\": true}]}");
+    for (size_t i = 0; koksma_adaptive_at(i); i++) {
+        koksma_render_options options = options_of(scene, "jittered", "path", 9, 16);
+        koksma_aovs aovs;
+        koksma_layers layers = render_adaptive(scene, &options, i, "id,half,bounce:0", &aovs);
+        double whole = 0, halves[2] = {0};
+        for (size_t k = 0; k < 16 * 16; k++) {
+            const float value = layers.image.pixels[k];
+            assert_near((double)aovs.images[3].pixels[k], (double)value, 1e-6);
+            assert_true(k % 16 >= 8 || aovs.images[0].pixels[k] == 1);
+            assert_true(k % 16 < 9 || aovs.images[0].pixels[k] == 0);
+            for (int h = 0; h < 2; h++) {
+                const float half = aovs.images[1 + h].pixels[k];
+                assert_true((value > 0 && value < 1) || half == value);
+                halves[h] += (double)half / 256;
+            }
+            whole += (double)value / 256;
+        }
+        assert_near(halves[0], whole, 0.004); /* 16 pixels of the edge, each within .25 */
+        assert_near(halves[1], whole, 0.004);
+        koksma_layers_fini(&layers);
+        koksma_aovs_fini(&aovs);
+    }
+    koksma_scene_close(scene);
+}
+
 static void wrong_lists_are_refused(void **state)
 {
     (void)state;
@@ -181,6 +281,8 @@ int main(void)
         cmocka_unit_test(parts_add_up),
         cmocka_unit_test(bounces_follow_the_integrating_sphere),
         cmocka_unit_test(objects_and_halves),
+        cmocka_unit_test(adaptive_parts_add_up),
+        cmocka_unit_test(adaptive_halves_are_halves),
         cmocka_unit_test(wrong_lists_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

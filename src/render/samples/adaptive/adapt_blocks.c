@@ -161,7 +161,8 @@ static const koksma__adaptive_method method = {.open = open,
                                                .take = koksma__sets_take,
                                                .decide = decide,
                                                .plan = plan,
-                                               .result = koksma__sets_result};
+                                               .result = koksma__sets_result,
+                                               .part = koksma__sets_part};
 
 const koksma_adaptive koksma__adaptive_blocks = {
     .name = "blocks",

@@ -42,7 +42,8 @@ static const koksma__adaptive_method method = {.open = koksma__sets_open,
                                                .draw = koksma__sets_draw,
                                                .take = koksma__sets_take,
                                                .decide = decide,
-                                               .result = koksma__sets_result};
+                                               .result = koksma__sets_result,
+                                               .part = koksma__sets_part};
 
 const koksma_adaptive koksma__adaptive_contrast = {
     .name = "contrast",

@@ -41,6 +41,7 @@ static const koksma__adaptive_method method = {.open = open,
                                                .last = koksma__strata_last,
                                                .probes = koksma__strata_probes,
                                                .result = koksma__strata_result,
+                                               .part = koksma__strata_part,
                                                .show = koksma__strata_show};
 
 const koksma_adaptive koksma__adaptive_hierarchical = {

@@ -113,11 +113,10 @@ static koksma_status open(koksma__adaptive *run)
 
 /* Drops the pilot of a pixel only when its new sets arrive, so that an image that is interrupted before still has
    the pilot. */
-static void take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
+static void take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
 {
-    koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
-    *sets = (koksma__pixel_sets){.drawn = sets->drawn};
-    koksma__sets_take(run, pixel, rgb, weights);
+    koksma__sets_forget(run, pixel);
+    koksma__sets_take(run, pixel, values);
 }
 
 static void last(koksma__adaptive *run)
@@ -139,7 +138,8 @@ static const koksma__adaptive_method method = {.fresh = true,
                                                .take = take,
                                                .decide = decide,
                                                .last = last,
-                                               .result = koksma__sets_result};
+                                               .result = koksma__sets_result,
+                                               .part = koksma__sets_part};
 
 const koksma_adaptive koksma__adaptive_two_stage = {
     .name = "two-stage",

@@ -22,6 +22,13 @@ typedef struct koksma__sample_demand {
 
 typedef struct koksma__adaptive koksma__adaptive;
 
+/* The values of the samples that a pixel demanded. */
+typedef struct koksma__sample_values {
+    const float *rgb;
+    const float *weights; /* of the filter (filters.h); NULL: all 1 */
+    const float *parts;   /* 3 numbers for each AOV of light for each sample; unused without AOVs */
+} koksma__sample_values;
+
 /* An adaptive method. Any thread may call the functions that take a pixel, but only one thread at a time for each
    pixel. */
 typedef struct koksma__adaptive_method {
@@ -35,10 +42,9 @@ typedef struct koksma__adaptive_method {
     /* Draws the pairs of a pixel's samples in this round. */
     koksma_status (*draw)(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room, float *pairs);
-    /* Receives the values of the samples that the pixel demanded, and the filter weights of these samples
-       (filters.h; NULL: all 1). Methods decide by the unweighted values; the result uses the weights as film.c
-       describes. */
-    void (*take)(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
+    /* Receives the values of the samples that the pixel demanded. Methods decide by the unweighted values; the result
+       uses the weights as film.c describes. */
+    void (*take)(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values);
     /* Determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
        bytes. */
     void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
@@ -51,6 +57,8 @@ typedef struct koksma__adaptive_method {
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
     /* computes the value of a pixel and returns its variance */
     double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]);
+    /* computes the value of a pixel in AOV `a`, whose kind is not ID; only with run->frame->aovs */
+    void (*part)(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3]);
     /* NULL, or describes the strata of a pixel for a figure. Errors: MEMORY. */
     koksma_status (*show)(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
 } koksma__adaptive_method;
@@ -67,6 +75,7 @@ struct koksma__adaptive {
     bool probing;    /* this round draws only probes */
     void *state;     /* state of the method: koksma__pixel_sets of every pixel, or koksma__strata */
     void *extra;     /* further memory of the method, freed by the engine; NULL: none */
+    double *sums;    /* of the AOVs, of methods that draw sets: koksma__sets_part; NULL: no AOVs */
     koksma_adaptive_report report;
 };
 
@@ -103,8 +112,12 @@ koksma_status koksma__sets_open(koksma__adaptive *run);
 void koksma__sets_close(koksma__adaptive *run);
 koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                                 koksma__sample_scratch *room, float *pairs);
-void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
+void koksma__sets_take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values);
 double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb[3]);
+void koksma__sets_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3]);
+
+/* Forgets the values of a pixel's sets; the number of sets that were drawn stays. */
+void koksma__sets_forget(koksma__adaptive *run, size_t pixel);
 
 koksma__pixel_sets *koksma__sets_of(const koksma__adaptive *run, size_t pixel);
 size_t koksma__set_size(const koksma__adaptive *run);

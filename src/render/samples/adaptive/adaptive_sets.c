@@ -12,8 +12,12 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "render/aov.h"
 #include "render/samples/adaptive/adaptive.h"
 #include "render/vector3.h"
+
+/* Of each AOV and pixel: the sums of weight x value and of value, three channels each. */
+enum { NUMBERS_OF_AOV = 6 };
 
 enum { LANE_CONTINUED = 1 << 21 }; /* keys of the shuffles, above those of the uses and of the pairings */
 
@@ -87,6 +91,11 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
                     "%s: it takes a threshold, or a budget, or both", name);
     run->state = calloc(run->pixels, sizeof(koksma__pixel_sets));
     KOKSMA__REQUIRE_MEMORY(run->state, run->pixels * sizeof(koksma__pixel_sets));
+    if (run->frame->aovs) {
+        const size_t numbers = run->pixels * run->frame->aovs->n * NUMBERS_OF_AOV;
+        run->sums = calloc(numbers + 1, sizeof *run->sums);
+        KOKSMA__REQUIRE_MEMORY(run->sums, numbers * sizeof *run->sums);
+    }
     for (size_t p = 0; p < run->pixels; p++) {
         const uint32_t n = (uint32_t)(first * run->frame->options->spp);
         run->demands[p] =
@@ -196,11 +205,53 @@ static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const flo
     p->drawn++;
 }
 
-void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
+static double *sums_of(const koksma__adaptive *run, size_t pixel)
+{
+    return run->sums + pixel * run->frame->aovs->n * NUMBERS_OF_AOV;
+}
+
+/* Adds `count` samples to the sums of the AOVs; the first one is sample `before` of the pixel. */
+static void take_parts(const koksma__adaptive *run, size_t pixel, size_t before, size_t count,
+                       const koksma__sample_values *values)
+{
+    const koksma__aovs *aovs = run->frame->aovs;
+    const size_t channels = (size_t)run->frame->channels;
+    for (size_t i = 0; i < count; i++) {
+        const double weight = values->weights ? (double)values->weights[i] : 1;
+        const float *part = values->parts + 3 * aovs->n_parts * i;
+        double *sums = sums_of(run, pixel);
+        for (size_t a = 0; a < aovs->n; a++, sums += NUMBERS_OF_AOV) {
+            const koksma__aov *aov = &aovs->items[a];
+            const bool light = aov->kind == KOKSMA__AOV_LIGHT;
+            const bool half = aov->kind == KOKSMA__AOV_HALF && (before + i) % 2 == (size_t)aov->first;
+            const float *value = light ? part : values->rgb + channels * i;
+            for (size_t k = 0; (light || half) && k < channels; k++) {
+                sums[k] += weight * (double)value[k];
+                sums[3 + k] += (double)value[k];
+            }
+            part += light ? 3 : 0;
+        }
+    }
+}
+
+void koksma__sets_take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
 {
     const size_t n = koksma__set_size(run), channels = (size_t)run->frame->channels;
+    koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
+    if (run->sums) {
+        take_parts(run, pixel, sets->sets * n, run->demands[pixel].now, values);
+    }
     for (size_t k = 0; k < run->demands[pixel].now / n; k++) {
-        take_set(koksma__sets_of(run, pixel), n, channels, rgb + k * n * channels, weights ? weights + k * n : NULL);
+        take_set(sets, n, channels, values->rgb + k * n * channels, values->weights ? values->weights + k * n : NULL);
+    }
+}
+
+void koksma__sets_forget(koksma__adaptive *run, size_t pixel)
+{
+    koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
+    *sets = (koksma__pixel_sets){.drawn = sets->drawn};
+    if (run->sums) {
+        memset(sums_of(run, pixel), 0, run->frame->aovs->n * NUMBERS_OF_AOV * sizeof *run->sums);
     }
 }
 
@@ -240,11 +291,22 @@ double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pi
     return k > 1 ? sqrt(fmax(p->sum_mean_square - k * mean * mean, 0) / ((k - 1) * k)) : 0;
 }
 
-/* Computes the value and the variance of a pixel as film.c does for a filter with negative lobes: sample i has the
-   weight v_i = a w_i + b in the pixel, and the sums of v^j y^k follow from those of w^j y^k. */
-static double signed_result(const koksma__pixel_sets *p, double n, double rgb[3])
+/* Sample i of filter weight w_i has the weight a w_i + b in the pixel, as film.c has it; the weights add up to 1. */
+static void weights_of(const koksma__adaptive *run, const koksma__pixel_sets *p, double *a, double *b)
 {
-    const double(*m)[3] = p->moments, mean_w = m[1][0] / n, a = n > 1 ? 1 / (n - 1) : 0, b = 1 / n - a * mean_w;
+    const double n = samples_of(run, p);
+    const bool has_lobes = run->frame->filter && koksma__filter_is_signed(run->frame->filter);
+    *a = !has_lobes ? 1 / n : n > 1 ? 1 / (n - 1) : 0;
+    *b = has_lobes ? 1 / n - *a * p->moments[1][0] / n : 0;
+}
+
+/* Computes the value and the variance of a pixel as film.c does for a filter with negative lobes: the sums of v^j y^k, of
+   the weights v, follow from those of w^j y^k. */
+static double signed_result(const koksma__adaptive *run, const koksma__pixel_sets *p, double n, double rgb[3])
+{
+    const double(*m)[3] = p->moments;
+    double a, b;
+    weights_of(run, p, &a, &b);
     for (int k = 0; k < 3; k++) {
         rgb[k] = a * p->sum[k] + b * p->all[k];
     }
@@ -263,10 +325,26 @@ double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
     const double n = samples_of(run, p);
     if (p->sets && run->frame->filter && koksma__filter_is_signed(run->frame->filter)) {
-        return signed_result(p, n, rgb);
+        return signed_result(run, p, n, rgb);
     }
     for (int k = 0; p->sets && k < 3; k++) {
         rgb[k] = p->sum[k] / n;
     }
     return p->sets ? variance(p->moments[0][1], p->moments[0][2], n) / n : 0;
+}
+
+void koksma__sets_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
+{
+    const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
+    const koksma__aov *aov = &run->frame->aovs->items[a];
+    const double *sums = sums_of(run, pixel) + a * NUMBERS_OF_AOV;
+    const size_t n = p->sets * koksma__set_size(run), odd = n / 2;
+    const size_t samples = aov->kind != KOKSMA__AOV_HALF ? n : aov->first ? odd : n - odd;
+    double weight, rest;
+    if (samples) {
+        weights_of(run, p, &weight, &rest);
+        for (int k = 0; k < 3; k++) {
+            rgb[k] = (weight * sums[k] + rest * sums[3 + k]) * (double)n / (double)samples;
+        }
+    }
 }

@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
+#include "render/aov.h"
 #include "render/vector3.h"
 
 /* The largest number of strata in the image: 3.5 GiB. */
@@ -27,9 +29,16 @@ static koksma_status too_many(const koksma__adaptive *run)
                         MAX_STRATA);
 }
 
+/* The number of floats of a stratum's parts of light. */
+static size_t numbers_of_parts(const koksma__adaptive *run)
+{
+    return run->frame->aovs ? 3 * run->frame->aovs->n_parts : 0;
+}
+
 static koksma_status open_trees(koksma__adaptive *run, koksma__strata *s)
 {
     const uint32_t n = s->m * s->m;
+    const size_t numbers = numbers_of_parts(run);
     s->trees = calloc(run->pixels, sizeof *s->trees);
     KOKSMA__REQUIRE_MEMORY(s->trees, run->pixels * sizeof *s->trees);
     atomic_store(&s->total, run->pixels * n);
@@ -37,6 +46,10 @@ static koksma_status open_trees(koksma__adaptive *run, koksma__strata *s)
         koksma__tree *tree = &s->trees[p];
         tree->strata = malloc(n * sizeof *tree->strata);
         KOKSMA__REQUIRE_MEMORY(tree->strata, run->pixels * n * sizeof *tree->strata);
+        tree->parts = numbers ? malloc(n * numbers * sizeof *tree->parts) : NULL;
+        if (numbers) {
+            KOKSMA__REQUIRE_MEMORY(tree->parts, run->pixels * n * numbers * sizeof *tree->parts);
+        }
         tree->n = n;
         for (uint32_t i = 0; i < n; i++) {
             tree->strata[i] = (koksma__stratum){.number = i, .pending = true};
@@ -78,6 +91,7 @@ void koksma__strata_close(koksma__adaptive *run)
         run->report.splits += s->trees[p].splits;
         run->report.needless += s->trees[p].needless;
         free(s->trees[p].strata);
+        free(s->trees[p].parts);
     }
     if (s) {
         free(s->trees);
@@ -181,12 +195,20 @@ koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel)
     if (atomic_fetch_add(&s->total, 3 * (size_t)tree->marked) + 3 * (size_t)tree->marked > MAX_STRATA) {
         return too_many(run);
     }
+    const size_t numbers = numbers_of_parts(run), bytes = numbers * sizeof *tree->parts;
     koksma__stratum *strata = malloc(n * sizeof *strata), *to = strata;
+    float *parts = numbers ? malloc(n * bytes) : NULL;
     koksma__use_cells base;
-    KOKSMA__REQUIRE_MEMORY(strata, n * sizeof *strata);
+    if (!strata || (numbers && !parts)) {
+        KOKSMA__FREE(strata, parts);
+        return koksma__fail_memory(n * (sizeof *strata + bytes));
+    }
     koksma__use_cells_init(run, pixel, tree->base, NULL, &base);
     for (uint32_t i = 0; i < tree->n; i++) {
         const koksma__stratum *from = &tree->strata[i];
+        for (int k = 0; numbers && k < (from->marked ? 4 : 1); k++) {
+            memcpy(parts + (size_t)(to - strata + k) * numbers, tree->parts + i * numbers, bytes);
+        }
         if (!from->marked) {
             *to++ = *from;
             continue;
@@ -201,7 +223,9 @@ koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel)
         }
     }
     free(tree->strata);
+    free(tree->parts);
     tree->strata = strata;
+    tree->parts = parts;
     tree->n = (uint32_t)n;
     tree->splits += tree->marked;
     tree->marked = 0;
@@ -261,21 +285,25 @@ static void take_probes(const koksma__adaptive *run, koksma__tree *tree, const f
     }
 }
 
-void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
+void koksma__strata_take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values)
 {
     koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
-    const size_t channels = (size_t)run->frame->channels;
+    const size_t channels = (size_t)run->frame->channels, numbers = numbers_of_parts(run);
+    size_t sample = 0;
     if (run->probing) {
-        take_probes(run, tree, rgb);
+        take_probes(run, tree, values->rgb);
         return;
     }
     for (uint32_t i = 0; i < tree->n; i++) {
         if (tree->strata[i].pending) {
-            memcpy(tree->strata[i].value, rgb, channels * sizeof *rgb);
-            tree->strata[i].weight = weights ? *weights++ : 1;
+            memcpy(tree->strata[i].value, values->rgb + channels * sample, channels * sizeof(float));
+            tree->strata[i].weight = values->weights ? values->weights[sample] : 1;
             tree->strata[i].pending = false;
-            rgb += channels;
+            if (numbers) {
+                memcpy(tree->parts + i * numbers, values->parts + sample * numbers, numbers * sizeof(float));
+            }
+            sample++;
         }
     }
 }
@@ -302,24 +330,67 @@ static double volume_of(const koksma__strata *s, const koksma__stratum *stratum)
     return ldexp(1, -2 * stratum->level) / ((double)s->m * s->m);
 }
 
-/* Computes the value of a pixel as film.c does for samples of weight 1 / n, with the volumes of the strata in
+/* The weights of the strata of a pixel: those of film.c for samples of weight 1 / n, with the volumes of the strata in
    place of 1 / n, and 1 / (sum of squared volumes) - 1 in place of n - 1. */
+typedef struct strata_weights {
+    double mean, scale;
+} strata_weights;
+
+static strata_weights weights_of(const koksma__adaptive *run, const koksma__tree *tree)
+{
+    const koksma__strata *s = run->state;
+    const bool has_lobes = run->frame->filter && koksma__filter_is_signed(run->frame->filter);
+    double mean = 0, volumes = 0;
+    for (uint32_t i = 0; i < tree->n; i++) {
+        const double volume = volume_of(s, &tree->strata[i]);
+        mean += volume * (double)tree->strata[i].weight;
+        volumes += volume * volume;
+    }
+    return (strata_weights){mean, has_lobes && volumes < 1 ? 1 / (1 - volumes) : 0};
+}
+
+static double weight_of(const strata_weights *w, const koksma__stratum *stratum)
+{
+    return 1 + ((double)stratum->weight - w->mean) * w->scale;
+}
+
+/* Computes the value of AOV `a` like that of the pixel. A half has every second stratum in the order of the tree, in
+   which the parts of a stratum follow each other, and divides by the volume of those. */
+void koksma__strata_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
+{
+    const koksma__strata *s = run->state;
+    const koksma__tree *tree = &s->trees[pixel];
+    const koksma__aovs *aovs = run->frame->aovs;
+    const bool half = aovs->items[a].kind == KOKSMA__AOV_HALF;
+    const strata_weights weights = weights_of(run, tree);
+    size_t part = 0;
+    double whole = 0;
+    for (size_t i = 0; i < a; i++) {
+        part += aovs->items[i].kind == KOKSMA__AOV_LIGHT;
+    }
+    for (uint32_t i = half ? (uint32_t)aovs->items[a].first : 0; i < tree->n; i += half ? 2 : 1) {
+        const double volume = volume_of(s, &tree->strata[i]);
+        const float *value = half ? tree->strata[i].value : tree->parts + 3 * (aovs->n_parts * i + part);
+        whole += volume;
+        for (size_t k = 0; k < (size_t)run->frame->channels; k++) {
+            rgb[k] += weight_of(&weights, &tree->strata[i]) * volume * (double)value[k];
+        }
+    }
+    for (size_t k = 0; half && whole > 0 && k < 3; k++) {
+        rgb[k] /= whole;
+    }
+}
+
 double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double rgb[3])
 {
     const koksma__strata *s = run->state;
     const koksma__tree *tree = &s->trees[pixel];
     const bool grey = run->frame->channels == 1;
-    const bool has_lobes = run->frame->filter && koksma__filter_is_signed(run->frame->filter);
-    double mean = 0, squares = 0, mean_weight = 0, volumes = 0;
-    for (uint32_t i = 0; i < tree->n; i++) {
-        const double volume = volume_of(s, &tree->strata[i]);
-        mean_weight += volume * (double)tree->strata[i].weight;
-        volumes += volume * volume;
-    }
-    const double scale = has_lobes && volumes < 1 ? 1 / (1 - volumes) : 0;
+    const strata_weights weights = weights_of(run, tree);
+    double mean = 0, squares = 0;
     for (uint32_t i = 0; i < tree->n; i++) {
         const float *v = tree->strata[i].value;
-        const double weight = 1 + ((double)tree->strata[i].weight - mean_weight) * scale;
+        const double weight = weight_of(&weights, &tree->strata[i]);
         const double volume = weight * volume_of(s, &tree->strata[i]);
         for (int k = 0; k < 3; k++) {
             rgb[k] += volume * (double)v[k];
@@ -328,7 +399,7 @@ double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double r
     }
     for (uint32_t i = 0; i < tree->n; i++) {
         const float *v = tree->strata[i].value;
-        const double weight = 1 + ((double)tree->strata[i].weight - mean_weight) * scale;
+        const double weight = weight_of(&weights, &tree->strata[i]);
         const double volume = weight * volume_of(s, &tree->strata[i]);
         const double off = (double)(grey ? v[0] : koksma__luminance3(v)) - mean;
         squares += volume * volume * off * off;

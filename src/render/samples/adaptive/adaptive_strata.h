@@ -49,6 +49,7 @@ typedef struct koksma__stratum {
 
 typedef struct koksma__tree {
     koksma__stratum *strata;
+    float *parts; /* 3 numbers for each AOV of light for each stratum; NULL: there are none */
     uint32_t n, marked, splits, needless;
     uint32_t base;  /* the use in which neighbouring strata are compared */
     uint32_t stage; /* KOKSMA__STAGE_TREE or KOKSMA__STAGE_LAST */
@@ -120,11 +121,12 @@ void koksma__strata_close(koksma__adaptive *run);
 koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel);
 koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                                   koksma__sample_scratch *room, float *pairs);
-void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
+void koksma__strata_take(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values);
 void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
 void koksma__strata_last(koksma__adaptive *run);
 size_t koksma__strata_probes(const koksma__adaptive *run, size_t pixel);
 koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
 double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double rgb[3]);
+void koksma__strata_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3]);
 
 #endif
