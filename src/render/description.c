@@ -117,7 +117,7 @@ void koksma__scene_finish(koksma_scene *scene)
     scene->moves = m[0] != 0 || m[1] != 0 || m[2] != 0;
     for (size_t i = 0; i < scene->n_shapes; i++) {
         m = scene->shapes[i].motion;
-        scene->moves |= m[0] != 0 || m[1] != 0 || m[2] != 0;
+        scene->moves |= scene->shapes[i].turn.turns || m[0] != 0 || m[1] != 0 || m[2] != 0;
     }
     for (size_t i = 0; i < scene->n_placements; i++) {
         scene->moves |= koksma__placement_moves(&scene->placements[i]);

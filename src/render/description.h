@@ -20,9 +20,16 @@ typedef struct koksma__shape {
     const struct koksma__shape_type *type;
     double centre[3], axis_u[3], axis_v[3], normal[3];
     double half[2];   /* half sides; half[0] is the radius of a disk or sphere; infinite for a plane */
-    double motion[3]; /* of a sphere: at time t its centre is centre + t motion */
-    int material;     /* -1 for a light's own surface, which reflects nothing */
-    int light;        /* the light whose surface this is, or -1 */
+    double motion[3]; /* at time t the shape is moved by t motion */
+    /* turns: the shape also rotates and scales about the pivot, and the loops see it at rest. A point p of the shape at
+       rest is at time t at
+           pivot + t motion + (1 + t (scale - 1)) Rotation(axis, t angle_rad) (p - pivot) */
+    struct {
+        bool turns;
+        double pivot[3], axis[3], angle_rad, scale;
+    } turn;
+    int material; /* -1 for a light's own surface, which reflects nothing */
+    int light;    /* the light whose surface this is, or -1 */
 } koksma__shape;
 
 enum { KOKSMA__MAX_VALUES = 16 }; /* most numbers of a kind's parameters; a colour takes 3 */

@@ -78,5 +78,5 @@ bool koksma__shadow_cull_clear(const koksma__footprint *part, const koksma__batc
     const double lit = least((const double(*)[3])corners, 4, a, c, &size);
     const double seen = least(part->at, part->n, a, c, &size), length = sqrt(dot(a, a));
     const double reach = radius + MARGIN * (size + part->radius);
-    return !shape->moves && lit > reach * length && seen > (reach + part->radius) * length;
+    return !shape->moves && !shape->turns && lit > reach * length && seen > (reach + part->radius) * length;
 }

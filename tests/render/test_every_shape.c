@@ -9,7 +9,8 @@
  *   bounds    hits lie within half of flat shapes and within the radius of the others
  *   shadows   are where F changes its sign between the two ends
  *   starts    a ray that starts on the shape goes on to the next crossing
- *   motion    a shape that has moved by t motion is met as one that stands there
+ *   motion    a shape that has moved by t motion is met as one that stands there; of the odd trials without `motion`
+ *             shapes also rotate about an axis and change size (`to`), and are met as ones that were put there
  *
  * All instruction sets give the same bits, lanes behave alike wherever they stand in a block, and the geometry with
  * Embree gives what that without it gives. Rays that pass an edge or touch a surface within 1e-3 are left out where the
@@ -24,10 +25,36 @@ enum { TRIALS = 24, STEPS = 2000 };
 
 static const double reach = 8; /* rays start within 3 of the origin, shapes are as small; planes are met later, too */
 
+/* How the shape of a stream turns: about axis `axis` by an angle, to another centre and size. */
+typedef struct turn {
+    int axis;
+    double angle_deg, centre[3], scale;
+} turn;
+
+static turn turn_of(uint64_t stream)
+{
+    turn t = {.axis = (int)(stream / 2 % 3),
+              .angle_deg = 340 * draw(stream, 9001) - 170,
+              .scale = 0.5 + draw(stream, 9002)};
+    for (int k = 0; k < 3; k++) {
+        t.centre[k] = 2 * draw(stream, 9003 + (uint64_t)k) - 1;
+    }
+    return t;
+}
+
 static koksma_scene *scene_with(const koksma__shape_type *type, uint64_t stream, const char *more)
 {
     char fields[1024], text[4096];
+    const turn t = turn_of(stream);
     kind_fields(&type->kind, stream, fields, sizeof fields);
+    if (stream % 2 && !strstr(fields, "motion")) {
+        const size_t used = strlen(fields);
+        snprintf(
+            fields + used, sizeof fields - used,
+            ", \"to\": {\"centre\": [%.17g, %.17g, %.17g], \"rotate_deg\": [%.17g, %.17g, %.17g], \"scale\": %.17g}",
+            t.centre[0], t.centre[1], t.centre[2], t.axis == 0 ? t.angle_deg : 0, t.axis == 1 ? t.angle_deg : 0,
+            t.axis == 2 ? t.angle_deg : 0, t.scale);
+    }
     snprintf(text, sizeof text,
              "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": [{\"name\": "
              "\"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\": [{\"kind\": \"%s\", \"material\": "
@@ -110,12 +137,33 @@ static bool gradient(const koksma__shape *s, const double p[3], double out[3])
     return koksma__normalise(out);
 }
 
-static koksma__shape at_time(const koksma__shape *shape, double time)
+/* v turned from axis k + 1 to axis k + 2 by the angle, which is a rotation about axis k. */
+static void turn_about(int k, double angle, double v[3])
+{
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const double a = v[i], b = v[j];
+    v[i] = cos(angle) * a - sin(angle) * b;
+    v[j] = sin(angle) * a + cos(angle) * b;
+}
+
+/* The shape at rest where it is at this time; turn.scale is the factor of its size. stream: that of scene_with. */
+static koksma__shape at_time(const koksma__shape *shape, uint64_t stream, double time)
 {
     koksma__shape s = *shape;
+    const turn t = turn_of(stream);
+    s.turn.turns = false;
+    s.turn.scale = shape->turn.turns ? 1 + time * (t.scale - 1) : 1;
     for (int k = 0; k < 3; k++) {
-        s.centre[k] += time * s.motion[k];
+        s.centre[k] += time * (shape->turn.turns ? t.centre[k] - s.centre[k] : s.motion[k]);
         s.motion[k] = 0;
+    }
+    if (shape->turn.turns) {
+        const double angle = time * t.angle_deg * M_PI / 180;
+        turn_about(t.axis, angle, s.normal);
+        turn_about(t.axis, angle, s.axis_u);
+        turn_about(t.axis, angle, s.axis_v);
+        s.half[0] *= s.turn.scale;
+        s.half[1] *= s.turn.scale;
     }
     return s;
 }
@@ -161,7 +209,8 @@ static void check_hit(const koksma__shape *s, const line *l, const koksma__hits 
                          : sqrt(koksma__dot(e, e)) > radius * (1 + 1e-4)) {
         fail_msg("%s: a hit at (%g, %g, %g) is out of its bounds", NAME(s), p[0], p[1], p[2]);
     }
-    const double coordinates[2] = {s->type->takes_checker ? u : 0, s->type->takes_checker ? v : 0};
+    const double coordinates[2] = {s->type->takes_checker ? u / s->turn.scale : 0,
+                                   s->type->takes_checker ? v / s->turn.scale : 0};
     if (!(fabs(coordinates[0] - (double)h->u[i]) < 1e-4 && fabs(coordinates[1] - (double)h->v[i]) < 1e-4)) {
         fail_msg("%s: coordinates (%g, %g), which are (%g, %g)", NAME(s), (double)h->u[i], (double)h->v[i],
                  coordinates[0], coordinates[1]);
@@ -173,11 +222,11 @@ typedef struct tally {
 } tally;
 
 /* from: NULL, or 0 in lanes that start on the shape. */
-static void check_closest(const koksma__shape *shape, const koksma__rays *r, const int32_t *from,
+static void check_closest(const koksma__shape *shape, uint64_t stream, const koksma__rays *r, const int32_t *from,
                           const koksma__hits *h, tally *sum)
 {
     for (int i = 0; i < KOKSMA__BLOCK; i++) {
-        const koksma__shape s = at_time(shape, (double)r->time[i]);
+        const koksma__shape s = at_time(shape, stream, (double)r->time[i]);
         const line l = line_of(&s, r, i);
         const double length = sqrt(koksma__dot(l.d, l.d)), high = reach / length;
         const bool hit = h->primitive[i] == 0, on = from && from[i] == 0;
@@ -216,9 +265,9 @@ static void hits_are_those_of_the_equation(void **state)
             make_rays(scene->shapes, 7000 + 100 * kind + trial, &rays);
             koksma__batch()->closest(&(koksma__batch_shapes){1, &shape}, &rays, NULL, KOKSMA__BLOCK, &one);
             koksma__batch()->closest(&(koksma__batch_shapes){2, list}, &rays, NULL, KOKSMA__BLOCK, &two);
-            check_closest(scene->shapes, &rays, NULL, &one, &sum);
+            check_closest(scene->shapes, 100 * kind + trial, &rays, NULL, &one, &sum);
             assert_memory_equal(one.primitive, two.primitive, sizeof one.primitive);
-            check_closest(scene->shapes, &rays, NULL, &two, &sum);
+            check_closest(scene->shapes, 100 * kind + trial, &rays, NULL, &two, &sum);
             koksma_scene_close(scene);
         }
         if (sum.hits < sum.rays / 10 || sum.unclear > sum.rays / 50) {
@@ -256,7 +305,7 @@ static void starts_are_not_met_again(void **state)
                 from[i] = hit ? 0 : -1;
             }
             koksma__batch()->closest(&list, &rays, from, KOKSMA__BLOCK, &next);
-            check_closest(scene->shapes, &rays, from, &next, &sum);
+            check_closest(scene->shapes, 100 * kind + trial, &rays, from, &next, &sum);
             koksma_scene_close(scene);
         }
         if (sum.unclear > sum.rays / 25) {
@@ -299,7 +348,7 @@ static void shadows_are_those_of_the_equation(void **state)
             shape.material = -1;
             koksma__batch()->occlude(&list, &from, KOKSMA__BLOCK, &shadows[1]);
             for (int i = 0; i < KOKSMA__BLOCK; i++) {
-                const koksma__shape s = at_time(scene->shapes, (double)r.time[i]);
+                const koksma__shape s = at_time(scene->shapes, 100 * kind + trial, (double)r.time[i]);
                 const line l = line_of(&s, &r, i);
                 bool edge;
                 const double t = first_crossing(&l, 0, 1.01, &edge);

@@ -86,13 +86,15 @@ typedef struct koksma__batch_camera {
 } koksma__batch_camera;
 
 /* An analytic shape. half_u and half_v are as in koksma__shape; radius2 is the squared radius of a sphere about
-   the centre that contains the shape, if it is not flat. */
+   the centre that contains the shape, if it is not flat. moves: the shape's own loops add time * motion. turns: rays are
+   moved into the frame in which it rests, with the members of koksma__shape.turn, whose angle is in turns here. */
 typedef struct koksma__batch_shape {
     int kind; /* index in koksma__shape_types */
-    bool is_flat, moves;
+    bool is_flat, moves, turns;
     int32_t id, material;
     float centre[3], motion[3], normal[3], axis_u[3], axis_v[3];
     float half_u, half_v, radius2, inverse_radius;
+    float pivot[3], axis[3], angle, growth; /* growth: scale - 1 */
 } koksma__batch_shape;
 
 /* A list of shapes in ascending order of id. */

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Intersects blocks of rays with analytic shapes, for the closest hits and for shadows: calls the loops of each
- * shape's kind (src/render/shapes) in turn, and completes hits on flat shapes.
+ * shape's kind (src/render/shapes) in turn, and completes hits on flat shapes. Rays are moved into the frame in which a
+ * shape that turns rests, at each ray's own time, so that all kinds turn by the loops that they have at rest.
  */
 #include <math.h>
+#include <string.h>
 
+#include "render/elementary.h"
 #include "render/pipelines/batch_kernel.h"
 #include "render/shapes/shapes.h"
 
@@ -57,6 +60,96 @@ static void finish_shape(const koksma__batch_shape *s, const koksma__rays *rays,
     }
 }
 
+/* ---- Shapes that turn ----------------------------------------------------------------------------------------- */
+
+/* v rotated about a unit axis by the angle with this sine and cosine (Rodrigues). */
+INLINE void rotate(const float axis[3], float sine, float cosine, float *x, float *y, float *z)
+{
+    const float ax = axis[0], ay = axis[1], az = axis[2], vx = *x, vy = *y, vz = *z;
+    const float along = (1 - cosine) * (ax * vx + ay * vy + az * vz);
+    *x = cosine * vx + sine * (ay * vz - az * vy) + along * ax;
+    *y = cosine * vy + sine * (az * vx - ax * vz) + along * ay;
+    *z = cosine * vz + sine * (ax * vy - ay * vx) + along * az;
+}
+
+/* Moves lines o + t d, at their times, into the frame in which the shape rests; t stays. */
+INLINE void lines_at_rest(const koksma__batch_shape *shape, const float *restrict time, int n,
+                          const float *const *restrict from, float *const *restrict to)
+{
+    const koksma__batch_shape copy = *shape, *s = &copy;
+    const float *restrict ox = from[0], *restrict oy = from[1], *restrict oz = from[2];
+    const float *restrict dx = from[3], *restrict dy = from[4], *restrict dz = from[5];
+    float *restrict tx = to[0], *restrict ty = to[1], *restrict tz = to[2];
+    float *restrict ux = to[3], *restrict uy = to[4], *restrict uz = to[5];
+    for (int i = 0; i < STEP(n); i++) {
+        const float at = time[i], shrink = 1 / (1 + at * s->growth);
+        float ex = ox[i] - s->pivot[0] - at * s->motion[0], ey = oy[i] - s->pivot[1] - at * s->motion[1],
+              ez = oz[i] - s->pivot[2] - at * s->motion[2], fx = dx[i], fy = dy[i], fz = dz[i], sine, cosine;
+        koksma__sine_cosine_turns(-at * s->angle, &sine, &cosine);
+        rotate(s->axis, sine, cosine, &ex, &ey, &ez);
+        rotate(s->axis, sine, cosine, &fx, &fy, &fz);
+        tx[i] = shrink * ex + s->pivot[0];
+        ty[i] = shrink * ey + s->pivot[1];
+        tz[i] = shrink * ez + s->pivot[2];
+        ux[i] = shrink * fx;
+        uy[i] = shrink * fy;
+        uz[i] = shrink * fz;
+    }
+}
+
+static void rays_at_rest(const koksma__batch_shape *s, const koksma__rays *r, int n, koksma__rays *out)
+{
+    const float *const from[6] = {r->ox, r->oy, r->oz, r->dx, r->dy, r->dz};
+    float *const to[6] = {out->ox, out->oy, out->oz, out->dx, out->dy, out->dz};
+    lines_at_rest(s, r->time, n, from, to);
+}
+
+static void hit_turned(const koksma__batch_shape *s, const koksma__rays *r, const int32_t *from, int n,
+                       koksma__hits *h)
+{
+    koksma__rays rest;
+    rays_at_rest(s, r, n, &rest);
+    types[s->kind]->hit(s, &rest, from, n, h);
+}
+
+/* Finishes the hits at rest, then moves the positions and normals of the lanes that hit the shape back. */
+static void finish_turned(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
+                          koksma__hits *restrict h)
+{
+    koksma__rays rest;
+    const koksma__batch_shape copy = *shape, *s = &copy;
+    rays_at_rest(s, r, n, &rest);
+    finish_shape(s, &rest, n, h, false);
+    for (int i = 0; i < STEP(n); i++) {
+        const int hit = h->primitive[i] == s->id;
+        float nx = h->nx[i], ny = h->ny[i], nz = h->nz[i], sine, cosine;
+        koksma__sine_cosine_turns(r->time[i] * s->angle, &sine, &cosine);
+        rotate(s->axis, sine, cosine, &nx, &ny, &nz);
+        h->px[i] = hit ? r->ox[i] + h->t[i] * r->dx[i] : h->px[i];
+        h->py[i] = hit ? r->oy[i] + h->t[i] * r->dy[i] : h->py[i];
+        h->pz[i] = hit ? r->oz[i] + h->t[i] * r->dz[i] : h->pz[i];
+        h->nx[i] = hit ? nx : h->nx[i];
+        h->ny[i] = hit ? ny : h->ny[i];
+        h->nz[i] = hit ? nz : h->nz[i];
+    }
+}
+
+static void shade_turned(const koksma__batch_shape *s, const koksma__hits *h, const int32_t *aimed, int n,
+                         koksma__shadows *r)
+{
+    koksma__hits rest;
+    koksma__shadows there;
+    const float *const from[6] = {h->px, h->py, h->pz, r->dx, r->dy, r->dz};
+    float *const to[6] = {rest.px, rest.py, rest.pz, there.dx, there.dy, there.dz};
+    lines_at_rest(s, h->time, n, from, to);
+    memcpy(rest.primitive, h->primitive, sizeof rest.primitive);
+    memcpy(there.light, r->light, sizeof there.light);
+    types[s->kind]->shade(s, &rest, aimed, n, &there);
+    memcpy(r->light, there.light, sizeof there.light);
+}
+
+/* ---- Lists of shapes ------------------------------------------------------------------------------------------ */
+
 static void clear(koksma__hits *hits, int n)
 {
     for (int i = 0; i < STEP(n); i++) {
@@ -71,7 +164,7 @@ static void clear(koksma__hits *hits, int n)
 int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *rays, const int32_t *from, int n,
                         koksma__hits *hits)
 {
-    if (shapes->n == 1 && !from && types[shapes->shapes->kind]->only) {
+    if (shapes->n == 1 && !from && types[shapes->shapes->kind]->only && !shapes->shapes->turns) {
         return types[shapes->shapes->kind]->only(shapes->shapes, rays, n, hits);
     }
     KOKSMA__LANES(int32_t, nowhere);
@@ -81,7 +174,8 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
         hits->primitive[i] = -1;
     }
     for (size_t k = 0; k < shapes->n; k++) {
-        types[shapes->shapes[k].kind]->hit(&shapes->shapes[k], rays, from ? from : nowhere, n, hits);
+        const koksma__batch_shape *s = &shapes->shapes[k];
+        (s->turns ? hit_turned : types[s->kind]->hit)(s, rays, from ? from : nowhere, n, hits);
     }
     int done = koksma__batch_count_hits(hits, -1, n), count = 0;
     const int hit = STEP(n) - done;
@@ -90,7 +184,9 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
     }
     for (size_t k = 0; k < shapes->n && done < STEP(n); k++, done += count) {
         count = koksma__batch_count_hits(hits, shapes->shapes[k].id, n);
-        if (count) {
+        if (count && shapes->shapes[k].turns) {
+            finish_turned(&shapes->shapes[k], rays, n, hits);
+        } else if (count) {
             finish_shape(&shapes->shapes[k], rays, n, hits, count == STEP(n));
         }
     }
@@ -107,6 +203,7 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
     for (size_t k = 0; k < shapes->n; k++) {
         const koksma__batch_shape *s = &shapes->shapes[k];
         /* a shape without a material is the surface of a light */
-        types[s->kind]->shade(s, hits, s->material < 0 && shadows->aimed ? shadows->aimed : nowhere, n, shadows);
+        const int32_t *aimed = s->material < 0 && shadows->aimed ? shadows->aimed : nowhere;
+        (s->turns ? shade_turned : types[s->kind]->shade)(s, hits, aimed, n, shadows);
     }
 }

@@ -135,6 +135,6 @@ static inline double koksma__flat_coordinates(const koksma__shape *shape, const 
     {                                                                                                                \
         "normal", KOKSMA__DIRECTION, .at = offsetof(koksma__shape, normal)                                           \
     }
-#define KOKSMA__FLAT_SHAPE_KEYS ((const char *const[]){"up", NULL})
+#define KOKSMA__FLAT_SHAPE_KEYS ((const char *const[]){"up", "motion", "to", NULL})
 
 #endif

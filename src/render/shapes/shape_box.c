@@ -27,6 +27,7 @@ static koksma_status parse(const char *name, const field *f, koksma_scene *scene
     (void)name;
     status = status ? status : koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg);
     KOKSMA__JSON_FAIL_IF(!status && !(half[0] > TINY && half[1] > TINY && half[2] > TINY), f, "zero volume");
+    status = status ? status : koksma__shape_motion(f, true, box);
     const double c = cos(angle_deg * TURN / 360), s = sin(angle_deg * TURN / 360);
     double axes[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int side = 0; !status && side < 6; side++) {
@@ -46,7 +47,7 @@ const koksma__shape_type koksma__shape_box = {
              .cite = "-",
              .parameters =
                  (const koksma__parameter[]){{"centre", KOKSMA__POINT, .at = offsetof(koksma__shape, centre)}, {0}},
-             .keys = (const char *const[]){"half", "angle_deg", NULL},
+             .keys = (const char *const[]){"half", "angle_deg", "motion", "to", NULL},
              .example = "\"half\": [0.2, 0.3, 0.4], \"angle_deg\": 20"},
     .takes_checker = true,
     .takes_image = true,

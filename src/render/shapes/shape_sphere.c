@@ -151,13 +151,20 @@ static double equation(const koksma__shape *shape, const double p[3], double *be
     return koksma__dot(q, q) - shape->half[0] * shape->half[0];
 }
 
+static koksma_status parse(const char *name, const field *f, koksma_scene *scene, koksma__shape *shape)
+{
+    (void)name, (void)scene;
+    return koksma__shape_motion(f, false, shape);
+}
+
 static const koksma__parameter parameters[] = {{"radius", KOKSMA__RADIUS, .at = offsetof(koksma__shape, half)},
                                                {"centre", KOKSMA__POINT, .at = offsetof(koksma__shape, centre)},
                                                {"motion", KOKSMA__POINT, true, .at = offsetof(koksma__shape, motion)},
                                                {0}};
 
 const koksma__shape_type KOKSMA__SHAPE(sphere) = {
-    .kind = {.name = "sphere", .title = "a sphere, which may move", .cite = "-", .parameters = parameters},
+    .kind = {.name = "sphere", .title = "a sphere", .cite = "-", .parameters = parameters, .keys = KEYS("to")},
+    .parse = parse,
     .equation = equation,
     .hit = hit,
     .finish = finish,

@@ -63,7 +63,10 @@ typedef struct koksma__shape_type {
 extern const koksma__shape_type *const koksma__shape_types[];
 extern const koksma__kind *const koksma__shape_kinds[];
 
-/* A parse() for flat shapes: computes the axes from the normal and the field "up". */
+/* Reads the fields "motion", if has_motion, and "to" of a shape whose centre is set. */
+koksma_status koksma__shape_motion(const field *f, bool has_motion, koksma__shape *shape);
+
+/* A parse() for flat shapes: computes the axes from the normal and the field "up", and reads the motion. */
 koksma_status koksma__shape_axes(const char *name, const field *f, koksma_scene *scene, koksma__shape *shape);
 
 /* Converts a shape to floats for the loops. id: its index in the scene. */

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/adaptive/adaptive_sets.h"
 
 enum { SIDE = KOKSMA__SETS_THRESHOLD + 1 };
 

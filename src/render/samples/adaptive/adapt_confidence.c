@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/adaptive/adaptive_sets.h"
 #include "stats/quantiles.h"
 
 enum { TEST = KOKSMA__SETS_THRESHOLD + 1, LEVEL };

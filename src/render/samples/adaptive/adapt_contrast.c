@@ -12,7 +12,7 @@
  */
 #include <math.h>
 
-#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/adaptive/adaptive_sets.h"
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(1, 1),

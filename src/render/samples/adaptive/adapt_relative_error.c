@@ -8,7 +8,7 @@
  */
 #include <math.h>
 
-#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/adaptive/adaptive_sets.h"
 
 enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1 };
 

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/adaptive/adaptive_sets.h"
 
 enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1, PRIOR };
 

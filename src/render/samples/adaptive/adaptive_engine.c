@@ -11,6 +11,7 @@
 #include "render/aov.h"
 #include "render/film.h"
 #include "render/pipelines/pipelines.h"
+#include "render/samples/adaptive/adaptive_sets.h"
 #include "render/samples/adaptive/adaptive_strata.h"
 
 enum { PIXELS_A_TASK = 128, SAMPLES_A_LOOK = 1 << 12 };

@@ -13,7 +13,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "render/aov.h"
-#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/adaptive/adaptive_sets.h"
 #include "render/vector3.h"
 
 /* Of each AOV and pixel: the sums of weight x value and of value, three channels each. */
