@@ -114,9 +114,9 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
 koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light);
 
 /* Makes a light a spot with its axis along `direction` and full intensity up to `inner_deg`, which falls to 0 at
-   `outer_deg`: by a square in the cosine, of which it warns. Errors: MALFORMED (no direction or no cone), MEMORY. */
-koksma_status koksma__import_spot(koksma__import *im, koksma__text_place place, const double direction[3],
-                                  double inner_deg, double outer_deg, koksma__light *light);
+   `outer_deg` by `falloff` (koksma__falloff). Errors: MALFORMED (no direction or no cone). */
+koksma_status koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg,
+                                  double outer_deg, int falloff, koksma__light *light);
 
 /* Adds an environment from a latitude-longitude image or from the octahedral map of pbrt-v4 (Clarberg 2008),
    multiplied by `scale`; `matrix` transforms the image's directions to the scene's. */

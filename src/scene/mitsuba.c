@@ -18,6 +18,7 @@
 #include "render/fields.h"
 #include "render/lights/lights.h"
 #include "scene/import_shapes.h"
+#include "scene/spectrum.h"
 #include "scene/xml.h"
 
 enum { MOST_NESTED = 16 };
@@ -212,32 +213,30 @@ static const node *resolve(const reader *r, const node *n)
     return n;
 }
 
-static koksma_status sampled(reader *r, const node *n, const char *value, double rgb[3])
+/* Reads pairs "WAVELENGTH:VALUE, ..." as the colour of a reflectance or of an emission. */
+static koksma_status sampled(reader *r, const node *n, const char *value, bool emits, double rgb[3])
 {
-    double sum[3] = {0}, count[3] = {0}, all = 0, pair[2];
+    koksma__sampled_spectrum s = {0};
     while (value && *value) {
         char *colon, *end;
-        pair[0] = koksma__strtod(value, &colon);
+        const double wavelength = koksma__strtod(value, &colon);
         if (colon == value || *colon != ':') {
             break;
         }
-        pair[1] = koksma__strtod(colon + 1, &end);
-        const int k = pair[0] < 500 ? 2 : pair[0] < 600 ? 1 : 0;
-        sum[k] += pair[1];
-        count[k]++;
-        all += pair[1];
+        if (!koksma__sampled_spectrum_add(&s, wavelength, koksma__strtod(colon + 1, &end))) {
+            return koksma__import_fail(n->place, "wavelengths of a spectrum must increase");
+        }
         value = end + strspn(end, " ,\t\r\n");
     }
-    const double n_all = count[0] + count[1] + count[2];
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = count[k] > 0 ? sum[k] / count[k] : n_all > 0 ? all / n_all : 1;
+    if (!s.n) {
+        rgb[0] = rgb[1] = rgb[2] = 1;
+        return koksma__import_unknown(r->im, n->place, "a spectrum is replaced by white");
     }
-    return koksma__import_unknown(r->im, n->place,
-                                  n_all > 0 ? "a sampled spectrum is replaced by the means of its thirds"
-                                            : "a spectrum is replaced by white");
+    (emits ? koksma__sampled_spectrum_emission : koksma__sampled_spectrum_reflectance)(&s, rgb);
+    return KOKSMA_OK;
 }
 
-static koksma_status value_of(reader *r, const node *n, double rgb[3])
+static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3])
 {
     const char *value = koksma__xml_attribute(n, "value");
     double v[3];
@@ -257,7 +256,12 @@ static koksma_status value_of(reader *r, const node *n, double rgb[3])
         koksma__import_black_body(coordinate(n, "temperature", 6500), rgb);
         return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
     }
-    return given ? KOKSMA_OK : sampled(r, n, value, rgb);
+    if (given && emits && is(n, "spectrum")) { /* the same at all wavelengths */
+        koksma__sampled_spectrum s = {0};
+        (void)(koksma__sampled_spectrum_add(&s, 360, v[0]) && koksma__sampled_spectrum_add(&s, 830, v[0]));
+        koksma__sampled_spectrum_emission(&s, rgb);
+    }
+    return given ? KOKSMA_OK : sampled(r, n, value, emits, rgb);
 }
 
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
@@ -299,7 +303,7 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
     if (depth > MOST_NESTED) {
         return koksma__import_fail(found->place, "textures within each other more than %d deep", MOST_NESTED);
     }
-    return is(found, "texture") ? texture(r, found, out, depth) : value_of(r, found, out->rgb);
+    return is(found, "texture") ? texture(r, found, out, depth) : value_of(r, found, is(n, "emitter"), out->rgb);
 }
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
@@ -613,8 +617,8 @@ static koksma_status emitter(reader *r, const node *n)
             for (int k = 0; k < 3; k++) {
                 along[k] = m[4 * k + 2];
             }
-            KOKSMA__TRY(koksma__import_spot(r->im, n->place, along, number(r, n, "beam_width", outer * 3 / 4), outer,
-                                            &light));
+            KOKSMA__TRY(koksma__import_spot(n->place, along, number(r, n, "beam_width", outer * 3 / 4), outer,
+                                            KOKSMA__FALLOFF_ANGLE, &light));
         } else if (strcmp(type, "point") != 0) {
             KOKSMA__TRY(koksma__import_unknown(r->im, n->place,
                                                "emitter '%s': a point light equal in all directions here", type));

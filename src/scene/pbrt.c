@@ -387,8 +387,8 @@ static koksma_status take_light(reader *r, source *s)
             const double outer = koksma__pbrt_number(p, "coneangle", 30);
             koksma__subtract(to, from, to);
             move_point(r->now.matrix, to, 0, along);
-            KOKSMA__TRY(koksma__import_spot(r->im, p->place, along,
-                                            outer - koksma__pbrt_number(p, "conedeltaangle", 5), outer, &light));
+            KOKSMA__TRY(koksma__import_spot(p->place, along, outer - koksma__pbrt_number(p, "conedeltaangle", 5),
+                                            outer, KOKSMA__FALLOFF_SMOOTH, &light));
         } else if (strcmp(type, "point") != 0) {
             KOKSMA__TRY(koksma__import_unknown(
                 r->im, p->place, "light '%s' is replaced by a point light equal in all directions", type));

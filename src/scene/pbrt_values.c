@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Converts pbrt-v4's parameters. Spectra become red, green and blue: rgb values are used as they are, black
- * bodies by their chromaticity, metals by a table of names, and sampled spectra by their means in three bands
- * (400 to 500, 500 to 600 and 600 to 700 nm). A texture becomes a colour, an image or a checkerboard; textures
+ * bodies by their chromaticity, metals by a table of names, and sampled spectra by the CIE 1931 observer (spectrum.c);
+ * emission has luminance 1, as pbrt scales it. A texture becomes a colour, an image or a checkerboard; textures
  * that combine others become the mean colour.
  */
 #include "scene/pbrt_values.h"
@@ -14,6 +14,7 @@
 
 #include "core/capacity.h"
 #include "scene/import_shapes.h"
+#include "scene/spectrum.h"
 
 struct koksma__pbrt_named {
     char name[256];
@@ -40,21 +41,25 @@ static void grey(double value, double rgb[3])
     rgb[0] = rgb[1] = rgb[2] = value;
 }
 
-static koksma_status bands(koksma__pbrt_scene *scene, koksma__text_place place, const double *pairs, size_t n,
-                           double rgb[3])
+/* Converts pairs of wavelength and value. pbrt divides an emission by its luminance. */
+static koksma_status sampled(koksma__text_place place, const double *pairs, size_t n, bool emits, double rgb[3])
 {
-    double sum[3] = {0, 0, 0}, all = 0;
-    size_t count[3] = {0, 0, 0};
+    koksma__sampled_spectrum s = {0};
     for (size_t i = 0; i + 1 < n; i += 2) {
-        const int k = pairs[i] < 500 ? 2 : pairs[i] < 600 ? 1 : 0;
-        sum[k] += pairs[i + 1];
-        all += pairs[i + 1];
-        count[k]++;
+        if (!koksma__sampled_spectrum_add(&s, pairs[i], pairs[i + 1])) {
+            return koksma__import_fail(place, "wavelengths of a spectrum must increase");
+        }
     }
+    if (!emits) {
+        koksma__sampled_spectrum_reflectance(&s, rgb);
+        return KOKSMA_OK;
+    }
+    koksma__sampled_spectrum_emission(&s, rgb);
+    const double luminance = 0.2126729 * rgb[0] + 0.7151522 * rgb[1] + 0.0721750 * rgb[2];
     for (int k = 0; k < 3; k++) {
-        rgb[k] = count[k] ? sum[k] / (double)count[k] : n > 1 ? all / (double)(n / 2) : 0;
+        rgb[k] = luminance > 0 ? rgb[k] / luminance : 0;
     }
-    return koksma__import_unknown(scene->im, place, "a sampled spectrum is replaced by the means of its thirds");
+    return KOKSMA_OK;
 }
 
 /* Reads a named spectrum: "metal-Au-eta" and similar names give the metal's reflectance, others white. */
@@ -75,7 +80,7 @@ static koksma_status named_spectrum(koksma__pbrt_scene *scene, koksma__text_plac
 }
 
 static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place place, const koksma__pbrt_parameter *p,
-                               koksma__import_colour *out)
+                               bool emits, koksma__import_colour *out)
 {
     if (!strcmp(p->type, "texture")) {
         for (size_t i = scene->n_textures; i-- > 0;) {
@@ -96,7 +101,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
         return KOKSMA_OK;
     }
     if (!strcmp(p->type, "spectrum")) {
-        return bands(scene, place, p->numbers, p->n, out->rgb);
+        return sampled(place, p->numbers, p->n, emits, out->rgb);
     }
     if (p->n != 1 && p->n != 3) {
         return koksma__import_fail(place, "%s: a colour has one number or three", p->name);
@@ -108,13 +113,19 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
 }
 
 /* Reads the colour or texture with this name; without one, *out is grey with the value `otherwise`. */
-static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
-                                 double otherwise, koksma__import_colour *out)
+static koksma_status read_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
+                                 double otherwise, bool emits, koksma__import_colour *out)
 {
     const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
     *out = (koksma__import_colour){.period = 1};
     grey(otherwise, out->rgb);
-    return found ? colour_of(scene, p->place, found, out) : KOKSMA_OK;
+    return found ? colour_of(scene, p->place, found, emits, out) : KOKSMA_OK;
+}
+
+static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
+                                 double otherwise, koksma__import_colour *out)
+{
+    return read_colour(scene, p, name, otherwise, false, out);
 }
 
 koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
@@ -122,7 +133,7 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
 {
     static const char *const unknown[] = {"power", "illuminance", "portal", "alpha", "twosided"};
     koksma__import_colour colour;
-    KOKSMA__TRY(find_colour(scene, p, name, 1, &colour));
+    KOKSMA__TRY(read_colour(scene, p, name, 1, true, &colour));
     for (int k = 0; k < 3; k++) {
         rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
     }

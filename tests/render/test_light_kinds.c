@@ -52,6 +52,13 @@ static koksma_scene *scene_with(const koksma__light_kind *kind, uint64_t stream,
             strcat(fields, asked);
         }
     }
+    for (const char *const *key = kind->kind.keys; key && *key; key++) { /* every third trial another one */
+        static const char *const falloffs[] = {"square", "smooth", "angle"};
+        if (!strcmp(*key, "falloff")) {
+            const size_t used = strlen(fields);
+            snprintf(fields + used, sizeof fields - used, ", \"falloff\": \"%s\"", falloffs[stream % 3]);
+        }
+    }
     snprintf(light, sizeof light, "{\"kind\": \"%s\"%s}", kind->kind.name, fields);
     if (kind->kind.is_implied) {
         snprintf(text, sizeof text,

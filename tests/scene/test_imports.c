@@ -203,27 +203,43 @@ static void orthographic_cameras_show_their_height(void **state)
 
 /* ---- A closed form: a spot above a floor ---------------------------------------------------------------------- */
 
-/* A floor of albedo 1/2 under a spot of intensity 6 at (0.5, 0, 2), which shines down into a cone of 20 degrees without
-   a soft edge: within a circle the radiance is albedo / pi * intensity * cos / d^2, and 0 outside. */
+/* How the intensity of a spot of 20 degrees, full within 8, falls off with the cosine: by pbrt-v4's SmoothStep in the
+   cosine, or linearly in the angle as Mitsuba's documentation says. */
+static double smooth_in_cosine(double cosine)
+{
+    const double outer = cos(M_PI / 9), inner = cos(8 * M_PI / 180);
+    const double a = fmin(fmax((cosine - outer) / (inner - outer), 0), 1);
+    return a * a * (3 - 2 * a);
+}
+
+static double linear_in_angle(double cosine)
+{
+    return fmin(fmax((20 - acos(cosine) * 180 / M_PI) / 12, 0), 1);
+}
+
+/* A floor of albedo 1/2 under such a spot of intensity 6 at (0.5, 0, 2), which shines down: the radiance is albedo / pi *
+   intensity * falloff * cos / d^2. */
 static void spots_light_a_circle(void **state)
 {
     static const struct {
-        const char *name, *text;
+        const char *name;
+        double (*falloff)(double);
+        const char *text;
     } scenes[] = {
-        {"s.pbrt",
+        {"s.pbrt", smooth_in_cosine,
          "Scale -1 1 1 Scale 0.5 0.5 0.5 LookAt 0 0 5  0 0 0  0 1 0\n"
          "Camera \"orthographic\" \"float screenwindow\" [-1 1 -0.75 0.75] Film \"rgb\" " SIZE "\nWorldBegin\n"
          "LightSource \"spot\" \"rgb I\" [6 6 6] \"point3 from\" [0.5 0 2] \"point3 to\" [0.5 0 1] "
-         "\"float coneangle\" 20 \"float conedeltaangle\" 0\n"
+         "\"float coneangle\" 20 \"float conedeltaangle\" 12\n"
          "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5] Shape \"trianglemesh\" \"integer indices\" "
          "[0 1 2 0 2 3] \"point3 P\" [-4 -4 0  4 -4 0  4 4 0  -4 4 0]\n"},
-        {"s.xml",
+        {"s.xml", linear_in_angle,
          "<scene version=\"3.0.0\"><sensor type=\"orthographic\"><transform name=\"to_world\"><scale value=\"2\"/>"
          "<lookat origin=\"0, 0, 5\" target=\"0, 0, 0\" up=\"0, 1, 0\"/></transform><film type=\"hdrfilm\">"
          "<integer name=\"width\" value=\"40\"/><integer name=\"height\" value=\"30\"/></film></sensor>"
          "<emitter type=\"spot\"><transform name=\"to_world\"><lookat origin=\"0.5, 0, 2\" target=\"0.5, 0, 0\" "
          "up=\"0, 1, 0\"/></transform><rgb name=\"intensity\" value=\"6\"/><float name=\"cutoff_angle\" "
-         "value=\"20\"/><float name=\"beam_width\" value=\"20\"/></emitter><shape type=\"rectangle\"><transform "
+         "value=\"20\"/><float name=\"beam_width\" value=\"8\"/></emitter><shape type=\"rectangle\"><transform "
          "name=\"to_world\"><scale value=\"4\"/></transform><bsdf type=\"diffuse\"/></shape></scene>"}};
     (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
@@ -239,8 +255,8 @@ static void spots_light_a_circle(void **state)
         for (size_t k = 0; k < 40 * 30; k++) {
             const double x = ((double)(k % 40) + 0.5) / 10 - 2 - 0.5, y = ((double)(k / 40) + 0.5) / 10 - 1.5;
             const double square = x * x + y * y + 4, cosine = 2 / sqrt(square), albedo = 0.5;
-            const double lit = cosine > cos(M_PI / 9) ? albedo / M_PI * 6 * cosine / square : 0;
-            assert_near((double)image.pixels[k * (size_t)image.channels], lit, 1e-6);
+            const double lit = albedo / M_PI * 6 * scenes[i].falloff(cosine) * cosine / square;
+            assert_near((double)image.pixels[k * (size_t)image.channels], lit, 2e-6);
         }
         koksma_image_fini(&image);
         koksma_scene_close(scene);
@@ -312,10 +328,13 @@ static const struct {
     {"a.pbrt", PBRT "Material \"velvet\" Shape \"sphere\"", "a.pbrt:2: material 'velvet'"},
     {"a.pbrt", PBRT "Shape \"curve\" \"point3 P\" [0 0 0]", "a.pbrt:2: shape 'curve': it is left out"},
     {"a.pbrt", PBRT "Shape \"sphere\" \"float zmax\" 0.5", "a.pbrt:2: a part of a sphere"},
-    {"a.pbrt", PBRT "LightSource \"spot\" \"rgb I\" [1 2 3]", "a.pbrt:2: a spot's edge"},
+    {"a.pbrt", PBRT "LightSource \"spot\" \"rgb I\" [1 2 3]", NULL},
     {"a.pbrt", PBRT "LightSource \"goniometric\" \"rgb I\" [1 2 3]", "a.pbrt:2: light 'goniometric'"},
     {"a.pbrt", PBRT "LightSource \"distant\" \"blackbody L\" 5000", NULL},
-    {"a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 1 500 2 600 3]", "a.pbrt:2: a sampled spectrum"},
+    {"a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 1 500 2 600 3]", NULL},
+    {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" value=\"400:1, 700:0.2\"/></bsdf>"), NULL},
+    {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" filename=\"a.spd\"/></bsdf>"),
+     "a.xml:2: a spectrum"},
     {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"", NULL},
     {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"uniformgrid\" Shape \"sphere\"",
      "a.pbrt:2: media that vary, emit or are presets"},
@@ -346,7 +365,7 @@ static const struct {
           "value=\"0.2\"/></bsdf>"),
      "a.xml:2: anisotropic"},
     {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid': it is left out"},
-    {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), "a.xml:2: a spot's edge"},
+    {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), NULL},
     {"a.xml",
      MITSUBA("<emitter type=\"spot\"><float name=\"beam_width\" value=\"20\"/>"
              "<texture type=\"bitmap\" name=\"texture\"/></emitter>"),
@@ -384,6 +403,18 @@ static void unknown_things_are_named(void **state)
         }
         koksma_scene_close(scene);
     }
+}
+
+/* Of a light of pbrt-v4 with a sampled spectrum only the colour counts: it has luminance 1. */
+static void lights_of_pbrt_have_luminance_1(void **state)
+{
+    (void)state;
+    koksma_scene *scene =
+        opened("a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 0 500 80 600 156 700 184]");
+    const double *rgb = scene->lights[0].radiance;
+    assert_near(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 1, 1e-3);
+    assert_near(rgb[0] / rgb[1], 20.7108 / 10.8546, 0.02); /* by Mitsuba */
+    koksma_scene_close(scene);
 }
 
 /* The camera's medium of pbrt-v4 is the scene's, everywhere. */
@@ -535,10 +566,15 @@ static void cut_texts_are_survived(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_scene_is_one_picture), cmocka_unit_test(orthographic_cameras_show_their_height),
-        cmocka_unit_test(spots_light_a_circle),     cmocka_unit_test(a_luminous_room_is_a_geometric_series),
-        cmocka_unit_test(unknown_things_are_named), cmocka_unit_test(the_cameras_medium_is_read),
-        cmocka_unit_test(fog_does_not_glow),        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
+        cmocka_unit_test(one_scene_is_one_picture),
+        cmocka_unit_test(orthographic_cameras_show_their_height),
+        cmocka_unit_test(spots_light_a_circle),
+        cmocka_unit_test(a_luminous_room_is_a_geometric_series),
+        cmocka_unit_test(lights_of_pbrt_have_luminance_1),
+        cmocka_unit_test(unknown_things_are_named),
+        cmocka_unit_test(the_cameras_medium_is_read),
+        cmocka_unit_test(fog_does_not_glow),
+        cmocka_unit_test(malformed_and_hostile_texts_are_refused),
         cmocka_unit_test(cut_texts_are_survived),
     };
     strcpy(folder, "/tmp/koksma-imports-XXXXXX");

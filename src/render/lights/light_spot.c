@@ -1,15 +1,34 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * spot: a point light with full intensity inside a cone, which falls to 0 at the edge of a wider cone, quadratically
- * in the cosine of the angle (KHR_lights_punctual):
+ * spot: a point light with full intensity inside a cone of half the angle `inner`, which falls to 0 at the edge of a
+ * wider cone. With a = (cos angle(w) - cos outer) / (cos inner - cos outer), cut to [0, 1], and inner = (1 - edge) outer,
  *
- *     I(w) = intensity a^2,   a = (cos angle(w) - cos outer) / (cos inner - cos outer), at least 0 and at most 1,
- *
- * with inner = (1 - edge) outer. The total power is intensity 2 pi (1 - cos inner + (cos inner - cos outer) / 3).
+ *     falloff    I(w) / intensity                               power / (2 pi intensity)
+ *     square     a^2 (KHR_lights_punctual)                      1 - cos inner + (cos inner - cos outer) / 3
+ *     smooth     a^2 (3 - 2 a) (pbrt-v4)                        1 - cos inner + (cos inner - cos outer) / 2
+ *     angle      (outer - angle(w)) / (outer - inner),          1 - (sin outer - sin inner) / (outer - inner)
+ *                at most 1 (Mitsuba 3)
  */
 #include "render/lights/surface_lights.h"
 
-enum { ANGLE, EDGE, OUTER, INNER }; /* OUTER and INNER are cosines, which open_light() sets */
+#include <string.h>
+
+#include "core/status.h"
+
+/* OUTER and INNER are cosines, SLOPE 1 / (outer - inner) in 1 / turns, EDGE_TURNS outer in turns: open_light() sets them */
+enum { ANGLE, EDGE, FALLOFF, OUTER, INNER, SLOPE, EDGE_TURNS };
+
+static const char *const falloffs[] = {
+    [KOKSMA__FALLOFF_SQUARE] = "square", [KOKSMA__FALLOFF_SMOOTH] = "smooth", [KOKSMA__FALLOFF_ANGLE] = "angle"};
+
+/* The integral of the falloff over the cosine from that of outer to 1. */
+static double power_of(int falloff, double inner, double outer)
+{
+    if (falloff == KOKSMA__FALLOFF_ANGLE) {
+        return outer > inner ? 1 - (sin(outer) - sin(inner)) / (outer - inner) : 1 - cos(outer);
+    }
+    return 1 - cos(inner) + (cos(inner) - cos(outer)) / (falloff == KOKSMA__FALLOFF_SMOOTH ? 2 : 3);
+}
 
 static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
 {
@@ -17,7 +36,9 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
     (void)scene;
     light->values[OUTER] = (float)cos(outer);
     light->values[INNER] = (float)cos(inner);
-    const double part = 1 - cos(inner) + (cos(inner) - cos(outer)) / 3;
+    light->values[SLOPE] = (float)(outer > inner ? TURN / (outer - inner) : 0);
+    light->values[EDGE_TURNS] = (float)(outer / TURN);
+    const double part = power_of((int)from->values[FALLOFF], inner, outer);
     light->power = koksma__luminance3(light->radiance) * (float)(2 * part) / KOKSMA__PI_F;
     return KOKSMA_OK;
 }
@@ -27,13 +48,35 @@ static bool centre(const koksma__shading_light *light, const float p[3], koksma_
     if (!koksma__point_beam(light, p, 1, out)) {
         return false;
     }
-    const float above = -koksma__dot3(out->w, light->normal) - light->values[OUTER];
+    const float cosine = -koksma__dot3(out->w, light->normal), above = cosine - light->values[OUTER];
     const float range = light->values[INNER] - light->values[OUTER];
     const float part = above < range ? above / range : 1;
+    const int falloff = (int)light->values[FALLOFF];
+    float shade = falloff == KOKSMA__FALLOFF_SMOOTH ? part * part * (3 - 2 * part) : part * part;
+    if (falloff == KOKSMA__FALLOFF_ANGLE && above < range) {
+        const float sine = sqrtf(cosine < 1 ? 1 - cosine * cosine : 0);
+        const float left = (light->values[EDGE_TURNS] - koksma__arc_turns(sine, cosine)) * light->values[SLOPE];
+        shade = left > 0 ? left : 0;
+    }
     for (int k = 0; k < 3; k++) {
-        out->value[k] *= part * part;
+        out->value[k] *= shade;
     }
     return above > 0;
+}
+
+static koksma_status parse(const char *name, const field *f, koksma_scene *scene, koksma__light *light)
+{
+    const char *text = falloffs[0];
+    int falloff = 0;
+    (void)name, (void)scene;
+    KOKSMA__TRY(koksma__json_get_text(f, "falloff", false, &text));
+    while (falloff <= KOKSMA__FALLOFF_ANGLE && strcmp(falloffs[falloff], text) != 0) {
+        falloff++;
+    }
+    KOKSMA__JSON_FAIL_IF(falloff > KOKSMA__FALLOFF_ANGLE, f, "falloff '%.20s'; it takes square, smooth or angle",
+                         text);
+    light->values[FALLOFF] = falloff;
+    return KOKSMA_OK;
 }
 
 static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
@@ -54,7 +97,9 @@ const koksma__light_kind koksma__light_spot = {
     .kind = {.name = "spot",
              .title = "a point that shines into a cone about a direction",
              .cite = "-",
-             .parameters = parameters},
+             .parameters = parameters,
+             .keys = KEYS("falloff")},
+    .parse = parse,
     .open = open_light,
     .sample = sample,
     .centre = centre,

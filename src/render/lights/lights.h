@@ -29,6 +29,9 @@ typedef struct koksma__shading_light {
     void *data;  /* the kind's data, released by its close() */
 } koksma__shading_light;
 
+/* How a spot's intensity falls off at the edge of its cone (light_spot.c): the value of its field `falloff`. */
+enum { KOKSMA__FALLOFF_SQUARE, KOKSMA__FALLOFF_SMOOTH, KOKSMA__FALLOFF_ANGLE };
+
 /* A sample of the light that arrives at a point. */
 typedef struct koksma__beam {
     float d[3];     /* from the point to the position on the light, which is at t = 1 */

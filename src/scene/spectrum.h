@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Sampled spectra of other renderers' scenes as linear red, green and blue. */
+#ifndef KOKSMA_SCENE_SPECTRUM_H
+#define KOKSMA_SCENE_SPECTRUM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The sums of a spectrum whose samples are added one by one; zeroed at first. */
+typedef struct koksma__sampled_spectrum {
+    size_t n;
+    double last[2];     /* wavelength and value of the last sample */
+    double seen[3];     /* XYZ of the spectrum itself */
+    double in_light[3]; /* XYZ of daylight (CIE D65) multiplied by the spectrum */
+} koksma__sampled_spectrum;
+
+/* Adds a sample; between samples the spectrum is linear, and 0 before the first and after the last one. Returns false if
+   the wavelength, in nm, is not above the one before. */
+bool koksma__sampled_spectrum_add(koksma__sampled_spectrum *s, double wavelength, double value);
+
+/* The colour of a reflectance: that of daylight which it reflects, with 1 for white, cut to [0, 1]. */
+void koksma__sampled_spectrum_reflectance(const koksma__sampled_spectrum *s, double rgb[3]);
+
+/* The colour of an emission, such that an emission of 1 at all wavelengths has luminance 1; negative channels are 0. */
+void koksma__sampled_spectrum_emission(const koksma__sampled_spectrum *s, double rgb[3]);
+
+#endif
