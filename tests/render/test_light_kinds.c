@@ -56,7 +56,8 @@ static koksma_scene *scene_with(const koksma__light_kind *kind, uint64_t stream,
         static const char *const falloffs[] = {"square", "smooth", "angle"};
         if (!strcmp(*key, "falloff")) {
             const size_t used = strlen(fields);
-            snprintf(fields + used, sizeof fields - used, ", \"falloff\": \"%s\"", falloffs[stream % 3]);
+            snprintf(fields + used, sizeof fields - used, ", \"falloff\": \"%s\"%s", falloffs[stream % 3],
+                     strstr(fields, "\"edge\"") ? "" : ", \"edge\": 0.8");
         }
     }
     snprintf(light, sizeof light, "{\"kind\": \"%s\"%s}", kind->kind.name, fields);
