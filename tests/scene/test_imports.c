@@ -332,7 +332,7 @@ static const struct {
     {"a.pbrt", "\nCamera \"orthographic\" \"float screenwindow\" [0 1 0 1] Film \"rgb\" " SIZE " WorldBegin",
      "a.pbrt:2: the screen window has another shape"},
     {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"wrinkled\" Shape \"sphere\"", "a.pbrt:2: texture 'wrinkled'"},
-    {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.gz\"", "a.pbrt:2: a.ply.gz is no file of a mesh"},
+    {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.bz2\"", "a.pbrt:2: a.ply.bz2 is no file of a mesh"},
     {"a.xml", BALL("<bsdf type=\"diffuse\"/>"), NULL},
     {"a.xml", BALL("<bsdf type=\"twosided\"><bsdf type=\"conductor\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"water\"/></bsdf>"), NULL},
