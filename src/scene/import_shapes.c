@@ -241,6 +241,11 @@ static koksma_status find_form(koksma__import *im, koksma__text_place place, kok
     if (im->rows_down) {
         turn_rows(&mesh);
     }
+    for (size_t i = 0; im->rows_down && form == KOKSMA__FORM_DISK && i < mesh.n_vertices; i++) {
+        float *uv = mesh.uvs + 2 * i, angle = uv[0]; /* Mitsuba's are the radius and the angle */
+        uv[0] = uv[1];
+        uv[1] = 1 - angle;
+    }
     KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, out));
     return remember(im, &(struct koksma__known_mesh){NULL, -1, form, true, *out});
 }
@@ -296,6 +301,8 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
         }
     }
     koksma__import_radiance(im, surface.radiance);
+    KOKSMA__TRY(surface.hidden ? koksma__import_unknown(im, item->place, "an invisible light of triangles is visible")
+                               : KOKSMA_OK);
     return surface.emits ? koksma__import_fail_at(item->place, koksma__scene_add_glow(scene, p, surface.radiance))
                          : KOKSMA_OK;
 }
@@ -385,7 +392,7 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
         koksma__light light = {.kind = sphere ? &koksma__light_sphere
                                        : disk ? &koksma__light_disk
                                               : &koksma__light_rectangle,
-                               .visible = true};
+                               .visible = !item->surface.hidden};
         memcpy(light.centre, shape.centre, sizeof light.centre);
         memcpy(light.axis_u, shape.axis_u, sizeof light.axis_u);
         memcpy(light.axis_v, shape.axis_v, sizeof light.axis_v);
@@ -396,6 +403,9 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
         const double *l = light.radiance, area = disk ? M_PI * length[0] * length[0] : 4 * length[0] * length[1];
         light.power = (0.2126 * l[0] + 0.7152 * l[1] + 0.0722 * l[2]) * area / M_PI;
         KOKSMA__TRY(koksma__import_light(im, item->place, &light));
+        if (item->surface.hidden) {
+            return KOKSMA_OK;
+        }
         shape.light = (int)im->scene->n_lights - 1;
         shape.material = -1;
     }

@@ -20,7 +20,7 @@
 #include "scene/import_shapes.h"
 #include "scene/xml.h"
 
-enum { MOST_NESTED = 16 };
+enum { MOST_NESTED = 16, MOST_SAMPLES = 1024 };
 
 typedef koksma__xml_node node;
 
@@ -212,32 +212,36 @@ static const node *resolve(const reader *r, const node *n)
     return n;
 }
 
-static koksma_status sampled(reader *r, const node *n, const char *value, double rgb[3])
+/* Reads pairs such as "400:0.1, 700:0.9". */
+static koksma_status sampled(reader *r, const node *n, const char *value, bool emits, double rgb[3])
 {
-    double sum[3] = {0}, count[3] = {0}, all = 0, pair[2];
+    double pairs[2 * MOST_SAMPLES];
+    size_t count = 0;
     while (value && *value) {
         char *colon, *end;
-        pair[0] = koksma__strtod(value, &colon);
+        if (count == MOST_SAMPLES) {
+            return koksma__import_fail(n->place, "a spectrum of more than %d samples", MOST_SAMPLES);
+        }
+        pairs[2 * count] = koksma__strtod(value, &colon);
         if (colon == value || *colon != ':') {
             break;
         }
-        pair[1] = koksma__strtod(colon + 1, &end);
-        const int k = pair[0] < 500 ? 2 : pair[0] < 600 ? 1 : 0;
-        sum[k] += pair[1];
-        count[k]++;
-        all += pair[1];
+        pairs[2 * count + 1] = koksma__strtod(colon + 1, &end);
+        if (count && !(pairs[2 * count] > pairs[2 * count - 2])) {
+            return koksma__import_fail(n->place, "the wavelengths of a spectrum don't rise");
+        }
+        count++;
         value = end + strspn(end, " ,\t\r\n");
     }
-    const double n_all = count[0] + count[1] + count[2];
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = count[k] > 0 ? sum[k] / count[k] : n_all > 0 ? all / n_all : 1;
+    koksma__import_spectrum(pairs, count, emits, rgb);
+    for (int k = 0; !count && k < 3; k++) {
+        rgb[k] = 1;
     }
-    return koksma__import_unknown(r->im, n->place,
-                                  n_all > 0 ? "a sampled spectrum is replaced by the means of its thirds"
-                                            : "a spectrum is replaced by white");
+    return koksma__import_unknown(
+        r->im, n->place, count ? "a sampled spectrum is replaced by its colour" : "a spectrum is replaced by white");
 }
 
-static koksma_status value_of(reader *r, const node *n, double rgb[3])
+static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3])
 {
     const char *value = koksma__xml_attribute(n, "value");
     double v[3];
@@ -257,7 +261,7 @@ static koksma_status value_of(reader *r, const node *n, double rgb[3])
         koksma__import_black_body(coordinate(n, "temperature", 6500), rgb);
         return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
     }
-    return given ? KOKSMA_OK : sampled(r, n, value, rgb);
+    return given ? KOKSMA_OK : sampled(r, n, value, emits, rgb);
 }
 
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
@@ -299,7 +303,8 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
     if (depth > MOST_NESTED) {
         return koksma__import_fail(found->place, "textures within each other more than %d deep", MOST_NESTED);
     }
-    return is(found, "texture") ? texture(r, found, out, depth) : value_of(r, found, out->rgb);
+    const bool emits = !strcmp(name, "radiance") || !strcmp(name, "intensity") || !strcmp(name, "irradiance");
+    return is(found, "texture") ? texture(r, found, out, depth) : value_of(r, found, emits, out->rgb);
 }
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
@@ -321,6 +326,8 @@ static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5,
                                   {"roughdielectric", KOKSMA__GLASS, "specular_transmittance", 1, 0.1, NULL},
                                   {"plastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0, NULL},
                                   {"roughplastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0.1, NULL},
+                                  {"pplastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0.1, "unpolarised"},
+                                  {"polarizer", -1, "", 0, 0, "nothing"},
                                   {"phong", KOKSMA__MATTE, "diffuse_reflectance", 0.5, 0, "its diffuse part"},
                                   {"thindielectric", -1, "", 0, 0, "nothing"},
                                   {"mask", -1, "", 0, 0, "nothing"},

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Converts pbrt-v4's parameters. Spectra become red, green and blue: rgb values are used as they are, black
- * bodies by their chromaticity, metals by a table of names, and sampled spectra by their means in three bands
+ * bodies by their chromaticity, metals by a table of names, and sampled spectra by their colour
  * (400 to 500, 500 to 600 and 600 to 700 nm). A texture becomes a colour, an image or a checkerboard; textures
  * that combine others become the mean colour.
  */
@@ -40,21 +40,22 @@ static void grey(double value, double rgb[3])
     rgb[0] = rgb[1] = rgb[2] = value;
 }
 
-static koksma_status bands(koksma__pbrt_scene *scene, koksma__text_place place, const double *pairs, size_t n,
-                           double rgb[3])
+/* Sets the colour of a sampled spectrum; that of a light has luminance 1, as pbrt scales it. */
+static koksma_status sampled(koksma__pbrt_scene *scene, koksma__text_place place, const koksma__pbrt_parameter *p,
+                             double rgb[3])
 {
-    double sum[3] = {0, 0, 0}, all = 0;
-    size_t count[3] = {0, 0, 0};
-    for (size_t i = 0; i + 1 < n; i += 2) {
-        const int k = pairs[i] < 500 ? 2 : pairs[i] < 600 ? 1 : 0;
-        sum[k] += pairs[i + 1];
-        all += pairs[i + 1];
-        count[k]++;
+    const bool emits = !strcmp(p->name, "L") || !strcmp(p->name, "I");
+    for (size_t i = 2; i + 1 < p->n; i += 2) {
+        if (!(p->numbers[i] > p->numbers[i - 2])) {
+            return koksma__import_fail(place, "%s: the wavelengths of a spectrum don't rise", p->name);
+        }
     }
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = count[k] ? sum[k] / (double)count[k] : n > 1 ? all / (double)(n / 2) : 0;
+    koksma__import_spectrum(p->numbers, p->n / 2, emits, rgb);
+    const double luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    for (int k = 0; emits && k < 3; k++) {
+        rgb[k] = luminance > 0 ? rgb[k] / luminance : 0;
     }
-    return koksma__import_unknown(scene->im, place, "a sampled spectrum is replaced by the means of its thirds");
+    return koksma__import_unknown(scene->im, place, "a sampled spectrum is replaced by its colour");
 }
 
 /* Reads a named spectrum: "metal-Au-eta" and similar names give the metal's reflectance, others white. */
@@ -96,7 +97,7 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
         return KOKSMA_OK;
     }
     if (!strcmp(p->type, "spectrum")) {
-        return bands(scene, place, p->numbers, p->n, out->rgb);
+        return sampled(scene, place, p, out->rgb);
     }
     if (p->n != 1 && p->n != 3) {
         return koksma__import_fail(place, "%s: a colour has one number or three", p->name);
@@ -402,16 +403,33 @@ static void shape_form(double radius, double height, double z, double m[12])
     m[11] = z;
 }
 
+/* What a constant alpha makes of a shape: nothing at 1; at 0 no ray meets it, but a light still shines. */
+static koksma_status take_shape_alpha(koksma__import *im, const koksma__pbrt_parameters *p, koksma__import_item *item,
+                                      bool *is_there)
+{
+    const koksma__pbrt_parameter *alpha = koksma__pbrt_find(p, "alpha");
+    const bool is_number = alpha && !strcmp(alpha->type, "float") && alpha->n == 1;
+    if (is_number && alpha->numbers[0] <= 0) {
+        item->surface.hidden = item->surface.emits;
+        item->surface.material = -1;
+        *is_there = item->surface.emits;
+    } else if (alpha && !(is_number && alpha->numbers[0] >= 1)) {
+        return koksma__import_unknown(im, p->place, "a shape's 'alpha' is ignored");
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
                                  koksma__import_item *item, double matrix[12], bool *is_there)
 {
     const double radius = koksma__pbrt_number(p, "radius", 1);
     koksma__import *im = scene->im;
     koksma_status status = KOKSMA_OK;
-    if (koksma__pbrt_find(p, "alpha")) {
-        KOKSMA__TRY(koksma__import_unknown(im, p->place, "a shape's 'alpha' is ignored"));
-    }
     item->mesh = -1;
+    KOKSMA__TRY(take_shape_alpha(im, p, item, is_there));
+    if (!*is_there) {
+        return KOKSMA_OK;
+    }
     if (!strcmp(type, "sphere") || !strcmp(type, "disk") || !strcmp(type, "cylinder")) {
         const double low = koksma__pbrt_number(p, "zmin", -1), high = koksma__pbrt_number(p, "zmax", 1);
         const bool cylinder = *type == 'c', disk = *type == 'd';
