@@ -157,6 +157,26 @@ def gzipped(bench):
     bench.checks.check(done and done.mib < 1024 + files.OTHER, f"a .ply.gz that stands for too much: {done and done.mib:.0f} MiB")
 
 
+def included(bench):
+    """A text that a scene of pbrt includes, packed by gzip."""
+    head = 'Camera "perspective" "float fov" 60 Film "rgb" "integer xresolution" 24 "integer yresolution" 16 WorldBegin\n'
+    body = 'LightSource "infinite" Translate 0 0 3 Material "diffuse" Shape "sphere"\n'
+    pictures = []
+    for name, data in (("body.pbrt", body.encode()), ("body.pbrt.gz", gzip.compress(body.encode()))):
+        bench.put(name, data)
+        bench.put("s.pbrt", head + f'Include "{name}"\n')
+        done = bench.run("render", "s.pbrt", "-n", "4", "-q", "-o", "s.pfm")
+        bench.checks.check(done and done.code == 0, f"{name}: {done and done.err}")
+        with open(os.path.join(bench.folder, "s.pfm"), "rb") as stream:
+            pictures.append(stream.read())
+    bench.checks.check(pictures[0] == pictures[1], "a packed text gives another picture")
+    for what, data, words in (("cut", gzip.compress(body.encode())[:-9], "cut short"), ("no gzip", body.encode(), "damaged"),
+                              ("binary", gzip.compress(bytes(600)), "zero byte"),
+                              ("long", gzip.compress(b" " * ((64 << 20) + 1)), f"more than {64 << 20} bytes")):
+        bench.put("body.pbrt.gz", data)
+        bench.checks.refused(f"a packed text, {what}", bench.run("scene", "check", "s.pbrt"), 3, "s.pbrt:2: ", "body.pbrt.gz", words)
+
+
 def hostiles(bench):
     good, flags = mesh(SINGLE), SINGLE
     whole = serialized([good])
@@ -207,6 +227,7 @@ def main():
             return
         wholes(bench)
         gzipped(bench)
+        included(bench)
         hostiles(bench)
         bench.checks.end()
 
