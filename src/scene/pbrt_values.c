@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Converts pbrt-v4's parameters. Spectra become red, green and blue: rgb values are used as they are, black
- * bodies by their chromaticity, metals by a table of names, and sampled spectra by their colour
- * (400 to 500, 500 to 600 and 600 to 700 nm). A texture becomes a colour, an image or a checkerboard; textures
+ * bodies by their chromaticity, metals by a table of names, and sampled spectra by their colour. A texture becomes a colour, an image or a checkerboard; textures
  * that combine others become the mean colour.
  */
 #include "scene/pbrt_values.h"
@@ -13,7 +12,10 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "meshes/mesh_loop.h"
 #include "scene/import_shapes.h"
+
+enum { MOST_DIVIDED = 1 << 21 }; /* triangles that a scene gets by subdivision */
 
 struct koksma__pbrt_named {
     char name[256];
@@ -380,13 +382,41 @@ static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv,
     return take_indices(p, indices, quads, mesh);
 }
 
-static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool quads, bool smooth,
+/* Divides a mesh as often as its `levels` say, as far as the scene may have triangles of this kind. */
+static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, koksma__mesh *mesh)
+{
+    koksma__mesh fine = {0};
+    const double asked = koksma__pbrt_number(p, "levels", 3);
+    const size_t left = scene->n_divided < MOST_DIVIDED ? MOST_DIVIDED - scene->n_divided : 0;
+    int levels = 0;
+    if (koksma__mesh_check(mesh)) {
+        return KOKSMA_OK; /* it is left out later, with a warning */
+    }
+    while (levels < asked && mesh->n_triangles << 2 * (levels + 1) <= left) {
+        levels++;
+    }
+    if (levels < asked) {
+        KOKSMA__TRY(
+            koksma__import_unknown(scene->im, p->place, "shape 'loopsubdiv' is divided %d times only", levels));
+    }
+    scene->n_divided += mesh->n_triangles << 2 * levels;
+    const koksma_status status = koksma__mesh_loop(mesh, levels, &fine);
+    if (status) {
+        koksma__mesh_fini(&fine);
+        return koksma__import_fail_at(p->place, status);
+    }
+    koksma__mesh_fini(mesh);
+    *mesh = fine;
+    return KOKSMA_OK;
+}
+
+static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool quads, bool divided,
                                int *out)
 {
     koksma__mesh mesh = {0};
     const char *uv = koksma__pbrt_find(p, "uv") ? "uv" : koksma__pbrt_find(p, "st") ? "st" : "";
     koksma_status status = fill_mesh(p, uv, quads, &mesh);
-    status = status || !smooth ? status : koksma__mesh_smooth(&mesh);
+    status = status || !divided ? status : divide(scene, p, &mesh);
     if (status) {
         koksma__mesh_fini(&mesh);
         return status;
@@ -453,8 +483,7 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
     } else if (!strcmp(type, "trianglemesh") || !strcmp(type, "bilinearmesh")) {
         status = triangles(scene, p, *type == 'b', false, &item->mesh);
     } else if (!strcmp(type, "loopsubdiv")) {
-        status = koksma__import_unknown(im, p->place, "shape 'loopsubdiv': the triangles that it divides, smooth");
-        status = status ? status : triangles(scene, p, false, true, &item->mesh);
+        status = triangles(scene, p, false, true, &item->mesh);
     } else {
         status = koksma__import_unknown(im, p->place, "shape '%s': it is left out", type);
     }

@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "meshes.h"
 #include "meshes/mesh.h"
+#include "meshes/mesh_loop.h"
 
 enum { SIDE = 48 };
 
@@ -508,6 +509,59 @@ static void normals_by_angles_are_those_of_mitsuba(void **state)
     koksma__mesh_fini(&mesh);
 }
 
+/* Loop's surface: each of a tetrahedron's corners, with three neighbours, has the limit (1 - 3 g) v + g N, g = 1 / (3 + 3 /
+   (8 * 3/16)) = 1/5, at any level; numbers follow Euler's formula. On a plane of regular triangles the masks keep linear
+   functions, so that inner vertices stay; the corners of a square's border have 3/5 v + 1/5 (p + q), at level 0. */
+static void loops_surface_has_its_limits(void **state)
+{
+    static const float places[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    static const uint32_t corners[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    koksma__mesh mesh = {0}, fine = {0};
+    (void)state;
+    assert_ok(koksma__mesh_init(4, 4, false, false, &mesh));
+    memcpy(mesh.vertices, places, sizeof places);
+    memcpy(mesh.indices, corners, sizeof corners);
+    assert_ok(koksma__mesh_check(&mesh));
+    for (int levels = 0; levels < 5; levels++) {
+        assert_ok(koksma__mesh_loop(&mesh, levels, &fine));
+        assert_int_equal(fine.n_triangles, (size_t)4 << 2 * levels);
+        assert_int_equal(fine.n_vertices, fine.n_triangles / 2 + 2); /* V - E + F = 2, E = 3 F / 2 */
+        for (size_t i = 0; i < 12; i++) {                            /* N = -v: the corners' sum is 0 */
+            assert_float_equal((double)fine.vertices[i], (double)places[i / 3][i % 3] * (2.0 / 5 - 1.0 / 5), 1e-6);
+            assert_float_equal((double)fine.normals[i], (double)places[i / 3][i % 3] / sqrt(3), 1e-6);
+        }
+        koksma__mesh_fini(&fine);
+    }
+    koksma__mesh_fini(&mesh);
+    enum { N = 6 };
+    assert_ok(koksma__mesh_init(N * N, 2 * (N - 1) * (N - 1), false, false, &mesh));
+    uint32_t *to = mesh.indices;
+    for (uint32_t i = 0; i < N * N; i++) {
+        const uint32_t x = i % N, y = i / N, quad[6] = {i, i + 1, i + N + 1, i, i + N + 1, i + N};
+        mesh.vertices[3 * i] = (float)x;
+        mesh.vertices[3 * i + 1] = (float)y;
+        mesh.vertices[3 * i + 2] = (float)(x + 2 * y);
+        if (x < N - 1 && y < N - 1) {
+            memcpy(to, quad, sizeof quad);
+            to += 6;
+        }
+    }
+    assert_ok(koksma__mesh_check(&mesh));
+    for (int levels = 0; levels < 3; levels++) {
+        assert_ok(koksma__mesh_loop(&mesh, levels, &fine));
+        for (size_t i = 0; i < N * N; i++) {
+            const size_t x = i % N, y = i / N;
+            const bool far = x >= 2 && y >= 2 && x < N - 2 && y < N - 2; /* of the border's own rule */
+            assert_float_equal((double)fine.vertices[3 * i + 2],
+                               (double)fine.vertices[3 * i] + 2 * (double)fine.vertices[3 * i + 1], 1e-5);
+            assert_true(!far || (double)fabsf(fine.vertices[3 * i] - (float)x) < 1e-6);
+        }
+        assert_true(levels || fabsf(fine.vertices[0] - 0.2f) < 1e-6f); /* corner (0, 0): 1/5 of (1, 0) and (0, 1) */
+        koksma__mesh_fini(&fine);
+    }
+    koksma__mesh_fini(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -516,6 +570,7 @@ int main(void)
         cmocka_unit_test(a_fine_ball_is_a_sphere),
         cmocka_unit_test(normals_are_smooth_in_all_sizes),
         cmocka_unit_test(normals_by_angles_are_those_of_mitsuba),
+        cmocka_unit_test(loops_surface_has_its_limits),
         cmocka_unit_test(convex_bodies_do_not_shade_themselves),
         cmocka_unit_test(light_on_meshes_is_its_form_factor),
         cmocka_unit_test(motion_covers_its_share_of_time),
