@@ -37,7 +37,8 @@ static koksma_status check_gzip(const unsigned char *bytes, size_t size)
 
 /* The reader for an ending of a file's name. The hash of a model's scene is the sum of the hashes of its files, with
    the model's own hash counted `times` times: stored studies find their scenes by this hash, and earlier versions
-   read the file that many times. */
+   read the file that many times. Where the same files give another scene, `times` changes: glTF's was 5 until the gamma
+   of its images was ignored. */
 typedef struct reader {
     const char *ending;
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
@@ -50,8 +51,8 @@ static const reader readers[] = {{".obj", koksma__obj_read, check_start, 3, fals
                                  {".ply", koksma__ply_read, check_start, 3, false},
                                  {".ply.gz", koksma__ply_read, check_gzip, 1, true},
                                  {".off", koksma__off_read, check_start, 3, false},
-                                 {".gltf", koksma__gltf_read, check_start, 5, false},
-                                 {".glb", koksma__gltf_read, check_start, 5, false},
+                                 {".gltf", koksma__gltf_read, check_start, 6, false},
+                                 {".glb", koksma__gltf_read, check_start, 6, false},
                                  {".serialized", koksma__serialized_read, koksma__serialized_start, 1, false}};
 
 static const reader *find_reader(const char *path)
