@@ -215,7 +215,7 @@ static const node *resolve(const reader *r, const node *n)
 /* Reads pairs such as "400:0.1, 700:0.9". */
 static koksma_status sampled(reader *r, const node *n, const char *value, bool emits, double rgb[3])
 {
-    double pairs[2 * MOST_SAMPLES];
+    double pairs[2 * MOST_SAMPLES] = {0};
     size_t count = 0;
     while (value && *value) {
         char *colon, *end;

@@ -527,8 +527,8 @@ static void loops_surface_has_its_limits(void **state)
         assert_int_equal(fine.n_triangles, (size_t)4 << 2 * levels);
         assert_int_equal(fine.n_vertices, fine.n_triangles / 2 + 2); /* V - E + F = 2, E = 3 F / 2 */
         for (size_t i = 0; i < 12; i++) {                            /* N = -v: the corners' sum is 0 */
-            assert_float_equal((double)fine.vertices[i], (double)places[i / 3][i % 3] * (2.0 / 5 - 1.0 / 5), 1e-6);
-            assert_float_equal((double)fine.normals[i], (double)places[i / 3][i % 3] / sqrt(3), 1e-6);
+            assert_float_equal((double)fine.vertices[i], ((double)places[i / 3][i % 3] * (2.0 / 5 - 1.0 / 5)), 1e-6);
+            assert_float_equal((double)fine.normals[i], ((double)places[i / 3][i % 3] / sqrt(3.0)), 1e-6);
         }
         koksma__mesh_fini(&fine);
     }
@@ -553,10 +553,11 @@ static void loops_surface_has_its_limits(void **state)
             const size_t x = i % N, y = i / N;
             const bool far = x >= 2 && y >= 2 && x < N - 2 && y < N - 2; /* of the border's own rule */
             assert_float_equal((double)fine.vertices[3 * i + 2],
-                               (double)fine.vertices[3 * i] + 2 * (double)fine.vertices[3 * i + 1], 1e-5);
-            assert_true(!far || (double)fabsf(fine.vertices[3 * i] - (float)x) < 1e-6);
+                               ((double)fine.vertices[3 * i] + 2 * (double)fine.vertices[3 * i + 1]), 1e-5);
+            assert_true(!far || fabs((double)fine.vertices[3 * i] - (double)x) < 1e-6);
         }
-        assert_true(levels || fabsf(fine.vertices[0] - 0.2f) < 1e-6f); /* corner (0, 0): 1/5 of (1, 0) and (0, 1) */
+        assert_true(levels ||
+                    fabs((double)fine.vertices[0] - 0.2) < 1e-6); /* corner (0, 0): 1/5 of (1, 0) and (0, 1) */
         koksma__mesh_fini(&fine);
     }
     koksma__mesh_fini(&mesh);
