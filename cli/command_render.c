@@ -280,8 +280,9 @@ const cli_command cli_command_render = {
     .synopsis = "SCENE [-p [USE[+USE]=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S] "
                 "[--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
-        "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md), a mesh file (.obj, .ply, .off,\n"
-        ".gltf, .glb), or a scene of pbrt-v4 (.pbrt) or Mitsuba 3 (.xml).\n"
+        "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md), a mesh file (.obj, .ply,\n"
+        ".ply.gz, .off, .gltf, .glb, .serialized), or a scene of pbrt-v4 (.pbrt) or\n"
+        "Mitsuba 3 (.xml).\n"
         "\n"
         "A use is what sample dimensions are spent on, such as the lens; see 'koksma list uses'. Each use has its\n"
         "own point set in every pixel. --pairing combines them: 'shuffled' by random permutations, 'aligned' in the\n"

@@ -203,7 +203,8 @@ static bool ending_fits(const cli_arguments *arguments, const char *argument, co
     size_t used = 0;
     for (const char *at = first, *end; dot && at && *at; at = end + (*end == '|')) {
         end = at + strcspn(at, "|");
-        if (strlen(dot) == (size_t)(end - at) && !strncmp(dot, at, (size_t)(end - at))) {
+        const size_t length = strlen(base), ending = (size_t)(end - at);
+        if (length > ending && !strncmp(base + length - ending, at, ending)) {
             return true;
         }
         used += (size_t)snprintf(all + used, sizeof all - used, "%s%.*s",

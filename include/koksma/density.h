@@ -37,7 +37,7 @@ KOKSMA_API koksma_status koksma_generate_density(const koksma_spec *spec, uint64
 
 /* Generates out->n points on the triangles of a model, uniform in area, in the coordinates of its file.
      spec  as above; the d of poisson-disk is in the model's units
-     path  a model: .obj, .ply, .off, .gltf or .glb
+     path  a model: .obj, .ply, .ply.gz, .off, .gltf, .glb or .serialized
      out   points initialised by koksma_points_init, in 3 dimensions: x y z; or in 6: also the triangle's unit normal,
            counterclockwise corners seen from outside; or in 7: also the number of the triangle, from 0
    Errors: as above; MISSING, MALFORMED (the model). */

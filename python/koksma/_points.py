@@ -244,8 +244,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     allow_exec: run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
     density: an image, as a file or an array of shape (height, width), whose luminance the density follows; its bottom
     row is at y = 0.
-    on: a model (.obj, .ply, .off, .gltf, .glb) whose surface the points lie on, in its coordinates. dim 3: x y z; 6: also
-    the normals; 7: also the numbers of the triangles.
+    on: a model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
+    dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
 
     density and on are for "random", "sample-elimination", "progressive-elimination" and "poisson-disk". Equal arguments
     give equal bits, and the same as `koksma generate`.

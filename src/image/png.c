@@ -5,8 +5,8 @@
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
  * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
  * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is read as sRGB, because writers of sRGB
- * files often store it. Transparency does not change the colours, so that albedos and comparisons use each pixel's
- * colour; read_alpha reads the transparency alone. Files are written as sRGB with 8 bits.
+ * files often store it. read_srgb ignores gAMA. Transparency does not change the colours, so that albedos and
+ * comparisons use each pixel's colour; read_alpha reads the transparency alone. Files are written as sRGB with 8 bits.
  */
 #ifdef KOKSMA_PNG
 #include <math.h>
@@ -88,9 +88,12 @@ static void get(png_structp png, png_bytep data, size_t size)
     s->left -= size;
 }
 
+/* What to read: colours, the same with sRGB's curve whatever the file states, or only the transparency. */
+typedef enum part { COLOURS, AS_SRGB, ALPHA } part;
+
 typedef struct head {
     png_uint_32 width, height;
-    bool alpha; /* read only the transparency */
+    part what;
     int channels, level_bytes, passes;
     double power; /* exponent of the transfer function; 0: sRGB */
 } head;
@@ -116,14 +119,14 @@ static bool get_head(png_structp png, png_infop info, head *h)
         return false;
     }
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, wanted, h->alpha ? 4 : 3);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, wanted, h->what == ALPHA ? 4 : 3);
     png_read_info(png, info);
     h->width = png_get_image_width(png, info);
     h->height = png_get_image_height(png, info);
-    h->power = power_of(png, info);
+    h->power = h->what == AS_SRGB ? 0 : power_of(png, info);
     png_set_palette_to_rgb(png);
     png_set_expand_gray_1_2_4_to_8(png);
-    if (h->alpha) {
+    if (h->what == ALPHA) {
         png_set_tRNS_to_alpha(png);
     } else {
         png_set_strip_alpha(png);
@@ -183,9 +186,10 @@ static koksma_status fail(const stream *s)
                         *s->message ? s->message : "out of memory");
 }
 
-static koksma_status read_image(png_structp png, png_infop info, const stream *s, bool alpha, koksma_image *out)
+static koksma_status read_image(png_structp png, png_infop info, const stream *s, part what, koksma_image *out)
 {
-    head h = {.alpha = alpha};
+    const bool alpha = what == ALPHA;
+    head h = {.what = what};
     const size_t size = s->left;
     if (!get_head(png, info, &h)) {
         return fail(s);
@@ -208,7 +212,7 @@ static koksma_status read_image(png_structp png, png_infop info, const stream *s
     return status;
 }
 
-static koksma_status read_part(const unsigned char *bytes, size_t size, bool alpha, koksma_image *out)
+static koksma_status read_part(const unsigned char *bytes, size_t size, part what, koksma_image *out)
 {
     stream s = {.in = bytes, .left = size};
     KOKSMA__TRY(check_chunks(bytes, size));
@@ -218,7 +222,7 @@ static koksma_status read_part(const unsigned char *bytes, size_t size, bool alp
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (info) {
         png_set_read_fn(png, &s, get);
-        status = read_image(png, info, &s, alpha, out);
+        status = read_image(png, info, &s, what, out);
     } else {
         s.no_memory = true;
         status = fail(&s);
@@ -229,12 +233,17 @@ static koksma_status read_part(const unsigned char *bytes, size_t size, bool alp
 
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
-    return read_part(bytes, size, false, out);
+    return read_part(bytes, size, COLOURS, out);
+}
+
+static koksma_status read_srgb(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    return read_part(bytes, size, AS_SRGB, out);
 }
 
 static koksma_status read_alpha(const unsigned char *bytes, size_t size, koksma_image *out)
 {
-    return read_part(bytes, size, true, out);
+    return read_part(bytes, size, ALPHA, out);
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------ */
@@ -321,6 +330,7 @@ const koksma__image_format koksma__format_png = {
     .name = "png",
     .recognises = recognises,
     .read = read,
+    .read_srgb = read_srgb,
     .read_alpha = read_alpha,
     .write = write,
     .error = 0.5 / 255 * 2.4 / 1.055, /* error of half a level at 1, where the sRGB curve is steepest */

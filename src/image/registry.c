@@ -184,7 +184,15 @@ koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, k
         }
         return status;
     }
-    status = status ? status : koksma__image_read_bytes(bytes, size, KOKSMA__FILE_TEXTURE, out);
+    if (!status && part != KOKSMA__IMAGE_COLOURS && format->read_srgb) {
+        most_pixels = KOKSMA__TEXTURE_PIXELS;
+        status = format->read_srgb(bytes, size, out);
+        if (status) {
+            koksma_image_fini(out);
+        }
+    } else {
+        status = status ? status : koksma__image_read_bytes(bytes, size, KOKSMA__FILE_TEXTURE, out);
+    }
     if (!status && part == KOKSMA__IMAGE_NUMBERS && format->error > 0) {
         uncurve(out);
     }

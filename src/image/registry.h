@@ -10,10 +10,12 @@
 /* koksma_image_read for a kind of file, with who named the file (core/read_file.h). */
 koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out);
 
-/* The part of an image file to read: colours in linear light; numbers as stored in the file, without a transfer
-   function; or the transparency, which a file may lack. */
+/* The part of an image file to read: colours in linear light; the same of levels that are sRGB's, whatever transfer
+   function the file states; numbers as stored in the file, without a transfer function; or the transparency, which a file
+   may lack. */
 typedef enum koksma__image_part {
     KOKSMA__IMAGE_COLOURS,
+    KOKSMA__IMAGE_SRGB,
     KOKSMA__IMAGE_NUMBERS,
     KOKSMA__IMAGE_ALPHA
 } koksma__image_part;

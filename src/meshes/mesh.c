@@ -170,6 +170,49 @@ koksma_status koksma__mesh_smooth(koksma__mesh *m)
     return KOKSMA_OK;
 }
 
+/* The angle of triangle t at corner c, and 0 for a triangle without area. */
+static double corner_angle(const koksma__mesh *m, size_t t, size_t c)
+{
+    double sides[2][3];
+    for (size_t k = 0; k < 6; k++) {
+        const uint32_t *corners = m->indices + 3 * t;
+        sides[k / 3][k % 3] = (double)m->vertices[3 * corners[(c + 1 + k / 3) % 3] + k % 3] -
+                              (double)m->vertices[3 * corners[c] + k % 3];
+    }
+    double across[3];
+    koksma__cross(sides[0], sides[1], across);
+    return atan2(sqrt(koksma__dot(across, across)), koksma__dot(sides[0], sides[1]));
+}
+
+koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *m)
+{
+    double *sums = calloc(3 * m->n_vertices + 1, sizeof *sums);
+    m->normals = calloc(3 * m->n_vertices + 1, sizeof *m->normals);
+    if (!sums || !m->normals) {
+        free(sums);
+        return koksma__fail_memory(3 * m->n_vertices * sizeof *sums);
+    }
+    for (size_t t = 0; t < m->n_triangles; t++) {
+        double normal[3];
+        twice_area(m, t, normal);
+        const bool has_area = koksma__normalise(normal);
+        for (size_t c = 0; has_area && c < 3; c++) {
+            const double angle = corner_angle(m, t, c);
+            for (size_t k = 0; k < 3; k++) {
+                sums[3 * m->indices[3 * t + c] + k] += angle * normal[k];
+            }
+        }
+    }
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        const bool has_direction = koksma__normalise(sums + 3 * i);
+        for (size_t k = 0; k < 3; k++) {
+            m->normals[3 * i + k] = has_direction ? (float)sums[3 * i + k] : 0;
+        }
+    }
+    free(sums);
+    return KOKSMA_OK;
+}
+
 uint64_t koksma__mesh_hash(const koksma__mesh *m)
 {
     const uint64_t parts[4] = {koksma__hash(m->vertices, 3 * m->n_vertices * sizeof *m->vertices),

@@ -52,6 +52,11 @@ koksma_status koksma__mesh_check(koksma__mesh *mesh);
    around the vertex. Errors: MEMORY. */
 koksma_status koksma__mesh_smooth(koksma__mesh *mesh);
 
+/* Computes normals for a checked mesh that has none, as Mitsuba does: each is the mean of the normals of the vertex's
+   triangles, weighted by their angles at the vertex (Thuermer and Wuethrich 1998). Vertices at one position that the
+   file keeps apart get normals of their own. Errors: MEMORY. */
+koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *mesh);
+
 /* 64-bit hash of the mesh's content. */
 uint64_t koksma__mesh_hash(const koksma__mesh *mesh);
 

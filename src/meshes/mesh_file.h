@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The contents of a mesh file as plain data: meshes, materials, their placements by nodes, lights and a camera. The
-   readers (mesh_obj.c, mesh_mtl.c, mesh_off.c, mesh_ply.c, gltf_*.c) fill it in one pass over the file;
+   readers (mesh_obj.c, mesh_mtl.c, mesh_off.c, mesh_ply.c, mesh_serialized.c, gltf_*.c) fill it in one pass over the file;
    scene/model_build.c builds a scene from it, koksma__mesh_read() a single mesh. */
 #ifndef KOKSMA_MESHES_MESH_FILE_H
 #define KOKSMA_MESHES_MESH_FILE_H
@@ -69,6 +69,7 @@ typedef struct koksma__file_light {
 
 typedef struct koksma__mesh_file {
     const char *path;
+    long part;     /* the index of the only mesh to read, for formats with several numbered meshes; -1: all */
     uint64_t hash; /* sum of the hashes of all files read, each as many times as stored studies count it */
     koksma__list meshes, materials, placements, lights;
     size_t n_vertices, n_triangles; /* totals of all meshes */

@@ -2,7 +2,7 @@
 /*
  * Opens mesh files with the reader for the ending of their name, and joins the contents of a file into one mesh: the
  * file's meshes one after the other, each transformed by its placement. A file with one mesh placed once at the
- * identity, as all but glTF and OBJ files are, becomes the result without a copy. The result has normals (or texture
+ * identity, as PLY and OFF files are, becomes the result without a copy. The result has normals (or texture
  * coordinates) if all its parts have them.
  */
 #include "meshes/mesh_read.h"
@@ -13,32 +13,54 @@
 #include "core/hash.h"
 #include "core/status.h"
 #include "meshes/gltf_read.h"
+#include "meshes/inflate.h"
 #include "meshes/mesh_obj.h"
 #include "meshes/mesh_off.h"
 #include "meshes/mesh_ply.h"
+#include "meshes/mesh_serialized.h"
 
 /* ---- Readers -------------------------------------------------------------------------------- */
 
+/* Checks a file's first bytes: PLY and binary glTF begin with "ply" and "glTF"; all other files must be text. */
+static koksma_status check_start(const unsigned char *bytes, size_t size)
+{
+    const bool binary = size >= 4 && (!memcmp(bytes, "glTF", 4) || !memcmp(bytes, "ply", 3));
+    return binary ? KOKSMA_OK : koksma__check_text(bytes, size);
+}
+
+static koksma_status check_gzip(const unsigned char *bytes, size_t size)
+{
+    KOKSMA__FAIL_IF(size < 2 || bytes[0] != 0x1F || bytes[1] != 0x8B, KOKSMA_MALFORMED,
+                    "not 1F 8B, with which gzip files begin");
+    return KOKSMA_OK;
+}
+
 /* The reader for an ending of a file's name. The hash of a model's scene is the sum of the hashes of its files, with
    the model's own hash counted `times` times: stored studies find their scenes by this hash, and earlier versions
-   read the file that many times. */
+   read the file that many times. Where the same files give another scene, `times` changes: glTF's was 5 until the gamma
+   of its images was ignored. */
 typedef struct reader {
     const char *ending;
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+    koksma__check_start *check;
     uint64_t times;
+    bool is_packed; /* by gzip */
 } reader;
 
-static const reader readers[] = {{".obj", koksma__obj_read, 3},
-                                 {".ply", koksma__ply_read, 3},
-                                 {".off", koksma__off_read, 3},
-                                 {".gltf", koksma__gltf_read, 5},
-                                 {".glb", koksma__gltf_read, 5}};
+static const reader readers[] = {{".obj", koksma__obj_read, check_start, 3, false},
+                                 {".ply", koksma__ply_read, check_start, 3, false},
+                                 {".ply.gz", koksma__ply_read, check_gzip, 1, true},
+                                 {".off", koksma__off_read, check_start, 3, false},
+                                 {".gltf", koksma__gltf_read, check_start, 6, false},
+                                 {".glb", koksma__gltf_read, check_start, 6, false},
+                                 {".serialized", koksma__serialized_read, koksma__serialized_start, 1, false}};
 
 static const reader *find_reader(const char *path)
 {
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof readers / sizeof *readers; i++) {
-        if (!strcmp(dot, readers[i].ending)) {
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++) {
+        const size_t ending = strlen(readers[i].ending);
+        if (length >= ending && !strcmp(path + length - ending, readers[i].ending)) {
             return &readers[i];
         }
     }
@@ -50,37 +72,49 @@ bool koksma__is_mesh_file(const char *path)
     return find_reader(path) != NULL;
 }
 
-/* Checks a file's first bytes: PLY and binary glTF begin with "ply" and "glTF"; all other files must be text. */
-static koksma_status check_start(const unsigned char *bytes, size_t size)
+/* Replaces the bytes of a gzip file by those that it stands for, which are owned by the file, too. */
+static koksma_status unpack(const unsigned char **bytes, size_t *size, koksma__mesh_file *out)
 {
-    const bool binary = size >= 4 && (!memcmp(bytes, "glTF", 4) || !memcmp(bytes, "ply", 3));
-    return binary ? KOKSMA_OK : koksma__check_text(bytes, size);
+    unsigned char *unpacked = NULL;
+    koksma_status status =
+        koksma__inflate_all(*bytes, *size, (size_t)koksma__file_most(KOKSMA__FILE_MESH), &unpacked, size);
+    unsigned char **kept = status ? NULL : koksma__list_add(&out->owned, 1, sizeof *kept);
+    if (!kept) {
+        free(unpacked);
+        return status ? koksma__fail_in(status, out->path) : KOKSMA_MEMORY;
+    }
+    *kept = unpacked;
+    *bytes = unpacked;
+    return *size ? KOKSMA_OK : koksma__fail(KOKSMA_MALFORMED, "%s: empty", out->path);
 }
 
-/* Reads the file. hashed: also computes out->hash, which takes as long as reading a binary file; otherwise out->hash
-   is not set. */
-static koksma_status read_meshes(const char *path, koksma__named by, bool hashed, koksma__mesh_file *out)
+/* Reads the file, or one part of it. hashed: also computes out->hash, which takes as long as reading a binary file;
+   otherwise out->hash is not set. */
+static koksma_status read_meshes(const char *path, koksma__named by, bool hashed, long part, koksma__mesh_file *out)
 {
-    unsigned char *bytes = NULL;
+    unsigned char *read = NULL;
     size_t size = 0;
     const reader *how = find_reader(path);
-    *out = (koksma__mesh_file){.path = path};
-    KOKSMA__FAIL_IF(!how, KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
-    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_MESH, by, check_start, &bytes, &size));
+    *out = (koksma__mesh_file){.path = path, .part = part};
+    KOKSMA__FAIL_IF(!how, KOKSMA_MALFORMED,
+                    "%s: a mesh file's name ends in .obj, .ply, .ply.gz, .off, .gltf, .glb or .serialized", path);
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_MESH, by, how->check, &read, &size));
     unsigned char **kept = koksma__list_add(&out->owned, 1, sizeof *kept);
     if (!kept) {
-        free(bytes);
+        free(read);
         return KOKSMA_MEMORY;
     }
-    *kept = bytes;
+    *kept = read;
+    const unsigned char *bytes = read;
     KOKSMA__FAIL_IF(!size, KOKSMA_MALFORMED, "%s: empty", path);
     out->hash = hashed ? how->times * koksma__hash(bytes, size) : 0;
+    KOKSMA__TRY(how->is_packed ? unpack(&bytes, &size, out) : KOKSMA_OK);
     return how->read(bytes, size, out);
 }
 
 koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out)
 {
-    return read_meshes(path, by, true, out);
+    return read_meshes(path, by, true, -1, out);
 }
 
 /* ---- One mesh ------------------------------------------------------------------------------- */
@@ -144,8 +178,13 @@ static koksma_status join(const koksma__mesh_file *f, koksma__mesh *out)
 
 koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__mesh *out)
 {
+    return koksma__mesh_read_part(path, by, -1, out);
+}
+
+koksma_status koksma__mesh_read_part(const char *path, koksma__named by, long part, koksma__mesh *out)
+{
     koksma__mesh_file f;
-    koksma_status status = read_meshes(path, by, false, &f);
+    koksma_status status = read_meshes(path, by, false, part, &f);
     if (!status) {
         const koksma__file_placement *first = f.placements.items;
         if (f.placements.n == 1 && !memcmp(first->matrix, identity, sizeof identity)) {

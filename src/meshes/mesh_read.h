@@ -5,7 +5,7 @@
 
 #include "meshes/mesh_file.h"
 
-/* Whether a file's name has the ending of a mesh file (.obj .ply .off .gltf .glb). */
+/* Whether a file's name has the ending of a mesh file (.obj .ply .ply.gz .off .gltf .glb .serialized). */
 bool koksma__is_mesh_file(const char *path);
 
 /* Reads a mesh file and the files that it names. The caller calls koksma__mesh_file_fini, also after an error.
@@ -15,5 +15,8 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma_
 /* Reads all triangles of a mesh file as one checked mesh. out must be zeroed but for its name. Errors: MISSING,
    MALFORMED, MEMORY. */
 koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__mesh *out);
+
+/* The same for one mesh of a .serialized file, counted from 0; other files are read whole. */
+koksma_status koksma__mesh_read_part(const char *path, koksma__named by, long part, koksma__mesh *out);
 
 #endif

@@ -46,15 +46,21 @@ static bool is_dark(const double rgb[3])
 
 static bool of_meshes(const koksma_scene *scene, asked *a)
 {
+    size_t n = 0, first = 0;
     for (size_t i = 0; i < scene->n_meshes; i++) {
-        const koksma__mesh *m = &scene->meshes[i];
-        if (m->n_degenerate && here(a)) {
-            snprintf(a->text, a->size, "mesh %zu%s%s: %zu of %zu triangles have no area", i, *m->name ? " " : "",
-                     m->name, m->n_degenerate, m->n_triangles);
-            return true;
-        }
+        first = scene->meshes[i].n_degenerate && !n ? i : first;
+        n += scene->meshes[i].n_degenerate > 0;
     }
-    return false;
+    if (!n || !here(a)) {
+        return false;
+    }
+    const koksma__mesh *m = &scene->meshes[first];
+    const int used = snprintf(a->text, a->size, "mesh %zu%s%s: %zu of %zu triangles have no area", first,
+                              *m->name ? " " : "", m->name, m->n_degenerate, m->n_triangles);
+    if (n > 1 && used > 0 && (size_t)used < a->size) {
+        snprintf(a->text + used, a->size - (size_t)used, " (and some of %zu more meshes)", n - 1);
+    }
+    return true;
 }
 
 static bool of_placements(const koksma_scene *scene, asked *a)

@@ -22,6 +22,7 @@
 #include "core/vector.h"
 #include "image/formats.h"
 #include "image/registry.h"
+#include "meshes/inflate.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 
@@ -117,6 +118,27 @@ static bool is_below(const char *scene, const char *full)
     return below;
 }
 
+/* Reads a text, which gzip has packed if its name ends in .gz. */
+static koksma_status read_text(const char *path, unsigned char **bytes, size_t *size)
+{
+    const char *dot = strrchr(path, '.');
+    if (!dot || strcmp(dot, ".gz") != 0) {
+        return koksma__read_file(path, KOKSMA__FILE_SCENE, KOKSMA__BY_FILE, koksma__check_text, bytes, size);
+    }
+    unsigned char *packed = NULL;
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_SCENE, KOKSMA__BY_FILE, NULL, &packed, size));
+    koksma_status status =
+        koksma__inflate_all(packed, *size, (size_t)koksma__file_most(KOKSMA__FILE_SCENE), bytes, size);
+    free(packed);
+    status = status ? status : koksma__check_text(*bytes, *size);
+    if (status) {
+        free(*bytes);
+        *bytes = NULL;
+        return koksma__fail_in(status, path);
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size)
 {
@@ -129,8 +151,7 @@ koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, 
     if (!is_below(im->path, full)) {
         return koksma__import_fail(place, "it includes '%s', which is not below the scene's own folder", path);
     }
-    const koksma_status status =
-        koksma__read_file(full, KOKSMA__FILE_SCENE, KOKSMA__BY_FILE, koksma__check_text, &read, size);
+    const koksma_status status = read_text(full, &read, size);
     *bytes = (char *)read;
     if (!status) {
         im->scene->hash += koksma__hash(read, *size) * im->n_files;

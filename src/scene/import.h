@@ -20,6 +20,7 @@ typedef struct koksma__import {
     koksma_scene *scene;
     const char *path;                  /* path of the scene's own file */
     bool rows_down;                    /* texture coordinate 0 is an image's upper edge */
+    bool smooths;                      /* meshes of files without normals get smooth ones */
     size_t n_files;                    /* number of texts that were read */
     char folders[8][KOKSMA__MAX_PATH]; /* where files are sought that are not beside the scene */
     size_t n_folders;
@@ -48,6 +49,7 @@ typedef struct koksma__import_material {
 typedef struct koksma__import_surface {
     int material;       /* -1: no surface, light passes through */
     bool emits, turned; /* turned: fronts and backs are swapped */
+    bool hidden;        /* a light that no ray meets */
     double radiance[3];
 } koksma__import_surface;
 

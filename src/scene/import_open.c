@@ -13,8 +13,8 @@
 #include "scene/mitsuba.h"
 #include "scene/pbrt.h"
 
-/* Raised with every change of what the readers make of a text, so that rows of studies made before are another scene's. */
-enum { READERS = 1 };
+/* Part of a scene's hash, by which stored studies find it; raised where the same files give another scene. */
+enum { READER_REVISION = 1 };
 
 static bool is_pbrt(const char *path)
 {
@@ -40,7 +40,7 @@ static koksma_status open_text(const char *path, const char *text, size_t size, 
     snprintf(scene->title, sizeof scene->title, "%s", slash ? slash + 1 : path);
     scene->is_model = true;
     scene->clamp = INFINITY;
-    scene->hash = koksma__hash(text, size) + READERS;
+    scene->hash = koksma__hash(text, size) + READER_REVISION;
     const koksma_status status = (is_pbrt(path) ? koksma__pbrt_read : koksma__mitsuba_read)(&im, text, size);
     koksma__import_shapes_fini(&im);
     if (!status) {

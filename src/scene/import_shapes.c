@@ -28,6 +28,7 @@ enum { SIDES = 64, RINGS = 32 };
 /* A mesh that was made before, identified by its file's path or by its basic shape. */
 struct koksma__known_mesh {
     char *path; /* path of the mesh's file; NULL: made from a basic shape */
+    long part;  /* the number of the mesh in its file, or -1 */
     koksma__form form;
     bool with_normals;
     int mesh;
@@ -67,12 +68,13 @@ koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, 
 }
 
 /* Appends a mesh to the list of those made; copies the path, which may be NULL. */
-static koksma_status remember(koksma__import *im, const char *path, koksma__form form, bool with_normals, int mesh)
+static koksma_status remember(koksma__import *im, const struct koksma__known_mesh *made)
 {
     struct koksma__known_mesh *known = koksma__add_one(&im->known, &im->n_known, sizeof *known);
     KOKSMA__TRY(known ? KOKSMA_OK : KOKSMA_MEMORY);
-    *known = (struct koksma__known_mesh){path ? strdup(path) : NULL, form, with_normals, mesh};
-    KOKSMA__REQUIRE_MEMORY(known->path || !path, strlen(path) + 1);
+    *known = *made;
+    known->path = made->path ? strdup(made->path) : NULL;
+    KOKSMA__REQUIRE_MEMORY(known->path || !made->path, strlen(made->path) + 1);
     return KOKSMA_OK;
 }
 
@@ -84,7 +86,22 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
-koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name,
+/* Reads the mesh and changes what the other renderer takes differently: rows of images, and normals. */
+static koksma_status read_mesh(const koksma__import *im, const struct koksma__known_mesh *which, koksma__mesh *mesh)
+{
+    KOKSMA__TRY(koksma__mesh_read_part(which->path, KOKSMA__BY_FILE, which->part, mesh));
+    const char *dot = strrchr(which->path, '.');
+    if (im->rows_down && dot && strcmp(dot, ".obj") != 0) {
+        turn_rows(mesh);
+    }
+    if (!which->with_normals) {
+        free(mesh->normals);
+        mesh->normals = NULL;
+    }
+    return im->smooths && which->with_normals && !mesh->normals ? koksma__mesh_smooth_by_angles(mesh) : KOKSMA_OK;
+}
+
+koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
                                        bool with_normals, int *out)
 {
     char full[KOKSMA__MAX_PATH];
@@ -95,26 +112,21 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
         return koksma__import_unknown(im, place, "%s is no file of a mesh that is read: it is left out", name);
     }
     for (size_t i = 0; i < im->n_known; i++) {
-        if (im->known[i].path && !strcmp(im->known[i].path, full) && im->known[i].with_normals == with_normals) {
+        if (im->known[i].path && !strcmp(im->known[i].path, full) && im->known[i].part == part &&
+            im->known[i].with_normals == with_normals) {
             *out = im->known[i].mesh;
             return KOKSMA_OK;
         }
     }
-    const koksma_status status = koksma__mesh_read(full, KOKSMA__BY_FILE, &mesh);
+    struct koksma__known_mesh made = {full, part, KOKSMA__FORM_MESH, with_normals, -1};
+    const koksma_status status = read_mesh(im, &made, &mesh);
     if (status) {
         koksma__mesh_fini(&mesh);
         return koksma__import_fail_at(place, status);
     }
-    const char *dot = strrchr(full, '.');
-    if (im->rows_down && dot && strcmp(dot, ".obj") != 0) {
-        turn_rows(&mesh);
-    }
-    if (!with_normals) {
-        free(mesh.normals);
-        mesh.normals = NULL;
-    }
-    KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, out));
-    return remember(im, full, KOKSMA__FORM_MESH, with_normals, *out);
+    KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, &made.mesh));
+    *out = made.mesh;
+    return remember(im, &made);
 }
 
 /* Copies a mesh and turns the copy inside out: swaps two corners of each triangle and inverts the normals. */
@@ -229,8 +241,13 @@ static koksma_status find_form(koksma__import *im, koksma__text_place place, kok
     if (im->rows_down) {
         turn_rows(&mesh);
     }
+    for (size_t i = 0; im->rows_down && form == KOKSMA__FORM_DISK && i < mesh.n_vertices; i++) {
+        float *uv = mesh.uvs + 2 * i, angle = uv[0]; /* Mitsuba's are the radius and the angle */
+        uv[0] = uv[1];
+        uv[1] = 1 - angle;
+    }
     KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, out));
-    return remember(im, NULL, form, true, *out);
+    return remember(im, &(struct koksma__known_mesh){NULL, -1, form, true, *out});
 }
 
 /* ---- Placing shapes ---------------------------------------------------------------------------------------- */
@@ -284,6 +301,8 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
         }
     }
     koksma__import_radiance(im, surface.radiance);
+    KOKSMA__TRY(surface.hidden ? koksma__import_unknown(im, item->place, "an invisible light of triangles is visible")
+                               : KOKSMA_OK);
     return surface.emits ? koksma__import_fail_at(item->place, koksma__scene_add_glow(scene, p, surface.radiance))
                          : KOKSMA_OK;
 }
@@ -373,7 +392,7 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
         koksma__light light = {.kind = sphere ? &koksma__light_sphere
                                        : disk ? &koksma__light_disk
                                               : &koksma__light_rectangle,
-                               .visible = true};
+                               .visible = !item->surface.hidden};
         memcpy(light.centre, shape.centre, sizeof light.centre);
         memcpy(light.axis_u, shape.axis_u, sizeof light.axis_u);
         memcpy(light.axis_v, shape.axis_v, sizeof light.axis_v);
@@ -384,6 +403,9 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
         const double *l = light.radiance, area = disk ? M_PI * length[0] * length[0] : 4 * length[0] * length[1];
         light.power = (0.2126 * l[0] + 0.7152 * l[1] + 0.0722 * l[2]) * area / M_PI;
         KOKSMA__TRY(koksma__import_light(im, item->place, &light));
+        if (item->surface.hidden) {
+            return KOKSMA_OK;
+        }
         shape.light = (int)im->scene->n_lights - 1;
         shape.material = -1;
     }

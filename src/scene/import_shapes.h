@@ -5,10 +5,10 @@
 
 #include "scene/import.h"
 
-/* Add a mesh: the first takes over the memory of *mesh, the second reads a file, each file once. *out is -1 if
-   the mesh is left out with a warning. */
+/* Add a mesh: the first takes over the memory of *mesh, the second reads a file, or the mesh of this number in a
+   .serialized file (-1: all its meshes), each once. *out is -1 if the mesh is left out with a warning. */
 koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out);
-koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name,
+koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
                                        bool with_normals, int *out);
 
 /* Adds a shape to the scene; `outer`, which may be NULL, is a further transformation after the shape's own

@@ -2,7 +2,7 @@
 /*
  * Reads scenes of Mitsuba 3 (Jakob et al. 2022), and of earlier versions that differ only in names. xml.c parses
  * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
- * shape first refers to it. Media, volumes, motion and .serialized meshes are not read; integrators and samplers
+ * shape first refers to it. Media, volumes and motion are not read; integrators and samplers
  * are ignored, because the program's own options choose them.
  * Long because one file knows Mitsuba's names.
  */
@@ -325,6 +325,8 @@ static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5,
                                   {"roughdielectric", KOKSMA__GLASS, "specular_transmittance", 1, 0.1, NULL},
                                   {"plastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0, NULL},
                                   {"roughplastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0.1, NULL},
+                                  {"pplastic", KOKSMA__COATED, "diffuse_reflectance", 0.5, 0.1, "unpolarised"},
+                                  {"polarizer", -1, "", 0, 0, "nothing"},
                                   {"phong", KOKSMA__MATTE, "diffuse_reflectance", 0.5, 0, "its diffuse part"},
                                   {"thindielectric", -1, "", 0, 0, "nothing"},
                                   {"mask", -1, "", 0, 0, "nothing"},
@@ -512,6 +514,7 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
                  {"cube", KOKSMA__FORM_CUBE},
                  {"cylinder", KOKSMA__FORM_CYLINDER}};
     const char *type = type_of(n);
+    const bool numbered = !strcmp(type, "serialized");
     memcpy(m, koksma__import_identity, sizeof koksma__import_identity);
     item->form = KOKSMA__FORM_MESH;
     item->mesh = -1;
@@ -525,8 +528,12 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
         m[3] = centre[0], m[7] = centre[1], m[11] = centre[2];
     } else if (item->form == KOKSMA__FORM_CYLINDER) {
         cylinder(r, n, m);
-    } else if (item->form == KOKSMA__FORM_MESH && (!strcmp(type, "obj") || !strcmp(type, "ply"))) {
-        return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""),
+    } else if (item->form == KOKSMA__FORM_MESH && (!strcmp(type, "obj") || !strcmp(type, "ply") || numbered)) {
+        const double part = numbered ? number(r, n, "shape_index", 0) : -1;
+        if (numbered && !(part >= 0 && part <= 1e9)) {
+            return koksma__import_fail(n->place, "a shape_index of %g: it is a whole number from 0 on", part);
+        }
+        return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""), (long)part,
                                         !flag(r, n, "face_normals", false), &item->mesh);
     } else if (item->form == KOKSMA__FORM_MESH) {
         return koksma__import_unknown(r->im, n->place, "shape '%s': it is left out", type);
@@ -720,7 +727,7 @@ static koksma_status read_root(reader *r)
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t size)
 {
     reader r = {.im = im};
-    im->rows_down = true;
+    im->rows_down = im->smooths = true;
     koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
     if (!status) {
         r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);

@@ -134,6 +134,12 @@ static void take_map(builder *build, const koksma__file_texture *from, koksma__i
     }
 }
 
+/* glTF's colours are sRGB, whatever their files state (glTF 2.0, section 3.9.2, and "Images", 3.8.4). */
+static koksma__image_part colours_of(const koksma__material *m)
+{
+    return m->bsdf == &koksma__bsdf_principled ? KOKSMA__IMAGE_SRGB : KOKSMA__IMAGE_COLOURS;
+}
+
 /* Reads the colour texture; without it the material's colour stays. */
 static void take_colour_map(builder *build, const koksma__file_texture *from, koksma__material *m)
 {
@@ -141,7 +147,7 @@ static void take_colour_map(builder *build, const koksma__file_texture *from, ko
         snprintf(m->lost, sizeof m->lost, "%s: the colour texture of a metal is ignored", from->name);
         return;
     }
-    take_map(build, from, KOKSMA__IMAGE_COLOURS, &m->image, &m->mapping, m->lost);
+    take_map(build, from, colours_of(m), &m->image, &m->mapping, m->lost);
     if (m->image && !build->status) {
         build->status = tint(m->image, m->albedo[0]);
         koksma__material_mean(m);
@@ -154,7 +160,7 @@ static void take_glow_map(builder *build, const koksma__file_texture *from, doub
 {
     koksma__map *map = &m->maps[KOKSMA__MAP_EMISSION];
     bool dark = true;
-    take_map(build, from, KOKSMA__IMAGE_COLOURS, &map->image, &map->mapping, m->dark);
+    take_map(build, from, colours_of(m), &map->image, &map->mapping, m->dark);
     const size_t n = map->image ? (size_t)map->image->width * (size_t)map->image->height : 0;
     for (size_t i = 0; i < n * (size_t)(map->image ? map->image->channels : 0) && dark; i++) {
         dark = !(map->image->pixels[i] > 0);

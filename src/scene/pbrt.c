@@ -67,6 +67,7 @@ typedef struct reader {
     double camera[12], fov_deg, lens_radius, focus_distance;
     bool orthographic, has_window;
     double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
+    double frame;     /* width / height of the screen window without `window`; 0: that of the image */
     int depth;
 } reader;
 
@@ -417,13 +418,14 @@ static koksma_status take_camera(reader *r, source *s)
     r->lens_radius = koksma__pbrt_number(p, "lensradius", 0);
     r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
     const koksma__pbrt_parameter *window = koksma__pbrt_find(p, "screenwindow");
-    r->has_window = r->orthographic && window && window->n == 4;
+    r->has_window = window && window->n == 4;
+    if (window && !r->has_window) {
+        return koksma__import_fail(p->place, "a screen window is four numbers: x from, x to, y from, y to");
+    }
     if (r->has_window) {
         memcpy(r->window, window->numbers, sizeof r->window);
     }
-    if ((window && !r->has_window) || koksma__pbrt_find(p, "frameaspectratio")) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, p->place, "the camera's screen window is ignored"));
-    }
+    r->frame = fmax(koksma__pbrt_number(p, "frameaspectratio", 0), 0);
     return name_space(r, "camera", r->camera);
 }
 
@@ -630,40 +632,50 @@ static koksma_status read_source(reader *r, source *s)
     }
 }
 
-/* Sets the height of an orthographic camera, and moves it to the middle of its screen window, which is -1 to 1 along
-   the shorter side of the image unless the file has another. */
-static koksma_status set_window(reader *r, double width, double height, koksma__camera *camera)
+/* Sets the screen window of a file that has none: -1 to 1 along the shorter side of the image, or of the frame. */
+static void default_window(reader *r, double aspect)
 {
-    const double *w = r->window, x = (w[0] + w[1]) / 2, y = (w[2] + w[3]) / 2;
-    camera->height = 2 * fmax(height / width, 1);
-    if (!r->has_window) {
-        return KOKSMA_OK;
-    }
-    camera->height = w[3] - w[2];
+    const double frame = r->frame > 0 ? r->frame : aspect, x = fmax(frame, 1), y = fmax(1 / frame, 1);
+    const double window[4] = {-x, x, -y, y};
+    memcpy(r->window, window, sizeof window);
+}
+
+/* Checks the shape of the screen window. It lies in the plane at distance 1 of an angle of view of 90 degrees. */
+static koksma_status check_window(reader *r, double aspect)
+{
+    const double *w = r->window, x = fabs(w[0] + w[1]), y = fabs(w[2] + w[3]), height = w[3] - w[2];
     if (!(w[1] > w[0] && w[3] > w[2])) {
         return koksma__import_fail(r->camera_place, "the screen window is empty; it is x from, x to, y from, y to");
     }
-    for (int k = 0; k < 3; k++) {
-        r->camera[4 * k + 3] += x * r->camera[4 * k] + y * r->camera[4 * k + 1];
+    if (!r->orthographic && x + y > 1e-3 * height) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, r->camera_place,
+                                           "the screen window of a perspective camera is moved to the middle"));
     }
-    return fabs((w[1] - w[0]) / camera->height - width / height) > 1e-3 * width / height
+    return fabs((w[1] - w[0]) / height - aspect) > 1e-3 * aspect
                ? koksma__import_unknown(r->im, r->camera_place,
                                         "the screen window has another shape than the image: its height is kept")
                : KOKSMA_OK;
 }
 
-/* Sets the camera; pbrt's angle of view is that of the shorter side of the image. */
+/* Sets the camera. pbrt's angle of view is that of a screen window of -1 to 1. */
 static koksma_status set_camera(reader *r)
 {
-    const double width = r->im->scene->width, height = r->im->scene->height, half = r->fov_deg * TURN / 720;
+    const double aspect = (double)r->im->scene->width / r->im->scene->height, *w = r->window;
     if (!r->has_camera) {
         return koksma__import_fail((koksma__text_place){r->im->path, 1}, "no Camera");
     }
     koksma__camera camera = {.lens_radius = r->lens_radius, .focus_distance = r->focus_distance};
+    if (!r->has_window) {
+        default_window(r, aspect);
+    }
+    KOKSMA__TRY(check_window(r, aspect));
     if (r->orthographic) {
-        KOKSMA__TRY(set_window(r, width, height, &camera));
+        camera.height = w[3] - w[2];
+        for (int k = 0; k < 3; k++) { /* moves the camera to the middle of the window */
+            r->camera[4 * k + 3] += (w[0] + w[1]) / 2 * r->camera[4 * k] + (w[2] + w[3]) / 2 * r->camera[4 * k + 1];
+        }
     } else {
-        camera.fov_rad = width < height ? 2 * atan(tan(half) * height / width) : 2 * half;
+        camera.fov_rad = 2 * atan(tan(r->fov_deg * TURN / 720) * (w[3] - w[2]) / 2);
     }
     return koksma__import_camera(r->im, r->camera_place, r->camera, 1, &camera);
 }

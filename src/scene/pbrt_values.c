@@ -13,8 +13,11 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "meshes/mesh_loop.h"
 #include "scene/import_shapes.h"
 #include "scene/spectrum.h"
+
+enum { MOST_DIVIDED = 1 << 21 }; /* triangles that a scene gets by subdivision */
 
 struct koksma__pbrt_named {
     char name[256];
@@ -390,13 +393,41 @@ static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv,
     return take_indices(p, indices, quads, mesh);
 }
 
-static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool quads, bool smooth,
+/* Divides a mesh as often as its `levels` say, as far as the scene may have triangles of this kind. */
+static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, koksma__mesh *mesh)
+{
+    koksma__mesh fine = {0};
+    const double asked = koksma__pbrt_number(p, "levels", 3);
+    const size_t left = scene->n_divided < MOST_DIVIDED ? MOST_DIVIDED - scene->n_divided : 0;
+    int levels = 0;
+    if (koksma__mesh_check(mesh)) {
+        return KOKSMA_OK; /* it is left out later, with a warning */
+    }
+    while (levels < asked && mesh->n_triangles << 2 * (levels + 1) <= left) {
+        levels++;
+    }
+    if (levels < asked) {
+        KOKSMA__TRY(
+            koksma__import_unknown(scene->im, p->place, "shape 'loopsubdiv' is divided %d times only", levels));
+    }
+    scene->n_divided += mesh->n_triangles << 2 * levels;
+    const koksma_status status = koksma__mesh_loop(mesh, levels, &fine);
+    if (status) {
+        koksma__mesh_fini(&fine);
+        return koksma__import_fail_at(p->place, status);
+    }
+    koksma__mesh_fini(mesh);
+    *mesh = fine;
+    return KOKSMA_OK;
+}
+
+static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, bool quads, bool divided,
                                int *out)
 {
     koksma__mesh mesh = {0};
     const char *uv = koksma__pbrt_find(p, "uv") ? "uv" : koksma__pbrt_find(p, "st") ? "st" : "";
     koksma_status status = fill_mesh(p, uv, quads, &mesh);
-    status = status || !smooth ? status : koksma__mesh_smooth(&mesh);
+    status = status || !divided ? status : divide(scene, p, &mesh);
     if (status) {
         koksma__mesh_fini(&mesh);
         return status;
@@ -413,16 +444,33 @@ static void shape_form(double radius, double height, double z, double m[12])
     m[11] = z;
 }
 
+/* What a constant alpha makes of a shape: nothing at 1; at 0 no ray meets it, but a light still shines. */
+static koksma_status take_shape_alpha(koksma__import *im, const koksma__pbrt_parameters *p, koksma__import_item *item,
+                                      bool *is_there)
+{
+    const koksma__pbrt_parameter *alpha = koksma__pbrt_find(p, "alpha");
+    const bool is_number = alpha && !strcmp(alpha->type, "float") && alpha->n == 1;
+    if (is_number && alpha->numbers[0] <= 0) {
+        item->surface.hidden = item->surface.emits;
+        item->surface.material = -1;
+        *is_there = item->surface.emits;
+    } else if (alpha && !(is_number && alpha->numbers[0] >= 1)) {
+        return koksma__import_unknown(im, p->place, "a shape's 'alpha' is ignored");
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
                                  koksma__import_item *item, double matrix[12], bool *is_there)
 {
     const double radius = koksma__pbrt_number(p, "radius", 1);
     koksma__import *im = scene->im;
     koksma_status status = KOKSMA_OK;
-    if (koksma__pbrt_find(p, "alpha")) {
-        KOKSMA__TRY(koksma__import_unknown(im, p->place, "a shape's 'alpha' is ignored"));
-    }
     item->mesh = -1;
+    KOKSMA__TRY(take_shape_alpha(im, p, item, is_there));
+    if (!*is_there) {
+        return KOKSMA_OK;
+    }
     if (!strcmp(type, "sphere") || !strcmp(type, "disk") || !strcmp(type, "cylinder")) {
         const double low = koksma__pbrt_number(p, "zmin", -1), high = koksma__pbrt_number(p, "zmax", 1);
         const bool cylinder = *type == 'c', disk = *type == 'd';
@@ -442,12 +490,11 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
         return status;
     }
     if (!strcmp(type, "plymesh")) {
-        status = koksma__import_mesh_file(im, p->place, koksma__pbrt_word(p, "filename", ""), true, &item->mesh);
+        status = koksma__import_mesh_file(im, p->place, koksma__pbrt_word(p, "filename", ""), -1, true, &item->mesh);
     } else if (!strcmp(type, "trianglemesh") || !strcmp(type, "bilinearmesh")) {
         status = triangles(scene, p, *type == 'b', false, &item->mesh);
     } else if (!strcmp(type, "loopsubdiv")) {
-        status = koksma__import_unknown(im, p->place, "shape 'loopsubdiv': the triangles that it divides, smooth");
-        status = status ? status : triangles(scene, p, false, true, &item->mesh);
+        status = triangles(scene, p, false, true, &item->mesh);
     } else {
         status = koksma__import_unknown(im, p->place, "shape '%s': it is left out", type);
     }

@@ -6,6 +6,7 @@
 
 #include <koksma/image.h>
 
+#include "image/registry.h"
 #include "test.h"
 
 /* ---- A file, byte by byte; numbers are little-endian ----------------------------------------------------- */
@@ -286,6 +287,26 @@ static void png_levels_have_their_curve(void **state)
     assert_near(level_of(16, 0, BARE, (const unsigned char[]){1, 0}, 2), 256 / 65535.0 / 12.92, 1e-9);
 }
 
+/* Textures of glTF are sRGB or numbers, whatever transfer function their files state (glTF 2.0: "any colorspace information
+   ... from PNG or JPEG images must be ignored"). */
+static void png_gamma_is_ignored_on_demand(void **state)
+{
+    const double s = 188 / 255.0, srgb = pow((s + 0.055) / 1.055, 2.4);
+    const struct {
+        koksma__image_part part;
+        double wanted;
+    } cases[] = {{KOKSMA__IMAGE_COLOURS, pow(s, 1.8)}, {KOKSMA__IMAGE_SRGB, srgb}, {KOKSMA__IMAGE_NUMBERS, s}};
+    file f = {.size = 0};
+    (void)state;
+    put_png(&f, 1, 8, 0, GAMA(0, 0xd9, 0x03), (const unsigned char[]){188}, 1);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        koksma_image image;
+        assert_ok(koksma__image_read_part(f.bytes, f.size, cases[i].part, &image));
+        assert_near((double)image.pixels[0], cases[i].wanted, 1e-5);
+        koksma_image_fini(&image);
+    }
+}
+
 /* A pixel's colour is read, whatever its opacity: of pixels with alpha, and where a colour is named as see-through.
  */
 static void png_transparency_is_dropped(void **state)
@@ -358,6 +379,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tiles_are_read),
         cmocka_unit_test(lossy_exr_is_read),
+        cmocka_unit_test(png_gamma_is_ignored_on_demand),
         cmocka_unit_test(png_levels_have_their_curve),
         cmocka_unit_test(png_transparency_is_dropped),
         cmocka_unit_test(pfm_heads_end_as_writers_end_them),

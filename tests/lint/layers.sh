@@ -21,6 +21,7 @@ only() {
   for file in $others; do complain "$file includes <$1; only $2 may"; done
 }
 only 'png\.h' src/image/png.c
+only 'zlib\.h' src/meshes/inflate.c
 only 'openexr\.h' src/image/exr_openexr.c
 only 'OpenEXR/' src/image/exr_rgba.c
 only 'jpeglib\.h' src/image/jpeg_turbo.c

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Meshes against the analytic shapes that they approach, closed forms, and themselves. Without Embree the
    tests are skipped. */
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,7 @@
 #include "core/random.h"
 #include "meshes.h"
 #include "meshes/mesh.h"
+#include "meshes/mesh_loop.h"
 
 enum { SIDE = 48 };
 
@@ -468,6 +470,99 @@ static void pictures_of_a_scene_share_its_tree(void **state)
     unlink("ball.obj");
 }
 
+/* The normals of a corner of a tetrahedron, as Mitsuba 3.9.1 gives them for the same mesh (its vertex_normals), and of
+   a cube's corner whose faces are cut so that one has two triangles there: its diagonal, whatever their areas. */
+static void normals_by_angles_are_those_of_mitsuba(void **state)
+{
+    static const float places[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                       {1, 0, 0}, {0, 4, 0}, {0, 0, 1}, {1, 4, 0}};
+    static const uint32_t corners[7][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
+                                           {4, 5, 7}, {4, 4, 5}, {6, 6, 6}};
+    static const double wanted[4][3] = {{-0.57735026, -0.57735026, -0.57735026},
+                                        {0.92102444, -0.27542147, -0.27542147},
+                                        {-0.27542147, 0.92102444, -0.27542147},
+                                        {-0.27542147, -0.27542147, 0.92102444}};
+    koksma__mesh mesh = {0};
+    (void)state;
+    assert_ok(koksma__mesh_init(8, 7, false, false, &mesh));
+    memcpy(mesh.vertices, places, sizeof places);
+    memcpy(mesh.indices, corners, sizeof corners);
+    assert_ok(koksma__mesh_check(&mesh));
+    assert_ok(koksma__mesh_smooth_by_angles(&mesh));
+    for (size_t i = 0; i < 12; i++) {
+        assert_float_equal((double)mesh.normals[i], wanted[i / 3][i % 3], 1e-6);
+    }
+    /* vertex 4 lies where vertex 1 does, but has its own triangles; vertex 6 has none with an area */
+    assert_float_equal((double)mesh.normals[14], -1, 0);
+    assert_true(mesh.normals[18] == 0 && mesh.normals[19] == 0 && mesh.normals[20] == 0);
+    koksma__mesh_fini(&mesh);
+    static const float corner[7][3] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 5}, {3, 3, 0}, {0, 1, 1}, {1, 0, 1}};
+    static const uint32_t faces[4][3] = {{0, 1, 4}, {0, 4, 2}, {0, 2, 3}, {0, 3, 1}};
+    assert_ok(koksma__mesh_init(7, 4, false, false, &mesh));
+    memcpy(mesh.vertices, corner, sizeof corner);
+    memcpy(mesh.indices, faces, sizeof faces);
+    assert_ok(koksma__mesh_check(&mesh));
+    assert_ok(koksma__mesh_smooth_by_angles(&mesh));
+    for (size_t k = 0; k < 3; k++) {
+        assert_float_equal((double)mesh.normals[k], sqrt(1.0 / 3), 1e-6);
+    }
+    koksma__mesh_fini(&mesh);
+}
+
+/* Loop's surface: each of a tetrahedron's corners, with three neighbours, has the limit (1 - 3 g) v + g N, g = 1 / (3 + 3 /
+   (8 * 3/16)) = 1/5, at any level; numbers follow Euler's formula. On a plane of regular triangles the masks keep linear
+   functions, so that inner vertices stay; the corners of a square's border have 3/5 v + 1/5 (p + q), at level 0. */
+static void loops_surface_has_its_limits(void **state)
+{
+    static const float places[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    static const uint32_t corners[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    koksma__mesh mesh = {0}, fine = {0};
+    (void)state;
+    assert_ok(koksma__mesh_init(4, 4, false, false, &mesh));
+    memcpy(mesh.vertices, places, sizeof places);
+    memcpy(mesh.indices, corners, sizeof corners);
+    assert_ok(koksma__mesh_check(&mesh));
+    for (int levels = 0; levels < 5; levels++) {
+        assert_ok(koksma__mesh_loop(&mesh, levels, &fine));
+        assert_int_equal(fine.n_triangles, (size_t)4 << 2 * levels);
+        assert_int_equal(fine.n_vertices, fine.n_triangles / 2 + 2); /* V - E + F = 2, E = 3 F / 2 */
+        for (size_t i = 0; i < 12; i++) {                            /* N = -v: the corners' sum is 0 */
+            assert_float_equal((double)fine.vertices[i], ((double)places[i / 3][i % 3] * (2.0 / 5 - 1.0 / 5)), 1e-6);
+            assert_float_equal((double)fine.normals[i], ((double)places[i / 3][i % 3] / sqrt(3.0)), 1e-6);
+        }
+        koksma__mesh_fini(&fine);
+    }
+    koksma__mesh_fini(&mesh);
+    enum { N = 6 };
+    assert_ok(koksma__mesh_init(N * N, 2 * (N - 1) * (N - 1), false, false, &mesh));
+    uint32_t *to = mesh.indices;
+    for (uint32_t i = 0; i < N * N; i++) {
+        const uint32_t x = i % N, y = i / N, quad[6] = {i, i + 1, i + N + 1, i, i + N + 1, i + N};
+        mesh.vertices[3 * i] = (float)x;
+        mesh.vertices[3 * i + 1] = (float)y;
+        mesh.vertices[3 * i + 2] = (float)(x + 2 * y);
+        if (x < N - 1 && y < N - 1) {
+            memcpy(to, quad, sizeof quad);
+            to += 6;
+        }
+    }
+    assert_ok(koksma__mesh_check(&mesh));
+    for (int levels = 0; levels < 3; levels++) {
+        assert_ok(koksma__mesh_loop(&mesh, levels, &fine));
+        for (size_t i = 0; i < N * N; i++) {
+            const size_t x = i % N, y = i / N;
+            const bool far = x >= 2 && y >= 2 && x < N - 2 && y < N - 2; /* of the border's own rule */
+            assert_float_equal((double)fine.vertices[3 * i + 2],
+                               ((double)fine.vertices[3 * i] + 2 * (double)fine.vertices[3 * i + 1]), 1e-5);
+            assert_true(!far || fabs((double)fine.vertices[3 * i] - (double)x) < 1e-6);
+        }
+        assert_true(levels ||
+                    fabs((double)fine.vertices[0] - 0.2) < 1e-6); /* corner (0, 0): 1/5 of (1, 0) and (0, 1) */
+        koksma__mesh_fini(&fine);
+    }
+    koksma__mesh_fini(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -475,6 +570,8 @@ int main(void)
         cmocka_unit_test(an_instance_is_its_mesh_elsewhere),
         cmocka_unit_test(a_fine_ball_is_a_sphere),
         cmocka_unit_test(normals_are_smooth_in_all_sizes),
+        cmocka_unit_test(normals_by_angles_are_those_of_mitsuba),
+        cmocka_unit_test(loops_surface_has_its_limits),
         cmocka_unit_test(convex_bodies_do_not_shade_themselves),
         cmocka_unit_test(light_on_meshes_is_its_form_factor),
         cmocka_unit_test(motion_covers_its_share_of_time),

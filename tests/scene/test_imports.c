@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 
 #include "rendering.h"
+#include "scene/import.h"
+#include "scene/spectrum.h"
 
 static char folder[64];
 
@@ -298,6 +300,91 @@ static void a_luminous_room_is_a_geometric_series(void **state)
     }
 }
 
+/* ---- Cameras' windows, invisible lights, spectra ------------------------------------------------------------------ */
+
+/* The vertical angle is that of the screen window's height at the distance where pbrt's fov spans -1 to 1 (Pharr, Jakob
+   and Humphreys 2023, section 5.2.2): with fov 90, 2 atan(half the height). */
+static void the_screen_window_sets_the_angle(void **state)
+{
+    static const struct {
+        const char *camera;
+        double half;
+    } cases[] = {{"\"float fov\" 90", 1},
+                 {"\"float fov\" 90 \"float screenwindow\" [-1 1 -0.75 0.75]", 0.75},
+                 {"\"float fov\" 60 \"float screenwindow\" [-2 2 -1.5 1.5]", 0.86602540378443865},
+                 {"\"float fov\" 90 \"float frameaspectratio\" 1.3333333", 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "Camera \"perspective\" %s Film \"rgb\" " SIZE " WorldBegin LightSource \"point\" Shape \"sphere\"",
+                 cases[i].camera);
+        koksma_scene *scene = opened("w.pbrt", text);
+        assert_int_equal(scene->n_unknown, 0);
+        assert_near(scene->camera.fov_rad, 2 * atan(cases[i].half), 1e-6);
+        koksma_scene_close(scene);
+    }
+}
+
+/* A light whose shape has alpha 0 shines, and no ray meets it; a shape with alpha 0 is not there. Below the centre of a disk
+   of radius r and radiance L at distance d the irradiance is pi L r^2 / (r^2 + d^2). */
+static void alpha_zero_hides_a_shape_but_not_its_light(void **state)
+{
+    static const char *const text =
+        "LookAt 0 0 1  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 2 Film \"rgb\" " SIZE " WorldBegin\n"
+        "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5] Shape \"disk\" \"float radius\" 5\n"
+        "AttributeBegin Translate 0 0 0.5 Shape \"disk\" \"float alpha\" 0\n"
+        "Rotate 180 1 0 0 AreaLightSource \"diffuse\" \"rgb L\" [3 3 3]\n"
+        "Shape \"disk\" \"float alpha\" [0] \"float radius\" 0.5 AttributeEnd\n";
+    koksma_scene *scene = opened("a.pbrt", text);
+    double error;
+    (void)state;
+    assert_int_equal(scene->n_unknown, 0);
+    koksma_render_options options = options_of(scene, "random", "direct", 256, 40);
+    const double mean = mean_of(scene, &options, &error);
+    assert_mean(mean, error + 1e-3, 0.5 * 3 * 0.25 / 0.5);
+    koksma_scene_close(scene);
+}
+
+static void spectrum_of(const double *pairs, size_t n, bool emits, double rgb[3])
+{
+    koksma__sampled_spectrum s = {0};
+    for (size_t i = 0; i < n; i++) {
+        assert_true(koksma__sampled_spectrum_add(&s, pairs[2 * i], pairs[2 * i + 1]));
+    }
+    (emits ? koksma__sampled_spectrum_emission : koksma__sampled_spectrum_reflectance)(&s, rgb);
+}
+
+/* Colours as Mitsuba 3.9.1 gives them (scalar_rgb): the light and the walls of the Cornell box, whose numbers are those of
+   its web page, and colours of narrow bands. The fit of the matching functions is good to about 1 %. */
+static void spectra_have_their_colours(void **state)
+{
+    static const struct {
+        bool emits;
+        size_t n;
+        double pairs[8], wanted[3];
+    } cases[] = {{true, 4, {400, 0, 500, 8, 600, 15.6, 700, 18.4}, {20.711, 10.855, 2.771}},
+                 {true, 4, {400, 0, 500, 0.3, 600, 0.8, 700, 1.1}, {1.127, 0.488, 0.088}},
+                 {false, 4, {400, 0, 500, 0.3, 600, 0.8, 700, 1.1}, {0.971, 0.51, 0.109}},
+                 {false, 2, {400, 0.78, 700, 0.78}, {0.776, 0.78, 0.776}}};
+    double rgb[3];
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double largest = fmax(cases[i].wanted[0], fmax(cases[i].wanted[1], cases[i].wanted[2]));
+        spectrum_of(cases[i].pairs, cases[i].n, cases[i].emits, rgb);
+        for (int k = 0; k < 3; k++) {
+            assert_near(rgb[k], cases[i].wanted[k], 0.012 * largest);
+        }
+    }
+    static const double white[] = {360, 1, 830, 1};
+    for (int k = 0; k < 3; k++) {
+        spectrum_of(white, 2, false, rgb);
+        assert_near(rgb[k], 1, 1e-12);
+    }
+    spectrum_of(white, 2, true, rgb);
+    assert_near(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 1, 1e-3);
+}
+
 /* ---- What is known, and what is said of the rest ----------------------------------------------------------------- */
 
 #define PBRT "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" Film \"rgb\" " SIZE " WorldBegin\n"
@@ -335,6 +422,10 @@ static const struct {
     {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" value=\"400:1, 700:0.2\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" filename=\"a.spd\"/></bsdf>"),
      "a.xml:2: a spectrum"},
+    {"a.pbrt", PBRT "Shape \"sphere\" \"float alpha\" 1", NULL},
+    {"a.pbrt", PBRT "Shape \"sphere\" \"float alpha\" 0.5", "a.pbrt:2: a shape's 'alpha' is ignored"},
+    {"a.pbrt", "Camera \"perspective\" \"float screenwindow\" [0 2 -0.75 0.75] Film \"rgb\" " SIZE " WorldBegin",
+     "a.pbrt:1: the screen window of a perspective camera is moved"},
     {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Shape \"sphere\"", NULL},
     {"a.pbrt", PBRT "MakeNamedMedium \"fog\" \"string type\" \"uniformgrid\" Shape \"sphere\"",
      "a.pbrt:2: media that vary, emit or are presets"},
@@ -351,7 +442,8 @@ static const struct {
     {"a.pbrt", "\nCamera \"orthographic\" \"float screenwindow\" [0 1 0 1] Film \"rgb\" " SIZE " WorldBegin",
      "a.pbrt:2: the screen window has another shape"},
     {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"wrinkled\" Shape \"sphere\"", "a.pbrt:2: texture 'wrinkled'"},
-    {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.gz\"", "a.pbrt:2: a.ply.gz is no file of a mesh"},
+    {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.bz2\"",
+     "a.pbrt:2: a.ply.bz2 is no file of a mesh"},
     {"a.xml", BALL("<bsdf type=\"diffuse\"/>"), NULL},
     {"a.xml", BALL("<bsdf type=\"twosided\"><bsdf type=\"conductor\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"water\"/></bsdf>"), NULL},
@@ -465,6 +557,9 @@ static const struct {
     {"b.pbrt", "", "no Camera"},
     {"b.pbrt", "Camera \"spherical\"", ":1: camera 'spherical' is not read; 'perspective' and 'orthographic' are"},
     {"b.pbrt", "Camera \"orthographic\" \"float screenwindow\" [1 1 0 1]", ":1: the screen window is empty"},
+    {"b.pbrt", "Camera \"perspective\" \"float screenwindow\" [-1 1]", ":1: a screen window is four numbers"},
+    {"b.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [500 1 400 2]",
+     ":2: I: the wavelengths of a spectrum don't rise"},
     {"b.pbrt", "\nCamera \"perspective\" \"float fov\" [ 30", ":2: fov: a list without its closing bracket"},
     {"b.pbrt", "Camera \"perspective\" \"float fov\" [ x ]", ":1: 'x': a number is needed here"},
     {"b.pbrt", "Camera \"perspective", "a text without its closing quotation mark"},
@@ -569,6 +664,9 @@ int main(void)
         cmocka_unit_test(one_scene_is_one_picture),
         cmocka_unit_test(orthographic_cameras_show_their_height),
         cmocka_unit_test(spots_light_a_circle),
+        cmocka_unit_test(the_screen_window_sets_the_angle),
+        cmocka_unit_test(alpha_zero_hides_a_shape_but_not_its_light),
+        cmocka_unit_test(spectra_have_their_colours),
         cmocka_unit_test(a_luminous_room_is_a_geometric_series),
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
         cmocka_unit_test(unknown_things_are_named),
