@@ -119,7 +119,7 @@ with tempfile.TemporaryDirectory() as folder:
         """The text of a page."""
         return " ".join(pages[site / path].words) if site / path in pages else ""
     overview = subprocess.run([PROGRAM, "--help"], check=True, capture_output=True, text=True).stdout
-    for name in re.findall(r"^  ([a-z]+) ", overview, re.M):
+    for name in re.findall(r"^  ([a-z]+)  ", overview, re.M):
         text = words_of(f"commands/{name}.html").replace("\xad", "")
         for option in re.findall(r"^ +(?:-\w, )?(--[a-z-]+)", subprocess.run([PROGRAM, name, "--help"], check=True, capture_output=True, text=True).stdout, re.M):
             check(option in text, f"commands/{name}.html lacks {option}")
