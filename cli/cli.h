@@ -28,7 +28,7 @@ typedef struct cli_command {
     const char *name, *summary;
     const char *synopsis; /* operands and options after "koksma NAME", one line per usage */
     const char *details;  /* text for --help; its lines are joined into paragraphs (cli/paragraphs.h); may be NULL */
-    const char *examples; /* command lines for --help, one per line; tests run them (tests/cli/examples.py) */
+    const char *examples; /* command lines for --help, one per line; tests run them (tests/docs/readme.sh) */
     const cli_option *options;
     int (*run)(const cli_arguments *arguments); /* returns the exit code */
 } cli_command;

@@ -5,6 +5,12 @@
 
 #include "options.h"
 
+const char cli_overview_examples[] = "koksma rank ball --spp 16\n"
+                                     "koksma measure points.txt -m star,l2-star,extreme\n"
+                                     "koksma optimise star -n 64 --time-limit 60 -o o.txt\n"
+                                     "koksma datasheet points.txt --quick -o sheet.html\n"
+                                     "koksma study new plan.json\n";
+
 void cli_print_overview(FILE *stream)
 {
     const cli_command *command;
@@ -12,13 +18,16 @@ void cli_print_overview(FILE *stream)
           "usage: koksma COMMAND [OPTION]... [OPERAND]...\n\n",
           stream);
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
-        fprintf(stream, "  %-10s %s\n", command->name, command->summary);
+        fprintf(stream, "  %-11s %s\n", command->name, command->summary);
     }
     fputs("\n'koksma COMMAND --help' prints options and examples. Exit codes: 0 done; 1 it\n"
           "ran and the answer is no; 2 the command line is wrong; 3 a named file is\n"
           "missing, malformed or of a kind that is not read; 4 the system failed; 130\n"
-          "interrupted, finished results are kept.\n",
+          "interrupted, finished results are kept.\n\nexamples:\n",
           stream);
+    for (const char *at = cli_overview_examples; *at; at += strcspn(at, "\n") + 1) {
+        fprintf(stream, "  %.*s\n", (int)strcspn(at, "\n"), at);
+    }
 }
 
 static int run(const cli_arguments *arguments)

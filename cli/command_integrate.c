@@ -419,7 +419,9 @@ static int run(const cli_arguments *arguments)
                                           "patterns or files; 'koksma list integrands' names them");
     }
     if (arguments->n_operands == 1 && !cli_flag(arguments, "anova")) {
-        return cli_usage_error(arguments, "it takes patterns, -p PATTERN,.. -n N,.., or files beside the integrand");
+        return cli_usage_error(
+            arguments, "it takes an integrand and points, as in disk sobol@64 or disk -p sobol,halton -n 16,64; "
+                       "'koksma list integrands' names the integrands");
     }
     if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) ||
         !cli_whole(arguments, "trials", 32, 1, MOST_TRIALS, &j.trials) || !cli_sources_check(arguments, 1, 1, 1) ||

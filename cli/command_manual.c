@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "options.h"
 #include "paragraphs.h"
 
 /* Prints a text for roff: escapes backslashes, hyphens, and a dot or quote at the beginning of a line. A line may
@@ -70,11 +71,19 @@ static void put_details(const char *details)
     }
 }
 
+/* Command lines as they stand; with less than the usual indent 78 characters fit a terminal of 80. */
+static void put_examples(const char *examples)
+{
+    printf(".SH EXAMPLES\n.nf\n.in 2n\n");
+    put(examples);
+    printf(".in\n.fi\n");
+}
+
 static void put_exit_status(void)
 {
     printf(
         ".SH \"EXIT STATUS\"\n0 done; 1 it ran and the answer is no; 2 the command line is wrong; 3 a named file is "
-        "missing or\nmalformed; 4 the system failed; 130 interrupted, finished results are kept.\n");
+        "missing,\nmalformed or of a kind that is not read; 4 the system failed; 130 interrupted, finished results are kept.\n");
 }
 
 /* Prints the title line of a page, whose name is in capitals as in other manuals. */
@@ -99,9 +108,7 @@ static void put_page(const cli_command *command)
     }
     put_options(command);
     if (command->examples) {
-        printf(".SH EXAMPLES\n.nf\n");
-        put(command->examples);
-        printf(".fi\n");
+        put_examples(command->examples);
     }
     put_exit_status();
     printf(".SH \"SEE ALSO\"\n.BR koksma (1)\n");
@@ -111,7 +118,7 @@ static void put_overview(void)
 {
     const cli_command *command;
     put_title("");
-    printf(".SH NAME\nkoksma \\- sampling patterns for ray tracing, and the error "
+    printf(".nh\n.ad l\n.SH NAME\nkoksma \\- sampling patterns for ray tracing, and the error "
            "that they leave\n.SH SYNOPSIS\n.B koksma\n.I COMMAND\n[\\fIOPTION\\fR]... [\\fIOPERAND\\fR]...\n"
            ".SH COMMANDS\n");
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
@@ -123,6 +130,7 @@ static void put_overview(void)
     printf(".SH ENVIRONMENT\n.TP\n.B KOKSMA_KERNELS\nthe instruction set of the inner loops: ref, baseline, avx2 or "
            "avx512.\nBy default it is the fastest that the processor has. Results of the last three have equal "
            "bits.\n");
+    put_examples(cli_overview_examples);
 }
 
 static int run(const cli_arguments *arguments)

@@ -48,9 +48,11 @@ static int run(const cli_arguments *arguments)
     if (compare && strcmp(name, cli_curve_compare.name) != 0) {
         return cli_usage_error(arguments, "--compare has charts of its own: it takes no --curve %s", name);
     }
-    if (arguments->n_operands < 1 || arguments->n_operands > CLI_MAX_PANELS || !cli_text(arguments, "output", NULL)) {
-        return cli_usage_error(arguments,
-                               "it takes points (up to %d sets) and a picture, as in points.txt -o points.svg",
+    if (arguments->n_operands < 1 || !cli_text(arguments, "output", NULL)) {
+        return cli_usage_error(arguments, "it takes points and a picture, as in points.txt -o points.svg");
+    }
+    if (arguments->n_operands > CLI_MAX_PANELS) {
+        return cli_usage_error(arguments, "%d sets of points: a picture has up to %d", arguments->n_operands,
                                CLI_MAX_PANELS);
     }
     const cli_curve *curve = cli_curve_find(CLI_DRAWN, name);

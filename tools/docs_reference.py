@@ -57,7 +57,7 @@ def manual_html(roff, commands):
             leave()
         elif macro == ".br":
             end()
-        elif macro in (".TH", ".nh", ".ad"):
+        elif macro in (".TH", ".nh", ".ad", ".in"):
             continue
         elif mode == "pre":
             parts.append(_roff(rest) + "\n")

@@ -124,7 +124,7 @@ class Site:
         for kind in ("patterns", "measures", "scenes", "integrators", "filters", "adaptive", "warps", "integrands", "uses", "parameters"):
             self.lists[kind], _ = program.rows("list", kind)
         known, _ = program.try_run("--help")
-        self.commands = dict(re.findall(r"^  ([a-z]+) +(\S.*)$", known, re.M))
+        self.commands = dict(re.findall(r"^  ([a-z]+)  +(\S.*)$", known, re.M))
         self.explorer = self.put_explorer()
         table = (ROOT / "include/koksma/claims.def").read_text(encoding="utf-8")
         self.claims = {name: "".join(re.findall('"([^"]*)"', meaning)) for name, meaning in

@@ -55,16 +55,23 @@ def source_at(program, row, n, dim=""):
     return f"pattern:{spec}@{n}{dim}", None
 
 
-def slow(measure_row):
-    """Measures whose cost is n^3 are taken of few points."""
-    return measure_row["cost"].startswith("n^3")
+def fast(measure_row, n, dim=2):
+    """Whether a measure of n points takes milliseconds: its cost, as the table states it for that many dimensions, is at most
+    n^2, or below 2^24 steps."""
+    parts = re.split("[,;]", measure_row["cost"])
+    power = re.search(r"n\^([\d.]+)", next((part for part in parts if f"in {dim}D" in part), parts[0]))
+    return not power or float(power[1]) <= 2 or n ** float(power[1]) < 2**24
+
+
+def sets_of(site, row, n):
+    """How many sets the means of a page are taken over: two where more would be equal, or take seconds."""
+    return "2" if site.program.quick or "deterministic" in row["claims"].split(",") or n > 1024 else "10"
 
 
 def measured(site, row):
     """{n: {measure: row}} of a pattern in its lowest dimension (2 if it can), and the commands."""
     low, _, high = row["dim"].partition("-")
     dim = "" if int(low) <= 2 <= int(high or low) else f"@{low}"
-    trials = "2" if site.program.quick else "10"
     values, commands = {}, []
     for n in (16,) if site.program.quick else (16, 64, 256):
         source, error = source_at(site.program, row, n, dim)
@@ -74,9 +81,9 @@ def measured(site, row):
         size = int(source[len("pattern:"):].split("@")[1])
         if size in values:  # the pattern has no set nearer to this wish
             continue
-        names = [m["measure"] for m in site.lists["measures"] if m["measure"] != "t-value" or size & (size - 1) == 0]
-        names = [m for m in names if n <= 16 or not any(slow(r) and r["measure"] == m for r in site.lists["measures"])]
-        rows, command = taken(site, source, trials, names if not dim else [m for m in names if fits(site, m, int(dim[1:]))])
+        names = [m["measure"] for m in site.lists["measures"] if (m["measure"] != "t-value" or size & (size - 1) == 0) and
+                 fast(m, size, int(dim[1:] or 2))]
+        rows, command = taken(site, source, sets_of(site, row, size), names if not dim else [m for m in names if fits(site, m, int(dim[1:]))])
         commands.append(command)
         values[size] = {r["measure"]: r for r in rows}
     return {"values": values, "commands": commands, "dim": dim[1:] or "2"}
@@ -125,7 +132,7 @@ def pattern_pictures(site, row):
         return projections(site, row, 256) if error and "no 2-dimensional form" in error else f"<p class='none'>{error}</p>"
     n = int(few.split("@")[1])
     grid = ["--rooks"] if {"latin", "net2"} & set(claims) else ["--grid", f"{round(n**0.5)}"] if round(n**0.5) ** 2 == n else []
-    trials = "2" if program.quick else "10"
+    trials = sets_of(site, row, int(many.split("@")[1]))
     deterministic = "deterministic" in claims or name in FILES
     figures = [
         program.picture(f"{name}-few.svg", "plot", few, *grid, "--size", "280", alt=f"{n} points"),
@@ -194,7 +201,7 @@ def ranking(site, name, numbers):
 def measure_page(site, row, numbers):
     """The page of a measure."""
     name, program = row["measure"], site.program
-    sizes = "4,16" if program.quick else "4,16,64" if slow(row) else "16,64,256"
+    sizes = "4,16" if program.quick else "16,64,256" if fast(row, 256) else "4,16,64"
     last, trials = sizes.split(",")[-1], "2" if program.quick else "10"
     sources = [f"pattern:{p}@{last}" for p in COMPARED]
     entry = table([], [["dimensions", row["dim"]], ["cost", text.formula(row["cost"])],

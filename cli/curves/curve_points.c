@@ -74,6 +74,10 @@ static int add_points(cli_curves *c, const char *source, koksma_points *points, 
         snprintf(caption, KOKSMA_MAX_SPEC, "%.200s %s %.6f", c->witness, is_bound ? "≥" : "=", value->value);
         panel->scatter.witness = &value->witness;
         panel->caption = caption;
+        if (value->witness.kind == KOKSMA_WITNESS_NONE && !cli_flag(c->arguments, "quiet")) {
+            cli_say(c->arguments->command->name, "%s has no witness for %s: the picture shows only its value",
+                    c->witness, source);
+        }
     }
     return CLI_YES;
 }

@@ -113,7 +113,7 @@ static int linear_ticks(double low, double high, double most, double ticks[MAX_T
     const double raw = (high - low) / fmax(most, 2), power = pow(10, floor(log10(raw))), lead = raw / power;
     const double step = power * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
     for (double i = ceil(low / step); i * step <= high + 1e-12 * step && n < MAX_TICKS; i++) {
-        ticks[n++] = i * step;
+        ticks[n++] = i * step + 0.0; /* ceil gives -0, too */
     }
     return n;
 }

@@ -131,7 +131,7 @@ for option in pairing scope lights; do
   said=$(koksma render ball --$option x -o x.pfm 2>&1 | sed 's/.* one of //; s/,//g')
   grep -qxF "render ball --$option ^ $said" "$work/cases" || complain "--$option takes $said"
 done
-for command in "" $(koksma --help | sed -n 's/^  \([a-z]*\)  *[a-z].*/\1/p'); do
+for command in "" $(koksma --help | sed -n 's/^  \([a-z]*\)   *[a-z].*/\1/p'); do
   koksma manual $command >"$work/page" || complain "no page for '$command'"
   if command -v man >/dev/null; then
     man --warnings -E UTF-8 -l -Tutf8 -Z "$work/page" 2>&1 >/dev/null | grep . && complain "man can't read the page of '$command'"

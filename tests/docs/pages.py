@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "tests"))
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tools")]
 from pseudo_terminal import shown  # pylint: disable=wrong-import-position
 
 VOID = {"meta", "link", "img", "br", "hr", "input"}
@@ -65,9 +65,16 @@ def names(program, kind, column):
 if subprocess.run(["/usr/bin/python3", "-c", "import markdown"], capture_output=True, check=False).returncode:
     print("skipped: Python's module markdown is not installed (scripts/setup docs)")
     sys.exit(77)
+PROGRAM = str(Path(sys.argv[1]).resolve())
+sys.dont_write_bytecode = True
+from make_docs import fast  # pylint: disable=wrong-import-position
+# Numbers that take minutes stay out: extreme and edge of 3D points grow as n^5 and n^4, disk as n^3.
+costs = {row["measure"]: row for row in map(json.loads, subprocess.run([PROGRAM, "list", "measures", "--json"], check=True, capture_output=True, text=True).stdout.splitlines())}
+for name, n, dim, quick in (("extreme", 256, 2, True), ("extreme", 16, 3, True), ("extreme", 64, 3, False), ("edge", 4096, 2, True), ("edge", 16, 3, True),
+                            ("edge", 256, 3, False), ("disk", 64, 2, True), ("disk", 256, 2, False), ("l2-star", 4096, 2, True), ("star", 256, 3, True)):
+    check(fast(costs[name], n, dim) == quick, f"make_docs.py takes {name} of {n} points in {dim}D for {'slow' if quick else 'fast'}")
 with tempfile.TemporaryDirectory() as folder:
     site = Path(folder)
-    PROGRAM = str(Path(sys.argv[1]).resolve())
     bar, code = shown([ROOT / "tools/make_docs.py", PROGRAM, site, "--quick"], stdout=subprocess.DEVNULL)
     check(code == 0, f"make_docs.py ends with {code}: {bar}")
     parts = [(int(a), int(b)) for a, b in re.findall(r"make docs: (\d+) of (\d+) parts", bar)]
@@ -112,7 +119,7 @@ with tempfile.TemporaryDirectory() as folder:
         """The text of a page."""
         return " ".join(pages[site / path].words) if site / path in pages else ""
     overview = subprocess.run([PROGRAM, "--help"], check=True, capture_output=True, text=True).stdout
-    for name in re.findall(r"^  ([a-z]+) ", overview, re.M):
+    for name in re.findall(r"^  ([a-z]+)  ", overview, re.M):
         text = words_of(f"commands/{name}.html").replace("\xad", "")
         for option in re.findall(r"^ +(?:-\w, )?(--[a-z-]+)", subprocess.run([PROGRAM, name, "--help"], check=True, capture_output=True, text=True).stdout, re.M):
             check(option in text, f"commands/{name}.html lacks {option}")

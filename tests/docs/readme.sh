@@ -29,6 +29,11 @@ for command in $(koksma --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
     failed=$((failed + 1))
   }
 done
+koksma --help | sed -n '/^examples:/,$s/^  //p' >overview # the five of README, which are run above
+[ "$(wc -l <overview)" -eq 5 ] && ! grep -Fv -e "$(sed -n 's/^    \(koksma .*\)/\1/p' "$root/README.md" | sed 's/  *# .*//')" overview || {
+  echo "the examples of koksma --help are not those of README.md"
+  failed=$((failed + 1))
+}
 while read -r command; do
   case $command in
     'koksma study new '*) rm -f plan.json ;;

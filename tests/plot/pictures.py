@@ -260,7 +260,7 @@ def colours_apart():
 
     with open(PALETTE, encoding="utf-8") as file:
         palette = [[int(c, 16) for c in pair] for pair in re.findall(r"^COLOUR\((0x\w+), (0x\w+)", file.read(), re.M)]
-    check(len(palette) >= 7, "the palette has", len(palette), "colours")
+    check(len(palette) >= 8, "the palette has", len(palette), "colours")
     for theme, vision in itertools.product((0, 1), machado):
         for a, b in itertools.combinations([pair[theme] for pair in palette], 2):
             distance = sum((u - v)**2 for u, v in zip(lab(a, vision), lab(b, vision)))**0.5

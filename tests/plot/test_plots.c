@@ -8,7 +8,7 @@
 
 #include "test.h"
 
-enum { COLOURS = 7 };
+enum { COLOURS = 8 };
 
 static double xs[] = {0.5, 0.25, 0.75, 0.125};
 
@@ -127,10 +127,10 @@ static void last_style(const char *svg, char *out, size_t size)
     out[n] = 0;
 }
 
-/* Each of 28 curves has its own colour or its own dashes. */
-static void twenty_eight_curves_differ(void **state)
+/* Each of 32 curves has its own colour or its own dashes. */
+static void thirty_two_curves_differ(void **state)
 {
-    enum { CURVES = 28 };
+    enum { CURVES = 32 };
     char styles[CURVES][256];
     (void)state;
     for (size_t c = 0; c < CURVES; c++) {
@@ -176,6 +176,9 @@ static void patterns_have_colours(void **state)
         }
     }
     assert_ok(koksma_plot_colours(names, n, all));
+    const char *const own[] = {"random", "file:my_{n}_{seed}.npy", "exec:./mine"}; /* one's own beside the usual */
+    assert_ok(koksma_plot_colours(own, 3, all));
+    assert_true(all[0] % COLOURS != all[1] % COLOURS && all[1] % COLOURS == all[2] % COLOURS);
     const char *const specs[] = {"sobol", "sobol:scramble=owen", "points.txt", "sobol@16", "", "other.txt"};
     assert_ok(koksma_plot_colours(specs, 6, all));
     assert_true(all[0] == all[1] % COLOURS && all[0] == all[3] % COLOURS);
@@ -257,7 +260,7 @@ int main(void)
         cmocka_unit_test(points_of_the_unit_square),
         cmocka_unit_test(splits_are_marked),
         cmocka_unit_test(charts_without_labels),
-        cmocka_unit_test(twenty_eight_curves_differ),
+        cmocka_unit_test(thirty_two_curves_differ),
         cmocka_unit_test(isolated_points_are_marked),
         cmocka_unit_test(patterns_have_colours),
         cmocka_unit_test(the_palette_names_patterns),

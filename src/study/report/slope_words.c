@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Writes the sentence on the slopes of one measure or scene. It names the pattern whose values fall fastest. If
- * other patterns are tied with it (the interval of the difference of two slopes contains 0), it names those of the
- * tied patterns whose slopes have the narrowest intervals, and how many trials would separate two of them. The
+ * other patterns may be that one, because none surely falls faster than they (the interval of the difference of two
+ * slopes contains 0), it names those whose slopes have the narrowest intervals, and how many trials would separate
+ * two of them. A pattern with a wide interval thus hides no order among patterns with narrow ones. The
  * sentence also gives the number of patterns that fall faster than random points (or N^-1/2), the number that follow
  * no power law, and the patterns with means of 0. For measures of quality or distance no slope is called the best.
  */
@@ -19,7 +20,7 @@ enum { NAMED = 4, NAMED_ZEROS = 12 };
 /* The result for all patterns that have a slope. `counted`, `tied`, `faster` and `off_line` are numbers of
    patterns. */
 typedef struct standing {
-    size_t counted, best, tied, faster, off_line; /* tied: the best pattern and those tied with it */
+    size_t counted, best, tied, faster, off_line; /* tied: the patterns that may fall fastest */
     size_t random;                                /* index of a pattern of random points; n: none */
 } standing;
 
@@ -33,6 +34,18 @@ static double half(const koksma__estimate *e)
 static bool are_tied(const koksma__estimate *a, const koksma__estimate *b)
 {
     return !koksma__compare(a->value, b->value) || !(fabs(a->value - b->value) > hypot(half(a), half(b)));
+}
+
+/* Whether pattern i may be the one that falls fastest: it has a slope, and none surely falls faster. */
+static bool may_be_fastest(const koksma__slopes *of, size_t i)
+{
+    const koksma__estimate *e = &of->trends[i].slope;
+    bool may = !isnan(e->value);
+    for (size_t j = 0; may && j < of->n; j++) {
+        const koksma__estimate *other = &of->trends[j].slope;
+        may = isnan(other->value) || other->value >= e->value || are_tied(e, other);
+    }
+    return may;
 }
 
 /* Whether a pattern consists of independent points without strata. */
@@ -59,7 +72,7 @@ static standing stand(const koksma__slopes *of)
     const koksma__estimate *random = s.random < of->n ? &of->trends[s.random].slope : &half_power;
     for (size_t i = 0; i < of->n; i++) {
         const koksma__estimate *e = &of->trends[i].slope;
-        s.tied += !isnan(e->value) && are_tied(e, &of->trends[s.best].slope);
+        s.tied += may_be_fastest(of, i);
         s.faster += e->value < random->value && !are_tied(e, random);
     }
     return s;
@@ -81,15 +94,14 @@ static bool is_known_better(const koksma__slopes *of, size_t i, size_t j)
     return x < y || (isnan(y) && !isnan(x)) || (!(y < x) && isnan(x) == isnan(y) && i < j);
 }
 
-/* The next pattern to name after pattern `after` among those tied with the best. after = n: the first; returns n if
-   there is none. */
-static size_t next_tied(const koksma__slopes *of, const standing *s, size_t after)
+/* The next pattern to name after pattern `after` among those that may fall fastest. after = n: the first; returns n
+   if there is none. */
+static size_t next_tied(const koksma__slopes *of, size_t after)
 {
     size_t next = of->n;
     for (size_t i = 0; i < of->n; i++) {
-        const koksma__estimate *e = &of->trends[i].slope;
-        if (!isnan(e->value) && are_tied(e, &of->trends[s->best].slope) &&
-            (after == of->n || is_known_better(of, after, i)) && (next == of->n || is_known_better(of, i, next))) {
+        if (may_be_fastest(of, i) && (after == of->n || is_known_better(of, after, i)) &&
+            (next == of->n || is_known_better(of, i, next))) {
             next = i;
         }
     }
@@ -113,12 +125,12 @@ static void say_trials(koksma__document *d, const koksma__slopes *of, size_t a, 
     }
 }
 
-/* Writes the patterns that are tied with the fastest, narrow intervals first; names at most NAMED of them. */
+/* Writes the patterns that may fall fastest, narrow intervals first; names at most NAMED of them. */
 static void say_tied(koksma__document *d, const koksma__slopes *of, const standing *s)
 {
     size_t named = 0, at = of->n, first = of->n, second = of->n;
     koksma__doc_say(d, "undecided between %zu of %zu patterns: ", s->tied, s->counted);
-    while (named < NAMED && named < s->tied && (at = next_tied(of, s, at)) < of->n) {
+    while (named < NAMED && named < s->tied && (at = next_tied(of, at)) < of->n) {
         koksma__doc_say(d, "%s%s%s as ", named ? ", " : "", of->patterns[at], named ? "" : " falls");
         say_power(d, &of->trends[at].slope);
         first = named == 0 ? at : first;

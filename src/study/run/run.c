@@ -147,8 +147,8 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
         status = status == KOKSMA_OK || koksma__run_control_time_is_up(&control) ? recorded : status;
     }
     if (all && !status && failures.n) {
-        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs can't be done, and all others are: %s", failures.n,
-                              summary->jobs, failures.text);
+        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs failed; the others completed. First: %s",
+                              failures.n, summary->jobs, failures.text);
     }
     return status;
 }

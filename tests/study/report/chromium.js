@@ -13,6 +13,7 @@ if (!chromium || !playwright) {
 }
 const [report, screenshots] = process.argv.slice(2);
 const problems = [];
+let longTables = 0;
 const check = (good, text) => { if (!good) problems.push(text); };
 
 // What report.json has of each kind.
@@ -198,6 +199,16 @@ async function byKeyboard(page) {
       check(lines[0].startsWith(`"${table.columns[0].name}"`) && lines.slice(1, -1).every(l => cells(l) === cells(lines[0])), `${name}: ${lines.slice(0, 2)}`);
     });
     check(facts.csv.length === expected.tables, `${facts.csv.length} CSV files`);
+    // A number never goes on in the next line; a table of many rows scrolls below its head, which stays.
+    const split = await page.evaluate(() => [...document.querySelectorAll("wbr")].filter(w => /\.$/.test(w.previousSibling?.data) && /^\d/.test(w.nextSibling?.data)).map(w => w.parentElement.textContent));
+    check(split.length === 0, `${split.length} numbers may break at the point, first ${split[0]}`);
+    const heads = await page.evaluate(() => [...document.querySelectorAll("#evidence .scroll")].filter(e => e.checkVisibility() && e.querySelectorAll("tbody tr").length > 40).map(e => {
+      e.scrollTop = e.scrollHeight;
+      const [box, head, last] = [e, e.querySelector("thead"), e.querySelector("tbody tr:last-child")].map(n => n.getBoundingClientRect());
+      return box.height <= innerHeight && Math.abs(head.top - box.top) < 2 && last.bottom <= box.bottom + 2 ? "" : e.getAttribute("aria-label");
+    }));
+    check(heads.every(text => !text), `long tables without a head that stays: ${heads.filter(Boolean)}`);
+    longTables += heads.length;
     (await page.evaluate(contrasts)).forEach(text => check(false, colorScheme + ": " + text));
     await byKeyboard(page);
     if (expected.comparers) {
@@ -262,6 +273,6 @@ async function byKeyboard(page) {
   check(/needs JavaScript.*report\.json/.test(await plain.locator("body").innerText()), "nothing is said without JavaScript");
   await browser.close();
   problems.forEach(p => console.log(p));
-  console.log(`${problems.length} problems`);
+  console.log(`${longTables / 2} long tables, ${problems.length} problems`);
   process.exit(problems.length ? 1 : 0);
 })();

@@ -10,7 +10,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 "$program" study new plan.json && sed -i 's/1024/64/' plan.json && "$program" study run ./plan.json -o study --trials 4 -q &&
-  echo '{"name": "wide", "title": "Wide", "discrepancies": [{"patterns": ["random", "jittered", "n-rooks", "regular", "halton", "sobol", "sobol:scramble=owen",
+  echo '{"name": "wide", "title": "Wide", "questions": [{"id": "k", "kind": "inequality", "title": "K", "discrepancies": "d"}],
+    "discrepancies": [{"id": "d", "patterns": ["random", "jittered", "n-rooks", "regular", "halton", "sobol", "sobol:scramble=owen",
     "hammersley", "hammersley:shift=1", "zaremba", "multi-jittered", "pmj02", "faure", "sz", "cascaded-sobol",
     "larcher-pillichshammer"], "measures": ["star", "min-distance"], "n": [8, 16, 32, 64, 128, 256, 512, 1024],
     "trials": 5, "skip": true}]}' > wide.json && "$program" study run ./wide.json -o wide -q &&

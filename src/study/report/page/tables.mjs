@@ -6,6 +6,7 @@ import { element } from "../../../../explorer/page/dom.mjs";
 
 const dash = "–", fewRows = 8, manyIntervals = 5, manyColumns = 8; // beyond these, intervals are below values
 const wideColumns = 6; // beyond this, the first column keeps room for names on narrow screens
+const longRows = 40; // beyond this, the rows scroll below the head
 
 // ---- Numbers and words
 
@@ -60,8 +61,8 @@ function verdictMark(cell, withNumber) {
   return element("span", { class: name, title: number }, withNumber ? `${mark} ${number}` : mark);
 }
 
-// A text that may break between the parts of a name ("sobol:" "scramble=" "owen"), not within a word.
-const nameParts = text => text.split(/(?<=[_:=,./])(?=[^\s_:=,./])/).flatMap((part, i) => i ? [element("wbr", {}), part] : [part]);
+// A text that may break between the parts of a name ("sobol:" "scramble=" "owen"), not within a word or a number.
+const nameParts = text => text.split(/(?<=[_:=,/])(?=[^\s_:=,./])|(?<=\.)(?=[^\s_:=,./\d])/).flatMap((part, i) => i ? [element("wbr", {}), part] : [part]);
 
 // The content of a cell, whose data are a text, a number, [value, low, high], or an object with more fields.
 function cellContent(cell, column) {
@@ -188,7 +189,7 @@ export function table(block) {
   show();
   const tools = moves ? element("div", { class: "tools" }, rows.length > fewRows ? element("label", {}, "rows with ", field) : null, state) : null;
   const grouped = visible.some(column => column.group);
-  const node = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `table ${block.name}` },
+  const node = element("div", { class: rows.length > longRows ? "scroll long" : "scroll", tabindex: 0, role: "region", "aria-label": `table ${block.name}` },
     element("table", { class: visible.filter(c => c.type === "interval").length > manyIntervals || visible.length > manyColumns ? "many wide" : grouped || visible.length > wideColumns ? "wide" : null }, element("thead", {}, grouped ? groupHeads(visible) : null, element("tr", {}, ...heads)), body));
   const link = element("a", { download: `${block.name}.csv`, href: `data:text/csv;charset=utf-8,${encodeURIComponent(csvOf(block))}` }, `${block.name}.csv`);
   return [tools, node, element("p", { class: "csv" }, link)].filter(Boolean);

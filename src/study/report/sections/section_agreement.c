@@ -38,7 +38,8 @@ static const char *verb(size_t n)
     return n == 1 ? "differs" : "differ";
 }
 
-/* Writes one sentence for a group of tables, if the group has means to compare. */
+/* Writes a sentence for a group of tables, if the group has means to compare, and another, as an answer that is open, for
+   those of its means whose difference nobody can explain. */
 static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
 {
     const size_t agree = counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED],
@@ -60,11 +61,14 @@ static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA
     if (explained) {
         koksma__doc_say(d, "; %zu %s for a known reason (notes)", explained, verb(explained));
     }
-    if (unexplained) {
-        koksma__doc_say(d, "; %zu %s for an unknown reason", unexplained, verb(unexplained));
-    }
     koksma__doc_say(d, ".");
     koksma__doc_paragraph_end(d);
+    if (unexplained) {
+        koksma__doc_answer_begin(d, false);
+        koksma__doc_say(d, "%zu of %zu published means of %s %s for an unknown reason: ✗ in the tables.", unexplained,
+                        agree + explained + unexplained, group == MEASURES ? "measures" : "images", verb(unexplained));
+        koksma__doc_paragraph_end(d);
+    }
 }
 
 static koksma_status write(const koksma__report_scope *scope, koksma__document *d)
