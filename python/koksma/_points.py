@@ -247,8 +247,9 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     on: a model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
     dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
 
-    density and on are for "random", "sample-elimination", "progressive-elimination" and "poisson-disk". Equal arguments
-    give equal bits, and the same as `koksma generate`.
+    density and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk",
+    "poisson-disk-maximal" and "gaussian-blue-noise". Equal arguments give equal bits, and the same as `koksma
+    generate`.
     """
     if allow_exec:
         with allowing_exec():

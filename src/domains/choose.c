@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The patterns that have a form on a domain, in the table at the end. All of them choose among candidates that are
+ * The patterns that have a form on a domain, in the table at the end. These choose among candidates that are
  * independent and have the wanted density:
  *
  *   random                 the first n candidates
  *   elimination            n of factor * n candidates by patterns/shared/elimination.c, with d_max of n points in the
  *                          plane times the root of the area; progressive order as there
- *   poisson-disk           candidates in turn, those too near to a kept one are rejected. A grid of cells, about one a
- *                          point, finds the kept ones near a candidate. After 20,000 rejections in a row it fails
+ *   poisson-disk           candidates in turn, those too near to a kept one are rejected (dart_grid.c). After 20,000
+ *                          rejections in a row it fails
  *
- * The distance of a pair is in units of the smaller of both units of distance: a candidate looks as far as its own
- * unit reaches.
+ * poisson-disk-maximal (maximal.c) and gaussian-blue-noise (gaussian.c) make points of their own. The distance of a pair
+ * is in units of the smaller of both units of distance.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -19,24 +19,13 @@
 #include "api/generate.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/torus.h"
 #include "domains/choose.h"
+#include "domains/dart_grid.h"
 #include "patterns/shared/elimination.h"
 
 enum { REJECTIONS = 20000, LOOK_EVERY = 1 << 14 };
 
-#define NONE UINT32_MAX
-
-/* What a method chooses for. */
-typedef struct choice {
-    const koksma__point_domain *domain;
-    const koksma_pattern *pattern;
-    const double *params;
-    uint64_t seed;
-    size_t n;
-    const koksma_run *run;
-    uint64_t *chosen;
-} choice;
+typedef koksma__choice choice;
 
 size_t koksma__domain_find(const double *sums, size_t count, double at)
 {
@@ -59,7 +48,7 @@ size_t koksma__domain_find(const double *sums, size_t count, double at)
 static koksma_status choose_first(const choice *c)
 {
     for (size_t i = 0; i < c->n; i++) {
-        c->chosen[i] = i;
+        c->domain->draw(c->domain->data, c->seed, i, &c->points[i]);
     }
     return KOKSMA_OK;
 }
@@ -90,7 +79,7 @@ static koksma_status eliminate(const choice *c, candidates *a, size_t count, siz
     return KOKSMA_OK;
 }
 
-/* Chooses `length` of factor * length candidates; c->chosen receives the first n of them. */
+/* Chooses `length` of factor * length candidates; c->points receives the first n of them. */
 static koksma_status choose_from(const choice *c, size_t length, size_t factor, bool progressive)
 {
     const size_t dim = (size_t)c->domain->dim, most = KOKSMA_MAX_COORDINATES / dim / factor, all = factor * length;
@@ -106,9 +95,11 @@ static koksma_status choose_from(const choice *c, size_t length, size_t factor, 
     a.old_who = a.who + all;
     a.order = (uint32_t *)(a.old_who + all);
     for (size_t i = 0; i < all; i++) {
-        a.units[i] = 1;
+        koksma__domain_point point;
+        c->domain->draw(c->domain->data, c->seed, i, &point);
+        c->domain->place(c->domain->data, &point, a.xs + i * dim);
+        a.units[i] = c->domain->unit_of(c->domain->data, point.part);
         a.who[i] = i;
-        c->domain->draw(c->domain->data, c->seed, i, a.xs + i * dim, &a.units[i]);
     }
     double d_max = koksma__elimination_radius(length, 2) * sqrt(c->domain->area);
     const double d_min = d_max * koksma__elimination_limit(length, all);
@@ -117,7 +108,9 @@ static koksma_status choose_from(const choice *c, size_t length, size_t factor, 
         d_max *= sqrt(2);
         status = eliminate(c, &a, left, left / 2, d_max, d_min);
     }
-    memcpy(c->chosen, a.who, c->n * sizeof *c->chosen);
+    for (size_t i = 0; i < c->n; i++) {
+        c->domain->draw(c->domain->data, c->seed, a.who[i], &c->points[i]);
+    }
     free(a.xs);
     return status;
 }
@@ -138,73 +131,26 @@ static koksma_status choose_progressive(const choice *c)
 
 /* ---- Darts ----------------------------------------------------------------------------------------------- */
 
-typedef struct darts {
-    const koksma__point_domain *domain;
-    bool torus;
-    double d;
-    double *xs, *units;
-    uint32_t *next, *head;
-    uint32_t side;
-} darts;
-
-/* Whether a kept point in the cells from the axis k on is too near to x. */
-static bool is_near(const darts *a, int k, size_t row, const double *x, double unit)
+static koksma_status throw_darts(const choice *c, koksma__dart_grid *grid)
 {
-    const size_t dim = (size_t)a->domain->dim;
-    if ((size_t)k == dim) {
-        for (uint32_t i = a->head[row]; i != NONE; i = a->next[i]) {
-            const double d = a->d * fmin(unit, a->units[i]);
-            double square = 0;
-            for (size_t j = 0; j < dim; j++) {
-                const double y = a->xs[i * dim + j], t = a->torus ? koksma__torus_difference(x[j], y) : y - x[j];
-                square += t * t;
-            }
-            if (square < d * d) {
-                return true;
-            }
-        }
-        return false;
-    }
-    const size_t reach = (size_t)fmin(ceil(a->d * unit * (double)a->side), (double)a->side);
-    const size_t own = koksma__cell_along(x[k], a->side);
-    size_t first = own > reach ? own - reach : 0, some = (own + reach < a->side ? own + reach + 1 : a->side) - first;
-    if (a->torus) {
-        some = 2 * reach + 1 < a->side ? 2 * reach + 1 : a->side;
-        first = some < a->side ? (own + a->side - reach) % a->side : 0;
-    }
-    for (size_t i = 0; i < some; i++) {
-        if (is_near(a, k + 1, row * a->side + (first + i) % a->side, x, unit)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static void keep(darts *a, size_t i)
-{
-    const size_t cell = koksma__cell_index(a->xs + i * (size_t)a->domain->dim, a->domain->dim, a->side);
-    a->next[i] = a->head[cell];
-    a->head[cell] = (uint32_t)i;
-}
-
-static koksma_status throw_darts(const choice *c, darts *a)
-{
-    size_t placed = 0, rejections = 0;
-    for (uint64_t dart = 0; placed < c->n; dart++) {
-        double *x = a->xs + placed * (size_t)c->domain->dim;
-        a->units[placed] = 1;
-        c->domain->draw(c->domain->data, c->seed, dart, x, &a->units[placed]);
-        if (is_near(a, 0, 0, x, a->units[placed])) {
+    const koksma__point_domain *domain = c->domain;
+    size_t rejections = 0;
+    for (uint64_t dart = 0; grid->n < c->n; dart++) {
+        double x[3];
+        koksma__domain_point *point = &c->points[grid->n];
+        domain->draw(domain->data, c->seed, dart, point);
+        domain->place(domain->data, point, x);
+        const koksma__dart_query q = {.x = x, .unit = domain->unit_of(domain->data, point->part)};
+        if (koksma__dart_grid_meets(grid, &q)) {
             KOKSMA__FAIL_IF(++rejections == REJECTIONS, KOKSMA_IMPOSSIBLE,
                             "%s: dart throwing placed %zu of %zu points at d=%g %s and jammed; n = %zu or less, or a "
                             "smaller d, would do",
-                            c->pattern->name, placed, c->n, c->params[0], c->domain->what, placed);
+                            c->pattern->name, grid->n, c->n, c->params[0], domain->what, grid->n);
         } else {
             rejections = 0;
-            keep(a, placed);
-            c->chosen[placed++] = dart;
+            koksma__dart_grid_add(grid, x, q.unit);
         }
-        if (dart % LOOK_EVERY == LOOK_EVERY - 1 && !koksma__keep_going(c->run, (double)placed / (double)c->n)) {
+        if (dart % LOOK_EVERY == LOOK_EVERY - 1 && !koksma__keep_going(c->run, (double)grid->n / (double)c->n)) {
             return koksma__fail_interrupted();
         }
     }
@@ -213,23 +159,13 @@ static koksma_status throw_darts(const choice *c, darts *a)
 
 static koksma_status choose_darts(const choice *c)
 {
-    const size_t dim = (size_t)c->domain->dim;
-    darts a = {.domain = c->domain, .d = c->params[0] * c->domain->unit, .side = 1};
-    a.torus = c->domain->torus && c->params[1] > 0;
+    const bool torus = c->domain->torus && c->params[1] > 0;
     KOKSMA__FAIL_IF(c->params[1] > 0 && !c->domain->torus, KOKSMA_ARGUMENT, "%s: torus=1: there is no torus %s",
                     c->pattern->name, c->domain->what);
-    const double most = fmin(pow((double)c->n, 1.0 / (double)dim), a.d > 0 ? 1 / a.d : 1);
-    a.side = most > 1 ? (uint32_t)most : 1;
-    const size_t square = (size_t)a.side * a.side, cells = dim == 2 ? square : square * a.side;
-    const size_t bytes = c->n * ((dim + 1) * sizeof(double) + sizeof(uint32_t)) + cells * sizeof(uint32_t);
-    a.xs = malloc(bytes);
-    KOKSMA__REQUIRE_MEMORY(a.xs, bytes);
-    a.units = a.xs + c->n * dim;
-    a.next = (uint32_t *)(a.units + c->n);
-    a.head = a.next + c->n;
-    memset(a.head, 0xff, cells * sizeof *a.head);
-    const koksma_status status = throw_darts(c, &a);
-    free(a.xs);
+    koksma__dart_grid grid;
+    koksma_status status = koksma__dart_grid_init(&grid, c->domain, torus, c->n, c->params[0] * c->domain->unit);
+    status = status ? status : throw_darts(c, &grid);
+    koksma__dart_grid_fini(&grid);
     return status;
 }
 
@@ -244,10 +180,12 @@ static const struct {
     {"sample-elimination", choose_eliminated},
     {"progressive-elimination", choose_progressive},
     {"poisson-disk", choose_darts},
+    {"poisson-disk-maximal", koksma__choose_maximal},
+    {"gaussian-blue-noise", koksma__choose_gaussian},
 };
 
 koksma_status koksma__domain_choose(const koksma__point_domain *domain, const koksma_spec *spec, uint64_t seed,
-                                    size_t n, const koksma_run *run, uint64_t *chosen)
+                                    size_t n, const koksma_run *run, koksma__domain_point *points)
 {
     const koksma_pattern *p = spec->pattern;
     p = p && p->alias_of ? koksma_pattern_find(p->alias_of) : p;
@@ -260,12 +198,13 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     }
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (!strcmp(methods[i].pattern, p->name)) {
-            const choice c = {domain, p, spec->params, seed, n, run, chosen};
+            const choice c = {domain, p, spec->params, seed, n, run, points};
             return methods[i].choose(&c);
         }
     }
     return koksma__fail(
         KOKSMA_UNSUPPORTED,
-        "%s: no form %s; random, sample-elimination, progressive-elimination and poisson-disk have one", p->name,
-        domain->what);
+        "%s: no form %s; random, sample-elimination, progressive-elimination, poisson-disk, poisson-disk-maximal and "
+        "gaussian-blue-noise have one",
+        p->name, domain->what);
 }

@@ -13,27 +13,37 @@
 #include "core/points_io.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "domains/choose.h"
+#include "domains/field.h"
+#include "domains/image_density.h"
 #include "image/formats.h"
-#include "patterns/shared/cells.h"
 
-typedef struct density {
-    size_t width, height;
-    double *sums; /* entry i: the summed luminance of pixels 0 to i */
-} density;
+typedef koksma__image_density density;
 
-static void draw(const void *data, uint64_t seed, uint64_t i, double *x, double *unit)
+static void draw(const void *data, uint64_t seed, uint64_t i, koksma__domain_point *point)
 {
     const density *m = data;
     const size_t pixels = m->width * m->height;
-    double which[2], within[2];
+    double which[2];
     koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 0, which);
-    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 1, within);
-    const size_t pixel = koksma__domain_find(m->sums, pixels, which[0] * m->sums[pixels - 1]);
-    const double value = m->sums[pixel] - (pixel ? m->sums[pixel - 1] : 0);
-    x[0] = koksma__in_cell((double)(pixel % m->width), within[0], (double)m->width);
-    x[1] = koksma__in_cell((double)(m->height - 1 - pixel / m->width), within[1], (double)m->height);
-    *unit = sqrt(m->sums[pixels - 1] / ((double)pixels * value));
+    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 1, point->at);
+    point->part = (uint32_t)koksma__domain_find(m->sums, pixels, which[0] * m->sums[pixels - 1]);
+}
+
+static void place(const void *data, const koksma__domain_point *point, double *x)
+{
+    koksma__image_place(data, point, x);
+}
+
+static double share(const void *data, size_t part)
+{
+    return koksma__image_share(data, part);
+}
+
+static double unit_of(const void *data, size_t part)
+{
+    const density *m = data;
+    const size_t pixels = m->width * m->height;
+    return sqrt(m->sums[pixels - 1] / ((double)pixels * share(data, part)));
 }
 
 static koksma_status sum_up(const koksma_image *map, density *m)
@@ -60,23 +70,28 @@ koksma_status koksma_generate_density(const koksma_spec *spec, uint64_t seed, co
     KOKSMA__TRY(koksma__points_fit(out->n, 2));
     KOKSMA__TRY(koksma_image_check_finite(map, "the density"));
     density m = {(size_t)map->width, (size_t)map->height, NULL};
-    const size_t bytes = m.width * m.height * sizeof *m.sums + out->n * sizeof(uint64_t);
+    const size_t pixels = m.width * m.height, bytes = pixels * sizeof *m.sums + out->n * sizeof(koksma__domain_point);
     m.sums = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(m.sums, bytes);
-    uint64_t *chosen = (uint64_t *)(m.sums + m.width * m.height);
+    koksma__domain_point *points = (koksma__domain_point *)(m.sums + pixels);
     const koksma__point_domain domain = {.what = "with a density",
                                          .dim = 2,
+                                         .corners = 4,
                                          .torus = true,
                                          .varies = true,
                                          .area = 1,
                                          .unit = 1,
+                                         .n_parts = pixels,
                                          .data = &m,
-                                         .draw = draw};
+                                         .draw = draw,
+                                         .place = place,
+                                         .share = share,
+                                         .unit_of = unit_of,
+                                         .open_field = koksma__density_field_open};
     koksma_status status = sum_up(map, &m);
-    status = status ? status : koksma__domain_choose(&domain, spec, seed, out->n, run, chosen);
+    status = status ? status : koksma__domain_choose(&domain, spec, seed, out->n, run, points);
     for (size_t i = 0; i < out->n && !status; i++) {
-        double unit;
-        draw(&m, seed, chosen[i], out->xs + 2 * i, &unit);
+        place(&m, &points[i], out->xs + 2 * i);
     }
     free(m.sums);
     return status;

@@ -13,7 +13,7 @@
 #include "core/points_io.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "domains/choose.h"
+#include "domains/field.h"
 #include "meshes/mesh_read.h"
 
 typedef struct surface {
@@ -52,36 +52,54 @@ static double length(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Candidate i in the model's coordinates; returns its triangle's number. */
-static size_t place(const surface *s, uint64_t seed, uint64_t i, double *x)
-{
-    double which[2], within[2];
-    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 0, which);
-    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 1, within);
-    const size_t n = s->mesh.n_triangles, t = koksma__domain_find(s->sums, n, which[0] * s->sums[n - 1]);
-    const triangle a = triangle_of(&s->mesh, t);
-    s->warp->map(within, within);
-    for (int k = 0; k < 3; k++) {
-        x[k] = a.corner[k] + within[0] * a.edge[0][k] + within[1] * a.edge[1][k];
-    }
-    return t;
-}
-
-static void draw(const void *data, uint64_t seed, uint64_t i, double *x, double *unit)
+static void draw(const void *data, uint64_t seed, uint64_t i, koksma__domain_point *point)
 {
     const surface *s = data;
-    place(s, seed, i, x);
-    *unit = 1;
+    const size_t n = s->mesh.n_triangles;
+    double which[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 0, which);
+    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, i, 1, point->at);
+    point->part = (uint32_t)koksma__domain_find(s->sums, n, which[0] * s->sums[n - 1]);
+    s->warp->map(point->at, point->at);
+}
+
+/* A point in the model's coordinates. */
+static void place_in_model(const surface *s, const koksma__domain_point *point, double *x)
+{
+    const triangle a = triangle_of(&s->mesh, point->part);
+    for (int k = 0; k < 3; k++) {
+        x[k] = a.corner[k] + point->at[0] * a.edge[0][k] + point->at[1] * a.edge[1][k];
+    }
+}
+
+static double share(const void *data, size_t part)
+{
+    const surface *s = data;
+    return s->sums[part] - (part ? s->sums[part - 1] : 0);
+}
+
+static double unit_of(const void *data, size_t part)
+{
+    (void)data;
+    (void)part;
+    return 1;
+}
+
+static void place(const void *data, const koksma__domain_point *point, double *x)
+{
+    const surface *s = data;
+    place_in_model(s, point, x);
     for (int k = 0; k < 3; k++) {
         x[k] = fmin(fmax((x[k] - s->mesh.low[k]) / s->side, 0), 1 - 0x1p-53);
     }
 }
 
-static void write_points(const surface *s, uint64_t seed, const uint64_t *chosen, koksma_points *out)
+static void write_points(const surface *s, const koksma__domain_point *points, koksma_points *out)
 {
     for (size_t i = 0; i < out->n; i++) {
         double *x = out->xs + i * (size_t)out->dim;
-        const size_t t = place(s, seed, chosen[i], x);
+        const size_t t = points[i].part;
+        place_in_model(s, &points[i], x);
         if (out->dim >= 6) {
             const triangle a = triangle_of(&s->mesh, t);
             for (int k = 0; k < 3; k++) {
@@ -97,11 +115,11 @@ static void write_points(const surface *s, uint64_t seed, const uint64_t *chosen
 static koksma_status choose(surface *s, const koksma_spec *spec, uint64_t seed, const koksma_run *run,
                             koksma_points *out)
 {
-    const size_t n = s->mesh.n_triangles, bytes = n * sizeof *s->sums + out->n * sizeof(uint64_t);
+    const size_t n = s->mesh.n_triangles, bytes = n * sizeof *s->sums + out->n * sizeof(koksma__domain_point);
     double area = 0;
     s->sums = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(s->sums, bytes);
-    uint64_t *chosen = (uint64_t *)(s->sums + n);
+    koksma__domain_point *points = (koksma__domain_point *)(s->sums + n);
     for (size_t t = 0; t < n; t++) {
         const triangle a = triangle_of(&s->mesh, t);
         s->sums[t] = area += 0.5 * length(a.normal);
@@ -111,13 +129,19 @@ static koksma_status choose(surface *s, const koksma_spec *spec, uint64_t seed, 
     }
     const koksma__point_domain domain = {.what = "on a model",
                                          .dim = 3,
+                                         .corners = 3,
                                          .area = area / s->side / s->side,
                                          .unit = 1 / s->side,
+                                         .n_parts = n,
                                          .data = s,
-                                         .draw = draw};
-    const koksma_status status = koksma__domain_choose(&domain, spec, seed, out->n, run, chosen);
+                                         .draw = draw,
+                                         .place = place,
+                                         .share = share,
+                                         .unit_of = unit_of,
+                                         .open_field = koksma__surface_field_open};
+    const koksma_status status = koksma__domain_choose(&domain, spec, seed, out->n, run, points);
     if (!status) {
-        write_points(s, seed, chosen, out);
+        write_points(s, points, out);
     }
     free(s->sums);
     return status;

@@ -22,6 +22,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/ball_cover.h"
 #include "patterns/shared/dart_cover.h"
+#include "patterns/shared/maximal_search.h"
 #include "patterns/shared/packing.h"
 
 enum { TRIES = 100, SEARCHES = 8, MANY = 100000 };
@@ -101,45 +102,15 @@ static koksma_status explain(koksma_status status, const cover *c, double n)
                               n, c->dim, KOKSMA__BALL_BYTES >> 20, feasible(c->dim));
 }
 
-/* Extends a maximal set of fewer than n points, of distance `high`, to one of n points by shrinking the distance. The
-   distance searched for is between `low`, at which there were more than n points, and `high`. Each try gives an
-   estimate of how much the distance has to shrink for one point more. */
-static koksma_status shrink_to(cover *c, double high, size_t n, const koksma_run *run)
+static koksma_status try_shrink(void *set, size_t kept, double d, size_t n, const koksma_run *run, size_t *found)
 {
-    const double guess = 0.5 / c->dim / (double)n;
-    double low = 0, step = guess; /* step: fraction by which d shrinks for one point more */
-    size_t kept = cover_n(c);
-    koksma_status status = KOKSMA_OK;
-    for (int try = 0; try < TRIES && !status; try++) {
-        const double wanted = high * (1 - fmin(step * (double)(n - kept), 0.3));
-        const double d = low > 0 ? fmax(wanted, (low + high) / 2) : wanted;
-        status = cover_shrink(c, kept, d, run);
-        if (!status) {
-            status = cover_fill(c, n + 1, run);
-        }
-        const size_t found = cover_n(c);
-        if (status || found == n) {
-            return explain(status, c, (double)n);
-        }
-        if (found > n) {
-            low = d;
-            step /= 2;
-        } else {
-            step = found > kept ? (1 - d / high) / (double)(found - kept) : 2 * step;
-            high = d;
-            kept = found;
-        }
-        if (low > 0 && high - low < 1e-12 * high) { /* `low` was found when fewer points were kept; it no longer gives
-                                                       too many */
-            low = 0;
-            step = guess;
-        }
+    cover *c = set;
+    koksma_status status = cover_shrink(c, kept, d, run);
+    if (!status) {
+        status = cover_fill(c, n, run);
     }
-    return status
-               ? status
-               : koksma__fail(KOKSMA_IMPOSSIBLE,
-                              "poisson-disk-maximal: the search for %zu points ended with %zu; another seed would do",
-                              n, kept);
+    *found = cover_n(c);
+    return explain(status, c, (double)(n - 1));
 }
 
 /* Searches for a maximal set of n points; the restarts use the seeds number first to first + TRIES - 1. */
@@ -158,7 +129,7 @@ static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksm
         cover_fini(c);
         d = fmin(d * (1 + 0.6 / c->dim / sqrt((double)n)), farthest(c->dim));
     }
-    return status || cover_n(c) >= n ? status : shrink_to(c, d, n, run);
+    return status || cover_n(c) >= n ? status : koksma__maximal_shrink(c->dim, d, cover_n(c), n, run, try_shrink, c);
 }
 
 /* A search may end without n points: two points on the torus are symmetric about two others, so that free area may
@@ -181,7 +152,7 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
     KOKSMA__FAIL_IF(expected > most, KOKSMA_N,
                     "poisson-disk-maximal: d=%g has about %.2g points; d=%.2g or more would do", d, expected,
                     1.01 * distance_of(most, c->dim));
-    koksma_status status = cover_init(c, seed, d);
+    koksma_status status = cover_init(c, seed, fmin(d, farthest(c->dim)));
     return status ? status : explain(cover_fill(c, SIZE_MAX, run), c, expected);
 }
 
@@ -231,7 +202,7 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
 }
 
 static const koksma_param params[] = {
-    {"d", "smallest distance; 0: whichever gives n points", 0, 0, 0.7, NULL, false},
+    {"d", "smallest distance; 0: whichever gives n points", 0, 0, 8, NULL, false},
     {0},
 };
 

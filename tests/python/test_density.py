@@ -30,7 +30,8 @@ class Density(unittest.TestCase):
         koksma.write_image(file, self.map)
         with open(model, "w", encoding="ascii") as f:
             f.write("OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n")
-        for pattern in ("random", "sample-elimination", "progressive-elimination", "poisson-disk:d=0.01,torus=1"):
+        for pattern in ("random", "sample-elimination", "progressive-elimination", "poisson-disk:d=0.01,torus=1",
+                        "poisson-disk-maximal", "gaussian-blue-noise:steps=200"):
             ours = koksma.generate(pattern, 200, seed=3, density=self.map)
             np.testing.assert_array_equal(ours, koksma.generate(pattern, 200, seed=3, density=file, threads=2))
             np.testing.assert_array_equal(ours, self.program(pattern, "-n", "200", "-s", "3", "--density", file))

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Points of a domain that keep distances, in a grid of cells. Two points conflict if they are closer than d times the
+   smaller of both units of distance. */
+#ifndef KOKSMA_DOMAINS_DART_GRID_H
+#define KOKSMA_DOMAINS_DART_GRID_H
+
+#include "domains/choose.h"
+
+typedef struct koksma__dart_grid {
+    int dim;
+    bool torus;
+    double d;           /* smallest distance where the unit is 1 */
+    size_t n, capacity; /* points, and how many there may be */
+    double *xs, *units; /* their positions and units of distance */
+    uint32_t *next, *head;
+    uint32_t side; /* cells along an axis, about one cell a point */
+} koksma__dart_grid;
+
+/* A position, or a convex region about it of `corners` corners. */
+typedef struct koksma__dart_query {
+    const double *x;
+    double unit; /* of the position or of the whole region */
+    size_t corners;
+    double offsets[4][3]; /* corners less x */
+} koksma__dart_query;
+
+koksma_status koksma__dart_grid_init(koksma__dart_grid *grid, const koksma__point_domain *domain, bool torus,
+                                     size_t capacity, double d);
+void koksma__dart_grid_fini(koksma__dart_grid *grid);
+
+/* Keeps the first n points, n <= grid->n, and changes the distance. */
+void koksma__dart_grid_reset(koksma__dart_grid *grid, size_t n, double d);
+
+/* Adds a point; there must be capacity for it. */
+void koksma__dart_grid_add(koksma__dart_grid *grid, const double *x, double unit);
+
+/* Whether one point of the grid conflicts with the position, or with every position of the region. */
+bool koksma__dart_grid_meets(const koksma__dart_grid *grid, const koksma__dart_query *query);
+
+#endif

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The field of a density. A point's width is sigma times half the side of the square about it that holds four points,
+ * which follows the density as finely as points can show it: single dark pixels in a bright area do not count. Squares
+ * are found by the false position (Illinois) of the root of their number of points, with a summed-area table (Crow
+ * 1984) of the image on the torus. Nodes are the leaves of a quadtree, no wider than the width of a point at their
+ * centre; the centroid of a leaf is that of 4 x 4 parts.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "core/torus.h"
+#include "domains/field.h"
+#include "domains/image_density.h"
+
+enum { DEEPEST = 26, LEAST_POINTS = 4 };
+
+typedef struct density_field {
+    const koksma__image_density *m;
+    double *table; /* (height + 1) rows of width + 1: points in pixels left of and below a corner */
+    double n, sigma;
+    size_t capacity;
+    koksma__field *field;
+} density_field;
+
+/* Points in [0,u] x [0,v], u and v in [0,1]. */
+static double inside(const density_field *f, double u, double v)
+{
+    const size_t w = f->m->width, h = f->m->height;
+    const double x = u * (double)w, y = v * (double)h;
+    const size_t i = x < (double)w ? (size_t)x : w - 1, j = y < (double)h ? (size_t)y : h - 1;
+    const double a = x - (double)i, b = y - (double)j, *low = f->table + j * (w + 1) + i, *high = low + w + 1;
+    return (1 - b) * ((1 - a) * low[0] + a * low[1]) + b * ((1 - a) * high[0] + a * high[1]);
+}
+
+/* The same for any u and v, with the torus repeated: the sum grows by a period's points in each. */
+static double repeated(const density_field *f, double u, double v)
+{
+    const double i = floor(u), j = floor(v);
+    return inside(f, u - i, v - j) + (i == 0 ? 0 : i * inside(f, 1, v - j)) + (j == 0 ? 0 : j * inside(f, u - i, 1)) +
+           i * j * f->n;
+}
+
+static double points_in(const density_field *f, double x0, double y0, double x1, double y1)
+{
+    return fmax(repeated(f, x1, y1) - repeated(f, x0, y1) - repeated(f, x1, y0) + repeated(f, x0, y0), 0);
+}
+
+static double width(const void *data, const double *x)
+{
+    const density_field *f = data;
+    if (f->n <= LEAST_POINTS) {
+        return f->sigma / sqrt(f->n);
+    }
+    const double root = sqrt(LEAST_POINTS);
+    double low = 0, high = 0.5, at_low = -root, at_high = sqrt(f->n) - root, h = high;
+    for (int i = 0, last = 0; i < 60 && high - low > 1e-6 * high; i++) {
+        h = (low * at_high - high * at_low) / (at_high - at_low);
+        const double value = sqrt(points_in(f, x[0] - h, x[1] - h, x[0] + h, x[1] + h)) - root;
+        if (fabs(value) < 1e-6) {
+            break;
+        }
+        if (value < 0) {
+            low = h;
+            at_low = value;
+            at_high = last < 0 ? at_high / 2 : at_high;
+            last = -1;
+        } else {
+            high = h;
+            at_high = value;
+            at_low = last > 0 ? at_low / 2 : at_low;
+            last = 1;
+        }
+    }
+    return f->sigma * h;
+}
+
+static bool settle(const void *data, double *x, koksma__domain_point *point)
+{
+    const koksma__image_density *m = ((const density_field *)data)->m;
+    uint32_t cell[2];
+    koksma__domain_point to;
+    const uint32_t cells[2] = {(uint32_t)m->width, (uint32_t)m->height};
+    for (int k = 0; k < 2; k++) {
+        x[k] -= floor(x[k]);
+        x[k] = x[k] < 1 ? x[k] : 0;
+        cell[k] = koksma__cell_along(x[k], cells[k]);
+        to.at[k] = fmin(fmax(x[k] * cells[k] - cell[k], 0), 1 - 0x1p-53);
+    }
+    to.part = (cells[1] - 1 - cell[1]) * cells[0] + cell[0];
+    if (!(koksma__image_share(m, to.part) > 0)) {
+        return false;
+    }
+    *point = to;
+    koksma__image_place(m, point, x);
+    return true;
+}
+
+static void along(const void *data, const koksma__domain_point *point, double *vector)
+{
+    (void)data;
+    (void)point;
+    (void)vector;
+}
+
+static void close_field(void *data)
+{
+    density_field *f = data;
+    free(f->table);
+    free(f);
+}
+
+/* The node of a square of the quadtree. */
+static koksma_status add_node(density_field *f, const double low[2], double side, double mass, double s)
+{
+    koksma__field_node node = {.mass = mass, .square = s * s + side * side / 6};
+    const double part = side / 4;
+    double sum = 0;
+    for (int i = 0; i < 16; i++) {
+        const double x = low[0] + part * (i % 4), y = low[1] + part * (double)(i / 4);
+        const double points = points_in(f, x, y, x + part, y + part);
+        sum += points;
+        node.x[0] += points * (x + part / 2);
+        node.x[1] += points * (y + part / 2);
+    }
+    for (int k = 0; k < 2; k++) {
+        node.x[k] = sum > 0 ? node.x[k] / sum : low[k] + side / 2;
+        node.x[k] = fmin(node.x[k], 1 - 0x1p-53);
+    }
+    return koksma__field_add(f->field, &f->capacity, node);
+}
+
+static koksma_status add_square(density_field *f, const double low[2], double side, int depth)
+{
+    const double centre[2] = {low[0] + side / 2, low[1] + side / 2};
+    const double mass = points_in(f, low[0], low[1], low[0] + side, low[1] + side);
+    if (!(mass > 0)) {
+        return KOKSMA_OK;
+    }
+    const double s = width(f, centre);
+    if (side <= KOKSMA__NODE_WIDTHS * s || depth == DEEPEST) {
+        return add_node(f, low, side, mass, s);
+    }
+    for (int quarter = 0; quarter < 4; quarter++) {
+        const double corner[2] = {quarter & 1 ? centre[0] : low[0], quarter & 2 ? centre[1] : low[1]};
+        KOKSMA__TRY(add_square(f, corner, side / 2, depth + 1));
+    }
+    return KOKSMA_OK;
+}
+
+static void sum_up(density_field *f)
+{
+    const size_t w = f->m->width, h = f->m->height;
+    const double scale = f->n / f->m->sums[w * h - 1];
+    for (size_t i = 0; i <= w; i++) {
+        f->table[i] = 0;
+    }
+    for (size_t j = 0; j < h; j++) {
+        double row = 0;
+        const double *below = f->table + j * (w + 1);
+        double *here = f->table + (j + 1) * (w + 1);
+        here[0] = 0;
+        for (size_t i = 0; i < w; i++) {
+            row += scale * koksma__image_share(f->m, (h - 1 - j) * w + i);
+            here[i + 1] = below[i + 1] + row;
+        }
+    }
+}
+
+koksma_status koksma__density_field_open(const koksma__point_domain *domain, size_t n, double sigma,
+                                         koksma__field *field)
+{
+    const koksma__image_density *m = domain->data;
+    const size_t bytes = (m->width + 1) * (m->height + 1) * sizeof(double);
+    density_field *f = malloc(sizeof *f);
+    KOKSMA__REQUIRE_MEMORY(f, sizeof *f);
+    *f = (density_field){.m = m, .table = malloc(bytes), .n = (double)n, .sigma = sigma, .field = field};
+    *field = (koksma__field){.data = f, .width = width, .settle = settle, .along = along, .close = close_field};
+    KOKSMA__REQUIRE_MEMORY(f->table, bytes); /* the caller closes the field */
+    sum_up(f);
+    const double origin[2] = {0, 0};
+    return add_square(f, origin, 1, 0);
+}

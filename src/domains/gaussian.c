@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * gaussian-blue-noise on a domain: points whose Gaussians add up to those of the density, by gradient descent from
+ * independent points. With s_i the width of point i's Gaussian, of integral 1, the energy is the squared L2 distance
+ *
+ *     || sum over i of G(x - x_i, s_i)  -  integral of n p(y) G(x - y, s(y)) dy ||^2
+ *
+ * of the points' smoothed density to the wanted one, p. A pair of points repels each other by
+ *
+ *     (2 s_i^2 / v)^2  exp(-d^2 / v)  times their difference,    v = s_i^2 + s_j^2
+ *
+ * after division by the stiffness at point i; the density attracts them in the same way, as a sum over nodes with
+ * masses. Where the density is even, both widths are sigma / sqrt n, attraction adds up to nothing, and the forces are
+ * those of the pattern (patterns/gaussian_blue_noise.c), whose parameters count here, too.
+ *
+ * Widths follow the points for 128 steps, with little momentum, and then every 100 steps; from step 400 on they are
+ * constant. Forces are the gradient of an energy only while widths are: where they followed the points in all steps,
+ * a momentum of 0.9 kept 500 points boiling. With steps=0 the descent takes 600 steps at least and 2,000 at most; it
+ * ends when the root mean square of force over width is below 1e-4 sigma, or has not fallen by a tenth for 200 steps.
+ *
+ * Source: Ahmed, Ren & Wonka 2022, whose program for densities has these forces with Gaussians of one width for the
+ * pixels; Fattal 2011 for widths that follow the density. Time of a step: n (points and nodes in reach), some 200.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "core/torus.h"
+#include "domains/field.h"
+#include "domains/source_tree.h"
+
+enum { BLOCK = 64, SETTLING = 128, LOCKED = 400, LEAST_STEPS = 600, MOST_STEPS = 2000, PATIENCE = 200 };
+
+#define TOLERANCE 1e-4
+
+typedef struct descent {
+    const koksma__choice *c;
+    const koksma__point_domain *domain;
+    koksma__field field;
+    koksma__source_tree tree;    /* nodes, and points */
+    double *xs, *moves, *widths; /* of the points */
+    double *squares;             /* of the forces, in units of the widths */
+    double step, momentum, least;
+    bool update; /* whether widths follow the points in this step */
+    int wait;    /* steps since `least` was replaced */
+} descent;
+
+/* Number i of the sources: a node, with a negative mass, or a point. */
+static koksma__field_node source_of(const void *context, size_t i)
+{
+    const descent *d = context;
+    const size_t dim = (size_t)d->domain->dim, n_nodes = d->field.n_nodes;
+    koksma__field_node source = {.mass = 1};
+    if (i < n_nodes) {
+        source = d->field.nodes[i];
+        source.mass = -source.mass;
+    } else {
+        memcpy(source.x, d->xs + dim * (i - n_nodes), dim * sizeof *d->xs);
+        source.square = d->widths[i - n_nodes] * d->widths[i - n_nodes];
+    }
+    return source;
+}
+
+/* Moves the points among one block of sources. */
+static koksma_status move_block(void *context, size_t block)
+{
+    descent *d = context;
+    const size_t dim = (size_t)d->domain->dim, end = (block + 1) * BLOCK;
+    for (size_t at = block * BLOCK; at < end && at < d->tree.n; at++) {
+        if (d->tree.order[at] < d->field.n_nodes) {
+            continue;
+        }
+        const size_t i = d->tree.order[at] - d->field.n_nodes;
+        double *x = d->xs + i * dim, *move = d->moves + i * dim, to[3], force[3], square = 0;
+        koksma__source_force(&d->tree, x, d->widths[i] * d->widths[i], force);
+        d->field.along(d->field.data, &d->c->points[i], force);
+        for (size_t k = 0; k < dim; k++) {
+            square += force[k] * force[k];
+            to[k] = x[k] + d->momentum * move[k] + d->step * force[k];
+        }
+        d->squares[i] = square / (d->widths[i] * d->widths[i]);
+        const double before[3] = {x[0], x[1], dim > 2 ? x[2] : 0};
+        const bool settled = d->field.settle(d->field.data, to, &d->c->points[i]);
+        for (size_t k = 0; k < dim; k++) {
+            x[k] = settled ? to[k] : x[k];
+            move[k] = !settled ? 0 : d->domain->torus ? koksma__torus_difference(before[k], x[k]) : x[k] - before[k];
+        }
+        if (d->update) {
+            d->widths[i] = d->field.width(d->field.data, x);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Whether the descent may end. The squares are summed in the order of the points, so that the result does not depend on
+   the number of threads. */
+static bool converged(descent *d)
+{
+    const double limit = TOLERANCE * d->c->params[1];
+    double sum = 0;
+    for (size_t i = 0; i < d->c->n; i++) {
+        sum += d->squares[i];
+    }
+    d->wait = sum < 0.81 * d->least ? 0 : d->wait + 1;
+    d->least = d->wait ? d->least : sum;
+    return sum <= limit * limit * (double)d->c->n || d->wait >= PATIENCE;
+}
+
+static koksma_status descend(descent *d)
+{
+    const int fixed = (int)d->c->params[0], steps = fixed ? fixed : MOST_STEPS;
+    const koksma_run quiet = {.threads = koksma__threads(d->c->run)};
+    for (int t = 0; t < steps; t++) {
+        d->momentum = t < SETTLING ? 0.5 : t < LOCKED ? 0.9 : 0.95;
+        d->update = t < SETTLING || (t <= LOCKED && t % 100 == 0);
+        KOKSMA__TRY(koksma__source_tree_build(&d->tree, source_of, d));
+        KOKSMA__TRY(koksma__parallel(&quiet, (d->tree.n + BLOCK - 1) / BLOCK, move_block, d));
+        if (!koksma__keep_going(d->c->run, (double)t / steps)) {
+            return koksma__fail_interrupted();
+        }
+        if (!fixed && converged(d) && t >= LEAST_STEPS) {
+            break;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status start(descent *d)
+{
+    const size_t dim = (size_t)d->domain->dim, n = d->c->n;
+    const size_t sources = d->field.n_nodes + n, bytes = n * (2 * dim + 2) * sizeof *d->xs;
+    KOKSMA__FAIL_IF(sources >= UINT32_MAX, KOKSMA_N, "gaussian-blue-noise: n = %zu is too large %s", n,
+                    d->domain->what);
+    KOKSMA__TRY(koksma__source_tree_init(&d->tree, d->domain->dim, d->domain->torus, sources));
+    d->xs = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(d->xs, bytes);
+    d->moves = d->xs + n * dim;
+    d->widths = d->moves + n * dim;
+    d->squares = d->widths + n;
+    memset(d->moves, 0, n * dim * sizeof *d->moves);
+    for (size_t i = 0; i < n; i++) {
+        d->domain->draw(d->domain->data, d->c->seed, i, &d->c->points[i]);
+        d->domain->place(d->domain->data, &d->c->points[i], d->xs + i * dim);
+        d->widths[i] = d->field.width(d->field.data, d->xs + i * dim);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__choose_gaussian(const koksma__choice *c)
+{
+    descent d = {.c = c, .domain = c->domain, .step = c->params[2], .least = INFINITY};
+    koksma_status status = c->domain->open_field(c->domain, c->n, c->params[1], &d.field);
+    status = status ? status : start(&d);
+    status = status ? status : descend(&d);
+    koksma__field_close(&d.field);
+    koksma__source_tree_fini(&d.tree);
+    free(d.xs);
+    return status;
+}
+
+koksma_status koksma__field_add(koksma__field *field, size_t *capacity, koksma__field_node node)
+{
+    if (field->n_nodes == *capacity) {
+        const size_t more = *capacity + *capacity / 2 + 1024;
+        koksma__field_node *grown = realloc(field->nodes, more * sizeof *grown);
+        KOKSMA__REQUIRE_MEMORY(grown, more * sizeof *grown);
+        field->nodes = grown;
+        *capacity = more;
+    }
+    field->nodes[field->n_nodes++] = node;
+    return KOKSMA_OK;
+}
+
+void koksma__field_close(koksma__field *field)
+{
+    if (field->close) {
+        field->close(field->data);
+    }
+    free(field->nodes);
+    *field = (koksma__field){0};
+}

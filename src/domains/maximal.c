@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * poisson-disk-maximal on a domain: dart throwing until nothing fits. Two points are at least d min(r, r') apart, r the
+ * unit of distance of their parts, and no position of a part has room for one more.
+ *
+ * The free area is a list of pieces: parts (rectangles or triangles) and quarters of them. A piece lies in one part, so
+ * that one unit holds for all of it, and is covered when the ball of one point contains its corners. Darts are thrown at
+ * the pieces, each in proportion to its share of the points, about one dart a piece; then every piece is divided into
+ * four, and covered quarters are dropped. No piece is left when the set is maximal; pieces of 2^-30 of a part's side are
+ * ignored. A dart that misses all points is one of dart throwing on the whole domain, whose other darts would conflict.
+ *
+ * d=0 searches for the distance at which exactly n points are maximal (patterns/shared/maximal_search.h), from a
+ * distance that is scaled by the root of found over wanted until at most n points fit.
+ *
+ * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree; Mitchell, Rand, Ebeida & Bajaj 2012 for
+ * radii that vary ("smaller disks"). Time of one set: (n + parts) log n; the search makes some 20 to 40 sets.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "core/status.h"
+#include "domains/dart_grid.h"
+#include "patterns/shared/maximal_search.h"
+
+enum { DEEPEST = 30, LOOK_EVERY = 1 << 14, ESTIMATES = 30, SEARCHES = 8 };
+
+#define PER_AREA 0.6965 /* mean points of a maximal set times d^2, on the torus */
+
+/* The positions at + side * (u, v), of u, v in [0,1]^2 in a rectangle, u + v <= 1 in a triangle; side < 0 in the middle
+   quarter of a triangle. */
+typedef struct piece {
+    uint32_t part, depth;
+    double at[2], side;
+} piece;
+
+typedef struct maximal {
+    const koksma__choice *c;
+    koksma__dart_grid grid;
+    koksma__domain_point *points; /* those of the grid */
+    uint64_t seed, darts;
+    piece *pieces; /* of the free area; sums[i] is the share of pieces 0 to i */
+    double *sums;
+    size_t n_pieces, capacity; /* of the pieces */
+} maximal;
+
+/* The centre of a piece and its corners, as a query. */
+static void query_of(const maximal *m, const piece *p, double *centre, koksma__dart_query *q)
+{
+    static const double units[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    const koksma__point_domain *domain = m->c->domain;
+    const double middle = domain->corners == 4 ? 0.5 : 1.0 / 3;
+    koksma__domain_point at = {p->part, {p->at[0] + middle * p->side, p->at[1] + middle * p->side}};
+    domain->place(domain->data, &at, centre);
+    *q = (koksma__dart_query){
+        .x = centre, .unit = domain->unit_of(domain->data, p->part), .corners = (size_t)domain->corners};
+    for (size_t i = 0; i < q->corners; i++) {
+        at.at[0] = p->at[0] + units[i][0] * p->side;
+        at.at[1] = p->at[1] + units[i][1] * p->side;
+        domain->place(domain->data, &at, q->offsets[i]);
+        for (int k = 0; k < domain->dim; k++) {
+            q->offsets[i][k] -= centre[k];
+        }
+    }
+}
+
+/* Stores a piece if it is not covered. */
+static koksma_status store(maximal *m, piece p, piece **pieces, size_t *n)
+{
+    double centre[3];
+    koksma__dart_query q;
+    query_of(m, &p, centre, &q);
+    if (koksma__dart_grid_meets(&m->grid, &q)) {
+        return KOKSMA_OK;
+    }
+    if (*n == m->capacity) {
+        const size_t more = m->capacity + m->capacity / 2 + 1024;
+        piece *grown = realloc(*pieces, more * sizeof *grown);
+        KOKSMA__REQUIRE_MEMORY(grown, more * sizeof *grown);
+        *pieces = grown;
+        m->capacity = more;
+    }
+    (*pieces)[(*n)++] = p;
+    return KOKSMA_OK;
+}
+
+/* Starts with the parts that have a share of the points. */
+static koksma_status begin(maximal *m)
+{
+    const koksma__point_domain *domain = m->c->domain;
+    m->n_pieces = 0;
+    for (size_t part = 0; part < domain->n_parts; part++) {
+        if (domain->share(domain->data, part) > 0) {
+            KOKSMA__TRY(store(m, (piece){.part = (uint32_t)part, .side = 1}, &m->pieces, &m->n_pieces));
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Divides every piece into four. */
+static koksma_status divide(maximal *m)
+{
+    piece *old = m->pieces;
+    const size_t n_old = m->n_pieces;
+    koksma_status status = KOKSMA_OK;
+    m->pieces = NULL;
+    m->n_pieces = m->capacity = 0;
+    for (size_t i = 0; i < n_old && !status; i++) {
+        const double half = old[i].side / 2;
+        for (int quarter = 0; quarter < 4 && !status && old[i].depth < DEEPEST; quarter++) {
+            piece p = {old[i].part, old[i].depth + 1, {old[i].at[0], old[i].at[1]}, half};
+            p.at[0] += quarter & 1 ? half : 0;
+            p.at[1] += quarter & 2 ? half : 0;
+            if (quarter == 3 && m->c->domain->corners == 3) { /* the middle one, upside down */
+                p.side = -half;
+            }
+            status = store(m, p, &m->pieces, &m->n_pieces);
+        }
+    }
+    free(old);
+    return status;
+}
+
+/* Throws as many darts as there are pieces, until there are n points. */
+static koksma_status throw_darts(maximal *m, size_t n)
+{
+    const koksma__point_domain *domain = m->c->domain;
+    double *sums = realloc(m->sums, m->n_pieces * sizeof *sums), sum = 0;
+    KOKSMA__REQUIRE_MEMORY(sums, m->n_pieces * sizeof *sums);
+    m->sums = sums;
+    for (size_t i = 0; i < m->n_pieces; i++) {
+        const piece *p = &m->pieces[i];
+        sums[i] = sum += domain->share(domain->data, p->part) * p->side * p->side;
+    }
+    for (size_t dart = 0; dart < m->n_pieces && m->grid.n < n; dart++, m->darts++) {
+        double which[2], u[2], x[3];
+        koksma__random_pair(m->seed, KOKSMA__PURPOSE_DART, m->darts, 0, which);
+        koksma__random_pair(m->seed, KOKSMA__PURPOSE_DART, m->darts, 1, u);
+        const piece *p = &m->pieces[koksma__domain_find(sums, m->n_pieces, which[0] * sum)];
+        if (domain->corners == 3 && u[0] + u[1] > 1) { /* reflects the square's upper half into the triangle */
+            u[0] = 1 - u[0];
+            u[1] = 1 - u[1];
+        }
+        const koksma__domain_point point = {p->part, {p->at[0] + u[0] * p->side, p->at[1] + u[1] * p->side}};
+        const koksma__dart_query q = {.x = x, .unit = domain->unit_of(domain->data, p->part)};
+        domain->place(domain->data, &point, x);
+        if (!koksma__dart_grid_meets(&m->grid, &q)) {
+            m->points[m->grid.n] = point;
+            koksma__dart_grid_add(&m->grid, x, q.unit);
+        }
+        if (dart % LOOK_EVERY == LOOK_EVERY - 1 && !koksma__keep_going(m->c->run, (double)m->grid.n / (double)n)) {
+            return koksma__fail_interrupted();
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Adds points until the set is maximal or has n. */
+static koksma_status fill(maximal *m, size_t n)
+{
+    KOKSMA__TRY(begin(m));
+    while (m->n_pieces && m->grid.n < n) {
+        KOKSMA__TRY(throw_darts(m, n));
+        KOKSMA__TRY(divide(m));
+        KOKSMA__FAIL_IF(!koksma__keep_going(m->c->run, (double)m->grid.n / (double)n), KOKSMA_INTERRUPTED,
+                        "interrupted");
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status shrink(void *set, size_t kept, double d, size_t n, const koksma_run *run, size_t *found)
+{
+    maximal *m = set;
+    (void)run;
+    koksma__dart_grid_reset(&m->grid, kept, d);
+    const koksma_status status = fill(m, n);
+    *found = m->grid.n;
+    return status;
+}
+
+/* Makes a set of at most 2 n points at an estimate of the distance, and a better estimate from their number, until at
+   most n points fit. */
+static koksma_status search(maximal *m, uint32_t first)
+{
+    const size_t n = m->c->n;
+    const double step = 1 + 0.3 / sqrt((double)n);
+    double d = sqrt(PER_AREA * m->c->domain->area / (double)n) * step;
+    for (uint32_t try = 0; try < ESTIMATES; try++) {
+        m->seed = koksma__random_seed(m->c->seed, first + try, KOKSMA__PURPOSE_DART);
+        m->darts = 0;
+        koksma__dart_grid_reset(&m->grid, 0, d);
+        KOKSMA__TRY(fill(m, 2 * n));
+        if (m->grid.n == n) {
+            return KOKSMA_OK;
+        }
+        if (m->grid.n < n && m->grid.n >= n - n / 4) {
+            return koksma__maximal_shrink(2, d, m->grid.n, n, m->c->run, shrink, m);
+        }
+        d *= sqrt((double)m->grid.n / (double)n) * step;
+    }
+    const size_t found = m->grid.n;
+    return found > n ? koksma__fail(KOKSMA_IMPOSSIBLE,
+                                    "poisson-disk-maximal: no distance has %zu points %s; %zu points would do", n,
+                                    m->c->domain->what, found)
+                     : koksma__maximal_shrink(2, d, found, n, m->c->run, shrink, m);
+}
+
+static koksma_status by_number(maximal *m)
+{
+    koksma_status status = search(m, 0);
+    for (uint32_t again = 1; status == KOKSMA_IMPOSSIBLE && again < SEARCHES; again++) {
+        status = search(m, again * ESTIMATES);
+    }
+    return status;
+}
+
+static koksma_status by_distance(maximal *m)
+{
+    const size_t n = m->c->n;
+    m->seed = m->c->seed;
+    KOKSMA__TRY(fill(m, m->grid.capacity));
+    KOKSMA__FAIL_IF(m->grid.n == m->grid.capacity, KOKSMA_N,
+                    "poisson-disk-maximal: d=%g has more than %zu points %s, not %zu; a larger d, or no d, would do",
+                    m->c->params[0], m->grid.n - 1, m->c->domain->what, n);
+    KOKSMA__FAIL_IF(
+        m->grid.n != n, KOKSMA_N,
+        "poisson-disk-maximal: d=%g with this seed has %zu points %s, not %zu; n = %zu, or no d, would do",
+        m->c->params[0], m->grid.n, m->c->domain->what, n, m->grid.n);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__choose_maximal(const koksma__choice *c)
+{
+    const double d = c->params[0] * c->domain->unit;
+    const size_t capacity = 4 * c->n + 1024;
+    maximal m = {.c = c};
+    koksma_status status = koksma__dart_grid_init(&m.grid, c->domain, c->domain->torus, capacity,
+                                                  d > 0 ? d : sqrt(PER_AREA * c->domain->area / (double)c->n));
+    if (!status) {
+        m.points = malloc(capacity * sizeof *m.points);
+        status = m.points ? KOKSMA_OK : koksma__fail_memory(capacity * sizeof *m.points);
+    }
+    status = status ? status : d > 0 ? by_distance(&m) : by_number(&m);
+    if (!status) {
+        memcpy(c->points, m.points, c->n * sizeof *c->points);
+    }
+    koksma__dart_grid_fini(&m.grid);
+    free(m.points);
+    free(m.pieces);
+    free(m.sums);
+    return status;
+}

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Nearest positions on triangles, by a hierarchy of boxes: the triangles are halved at the median of their centroids
+ * along the longest side of the centroids' box, down to four. A search visits the nearer half first and leaves out
+ * boxes that are further away than the best position so far. The nearest position of one triangle is that of Ericson,
+ * Real-Time Collision Detection (2005), 5.1.5. Time: building n log n, a search about log n if it starts near its end.
+ */
+#include "domains/nearest.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+enum { LEAF = 4 };
+
+typedef struct box {
+    double low[3], high[3];
+} box;
+
+struct koksma__nearest {
+    const koksma__point_domain *domain;
+    size_t n;
+    uint32_t *order; /* triangles by leaves */
+    box *boxes;      /* node i has the children 2 i + 1 and 2 i + 2 */
+    double *centroids;
+};
+
+static void corners_of(const koksma__point_domain *domain, uint32_t part, double corners[3][3])
+{
+    static const double at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    for (int c = 0; c < 3; c++) {
+        const koksma__domain_point point = {part, {at[c][0], at[c][1]}};
+        domain->place(domain->data, &point, corners[c]);
+    }
+}
+
+/* Orders triangles first to end - 1 such that number `middle` is where sorting by centroids along an axis would put it
+   (Hoare 1961). */
+static void select_middle(const koksma__nearest *s, size_t first, size_t end, size_t middle, int axis)
+{
+    while (end - first > 1) {
+        const double pivot = s->centroids[3 * (size_t)s->order[first + (end - 1 - first) / 2] + (size_t)axis];
+        size_t i = first, j = end - 1;
+        for (;;) {
+            while (s->centroids[3 * (size_t)s->order[i] + (size_t)axis] < pivot) {
+                i++;
+            }
+            while (s->centroids[3 * (size_t)s->order[j] + (size_t)axis] > pivot) {
+                j--;
+            }
+            if (i >= j) {
+                break;
+            }
+            const uint32_t swapped = s->order[i];
+            s->order[i++] = s->order[j];
+            s->order[j--] = swapped;
+        }
+        if (middle <= j) {
+            end = j + 1;
+        } else {
+            first = j + 1;
+        }
+    }
+}
+
+static void add_to_box(box *b, const double x[3])
+{
+    for (int k = 0; k < 3; k++) {
+        b->low[k] = fmin(b->low[k], x[k]);
+        b->high[k] = fmax(b->high[k], x[k]);
+    }
+}
+
+static void build(const koksma__nearest *s, size_t node, size_t first, size_t end)
+{
+    const box empty = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    box all = empty, centroids = empty;
+    for (size_t i = first; i < end; i++) {
+        double corners[3][3];
+        corners_of(s->domain, s->order[i], corners);
+        for (int c = 0; c < 3; c++) {
+            add_to_box(&all, corners[c]);
+        }
+        add_to_box(&centroids, s->centroids + 3 * (size_t)s->order[i]);
+    }
+    s->boxes[node] = all;
+    if (end - first <= LEAF) {
+        return;
+    }
+    int axis = 0;
+    for (int k = 1; k < 3; k++) {
+        axis = centroids.high[k] - centroids.low[k] > centroids.high[axis] - centroids.low[axis] ? k : axis;
+    }
+    const size_t middle = first + (end - first) / 2;
+    select_middle(s, first, end, middle, axis);
+    build(s, 2 * node + 1, first, middle);
+    build(s, 2 * node + 2, middle, end);
+}
+
+koksma_status koksma__nearest_open(const koksma__point_domain *domain, koksma__nearest **out)
+{
+    size_t n_boxes = 1;
+    for (size_t largest = domain->n_parts; largest > LEAF; largest -= largest / 2) {
+        n_boxes = 2 * n_boxes + 1;
+    }
+    const size_t n = domain->n_parts, bytes = sizeof(koksma__nearest) + n_boxes * sizeof(box) +
+                                              3 * n * sizeof(double) + n * sizeof(uint32_t);
+    koksma__nearest *s = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(s, bytes);
+    *s = (koksma__nearest){.domain = domain, .n = n, .boxes = (box *)(s + 1)};
+    s->centroids = (double *)(s->boxes + n_boxes);
+    s->order = (uint32_t *)(s->centroids + 3 * n);
+    for (size_t i = 0; i < n; i++) {
+        const koksma__domain_point centre = {(uint32_t)i, {1.0 / 3, 1.0 / 3}};
+        s->order[i] = (uint32_t)i;
+        domain->place(domain->data, &centre, s->centroids + 3 * i);
+    }
+    build(s, 0, 0, n);
+    *out = s;
+    return KOKSMA_OK;
+}
+
+void koksma__nearest_close(koksma__nearest *s)
+{
+    free(s);
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The weight t in [0,1] of the second of two corners at which their edge is nearest to x. */
+static double along_edge(const double *x, const double *from, const double *to)
+{
+    double edge[3], way[3];
+    for (int k = 0; k < 3; k++) {
+        edge[k] = to[k] - from[k];
+        way[k] = x[k] - from[k];
+    }
+    const double square = dot(edge, edge);
+    return square > 0 ? fmin(fmax(dot(edge, way) / square, 0), 1) : 0;
+}
+
+/* The weights of the corners 1 and 2 of the triangle's position that is nearest to x. */
+static void nearest_on(const double c[3][3], const double *x, double at[2])
+{
+    double e1[3], e2[3], way[3], best = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        e1[k] = c[1][k] - c[0][k];
+        e2[k] = c[2][k] - c[0][k];
+        way[k] = x[k] - c[0][k];
+    }
+    const double a = dot(e1, e1), b = dot(e1, e2), d = dot(e2, e2), p = dot(e1, way), q = dot(e2, way);
+    const double area = a * d - b * b, u = (d * p - b * q) / area, v = (a * q - b * p) / area;
+    if (area > 0 && u >= 0 && v >= 0 && u + v <= 1) {
+        at[0] = u;
+        at[1] = v;
+        return;
+    }
+    const double t[3] = {along_edge(x, c[0], c[1]), along_edge(x, c[0], c[2]), along_edge(x, c[1], c[2])};
+    const double tries[3][2] = {{t[0], 0}, {0, t[1]}, {1 - t[2], t[2]}};
+    for (int i = 0; i < 3; i++) {
+        double off[3];
+        for (int k = 0; k < 3; k++) {
+            off[k] = tries[i][0] * e1[k] + tries[i][1] * e2[k] - way[k];
+        }
+        if (dot(off, off) < best) {
+            best = dot(off, off);
+            memcpy(at, tries[i], 2 * sizeof *at);
+        }
+    }
+}
+
+/* A search: the position and the square of its distance so far. */
+typedef struct hunt {
+    const koksma__nearest *s;
+    const double *x;
+    koksma__domain_point *found;
+    double best;
+} hunt;
+
+static void try_triangle(hunt *h, uint32_t part)
+{
+    double corners[3][3], square = 0;
+    koksma__domain_point p = {.part = part};
+    corners_of(h->s->domain, part, corners);
+    nearest_on(corners, h->x, p.at);
+    for (int k = 0; k < 3; k++) {
+        const double y =
+            corners[0][k] + p.at[0] * (corners[1][k] - corners[0][k]) + p.at[1] * (corners[2][k] - corners[0][k]);
+        square += (y - h->x[k]) * (y - h->x[k]);
+    }
+    if (square < h->best) {
+        h->best = square;
+        *h->found = p;
+    }
+}
+
+static double to_box(const box *b, const double *x)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        const double t = fmax(fmax(b->low[k] - x[k], x[k] - b->high[k]), 0);
+        square += t * t;
+    }
+    return square;
+}
+
+static void visit(hunt *h, size_t node, size_t first, size_t end)
+{
+    if (end - first <= LEAF) {
+        for (size_t i = first; i < end; i++) {
+            try_triangle(h, h->s->order[i]);
+        }
+        return;
+    }
+    const size_t middle = first + (end - first) / 2;
+    const double to[2] = {to_box(&h->s->boxes[2 * node + 1], h->x), to_box(&h->s->boxes[2 * node + 2], h->x)};
+    for (int i = 0; i < 2; i++) {
+        const bool second = (to[1] < to[0]) != (i == 1);
+        if (to[second] < h->best) {
+            visit(h, 2 * node + 1 + second, second ? middle : first, second ? end : middle);
+        }
+    }
+}
+
+void koksma__nearest_find(const koksma__nearest *s, const double x[3], koksma__domain_point *found)
+{
+    hunt h = {.s = s, .x = x, .found = found, .best = INFINITY};
+    try_triangle(&h, found->part);
+    visit(&h, 0, 0, s->n);
+}

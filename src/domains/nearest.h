@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The nearest position on a set of triangles. */
+#ifndef KOKSMA_DOMAINS_NEAREST_H
+#define KOKSMA_DOMAINS_NEAREST_H
+
+#include "domains/choose.h"
+
+typedef struct koksma__nearest koksma__nearest;
+
+/* Prepares searches on the parts of a domain of triangles. Errors: MEMORY. */
+koksma_status koksma__nearest_open(const koksma__point_domain *domain, koksma__nearest **out);
+void koksma__nearest_close(koksma__nearest *nearest);
+
+/* Stores the position nearest to x. `found` holds a position of the domain; the closer it is, the faster the search. */
+void koksma__nearest_find(const koksma__nearest *nearest, const double x[3], koksma__domain_point *found);
+
+#endif

@@ -1,0 +1,447 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* poisson-disk-maximal and gaussian-blue-noise with a density and on models, from their definitions: distances of all
+   pairs and of random positions for maximal sets, the Fourier coefficients of the density and power at low frequencies
+   for Gaussian blue noise, areas by chi-squared. */
+#include <koksma/density.h>
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "test.h"
+
+static koksma_spec spec_of(const char *text)
+{
+    koksma_spec spec;
+    assert_ok(koksma_pattern_spec(text, &spec));
+    return spec;
+}
+
+/* ---- Densities ------------------------------------------------------------------------------------------- */
+
+enum { SIDE = 4 };
+
+/* 4 x 4 pixels, the bottom row first; one is black. */
+static const float steps[SIDE * SIDE] = {1, 1, 3, 3, 1, 1, 3, 3, 9, 9, 2, 2, 9, 9, 2, 0};
+static const float even[SIDE * SIDE] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+
+static koksma_image map_of(const float *values)
+{
+    koksma_image map;
+    assert_ok(koksma_image_init(&map, SIDE, SIDE, 1));
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        map.pixels[i] = values[(SIDE - 1 - i / SIDE) * SIDE + i % SIDE];
+    }
+    return map;
+}
+
+static koksma_points with_density(const char *text, const float *values, size_t n, uint64_t seed, int threads)
+{
+    const koksma_spec spec = spec_of(text);
+    koksma_image map = map_of(values);
+    koksma_points p;
+    assert_ok(koksma_points_init(&p, n, 2));
+    assert_ok(koksma_generate_density(&spec, seed, &map, &(koksma_run){.threads = threads}, &p));
+    koksma_image_fini(&map);
+    return p;
+}
+
+static double sum_of(const float *values)
+{
+    double sum = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        sum += (double)values[i];
+    }
+    return sum;
+}
+
+/* 1 / sqrt of the density over its mean at x. */
+static double unit_at(const float *values, const double *x)
+{
+    const int pixel = (int)(x[1] * SIDE) * SIDE + (int)(x[0] * SIDE);
+    return sqrt(sum_of(values) / SIDE / SIDE / (double)values[pixel]);
+}
+
+static double distance_of(const double *a, const double *b, size_t dim, bool torus)
+{
+    double square = 0;
+    for (size_t k = 0; k < dim; k++) {
+        const double t = fabs(a[k] - b[k]), d = torus && t > 0.5 ? 1 - t : t;
+        square += d * d;
+    }
+    return sqrt(square);
+}
+
+static double uniform(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+/* The largest d at which all pairs keep d times the smaller unit; no position of the square has room at that d. */
+static double check_maximal(const koksma_points *p, const float *values)
+{
+    double d = INFINITY;
+    for (size_t i = 0; i < p->n; i++) {
+        for (size_t j = 0; j < i; j++) {
+            const double *a = p->xs + 2 * i, *b = p->xs + 2 * j;
+            d = fmin(d, distance_of(a, b, 2, true) / fmin(unit_at(values, a), unit_at(values, b)));
+        }
+    }
+    uint64_t state = 1;
+    for (int t = 0; t < 20000; t++) {
+        const double x[2] = {uniform(&state), uniform(&state)};
+        if (!isfinite(unit_at(values, x))) {
+            continue;
+        }
+        bool room = true;
+        for (size_t i = 0; i < p->n && room; i++) {
+            const double *y = p->xs + 2 * i;
+            room = distance_of(x, y, 2, true) >= d * fmin(unit_at(values, x), unit_at(values, y));
+        }
+        if (room) {
+            fail_msg("there is room at %g %g for d = %g", x[0], x[1], d);
+        }
+    }
+    return d;
+}
+
+static void maximal_sets_follow_a_density(void **state)
+{
+    (void)state;
+    koksma_points p = with_density("poisson-disk-maximal", steps, 300, 1, 0);
+    check_maximal(&p, steps);
+    koksma_points_fini(&p);
+    p = with_density("poisson-disk-maximal", even, 300, 2, 0);
+    /* saturated random sequential addition of disks covers 0.547 of the plane (Feder 1980) */
+    assert_near(check_maximal(&p, even), sqrt(4 * 0.547 / M_PI / 300), 0.002);
+    koksma_points_fini(&p);
+}
+
+static koksma_status try_density(const char *text, size_t n, koksma_points *p)
+{
+    const koksma_spec spec = spec_of(text);
+    koksma_image map = map_of(even);
+    assert_ok(koksma_points_init(p, n, 2));
+    const koksma_status status = koksma_generate_density(&spec, 4, &map, NULL, p);
+    koksma_image_fini(&map);
+    return status;
+}
+
+/* By distance the set has as many points as the message says, and keeps the distance. */
+static void maximal_sets_keep_a_given_distance(void **state)
+{
+    (void)state;
+    koksma_points p;
+    assert_int_equal(try_density("poisson-disk-maximal:d=0.05", 200, &p), KOKSMA_N);
+    const char *said = strstr(koksma_error_text(), "with this seed has ");
+    assert_non_null(said);
+    const size_t n = strtoul(said + strlen("with this seed has "), NULL, 10);
+    koksma_points_fini(&p);
+    assert_ok(try_density("poisson-disk-maximal:d=0.05", n, &p));
+    assert_true(check_maximal(&p, even) >= 0.05);
+    koksma_points_fini(&p);
+    assert_int_equal(try_density("poisson-disk-maximal:d=0.01", 10, &p), KOKSMA_N);
+    assert_non_null(strstr(koksma_error_text(), "a larger d, or no d, would do"));
+    koksma_points_fini(&p);
+}
+
+/* n times the mean of |F - E F|^2 over frequencies |a|, |b| <= 3, F the mean of exp(2 pi i (a x + b y)) over the points
+   and E F that over the density: 1 - |E F|^2 on average for independent points. */
+static double deviation(const koksma_points *p, const float *values)
+{
+    double sum = 0;
+    for (int a = -3; a <= 3; a++) {
+        for (int b = -3; b <= 3; b++) {
+            double complex found = 0, wanted = 0;
+            for (size_t i = 0; i < p->n; i++) {
+                found += cexp(2 * M_PI * I * (a * p->xs[2 * i] + b * p->xs[2 * i + 1])) / (double)p->n;
+            }
+            for (int pixel = 0; pixel < SIDE * SIDE; pixel++) {
+                const double x = (pixel % SIDE + 0.5) / SIDE, y = ((double)(pixel / SIDE) + 0.5) / SIDE;
+                const double u = M_PI * a / SIDE, v = M_PI * b / SIDE;
+                const double box = (a ? sin(u) / u : 1) * (b ? sin(v) / v : 1);
+                wanted += (double)values[pixel] / sum_of(values) * box * cexp(2 * M_PI * I * (a * x + b * y));
+            }
+            sum += (double)p->n * pow(cabs(found - wanted), 2) / 48;
+        }
+    }
+    return sum;
+}
+
+/* Low frequencies of the points are those of the density. */
+static void gaussian_sets_follow_a_density(void **state)
+{
+    (void)state;
+    koksma_points p = with_density("gaussian-blue-noise", steps, 256, 1, 0);
+    koksma_points white = with_density("random", steps, 256, 1, 0);
+    assert_true(deviation(&white, steps) > 0.4 && deviation(&white, steps) < 2);
+    assert_true(deviation(&p, steps) < 0.02);
+    for (size_t i = 0; i < p.n; i++) {
+        assert_true(isfinite(unit_at(steps, p.xs + 2 * i)));
+    }
+    koksma_points_fini(&white);
+    koksma_points_fini(&p);
+}
+
+/* An even density gives sets like those of the pattern: hardly any power at frequencies below 0.5 sqrt n, and no two
+   points closer than half the distance of the densest packing. */
+static void gaussian_sets_of_an_even_density_are_even(void **state)
+{
+    (void)state;
+    koksma_points p = with_density("gaussian-blue-noise", even, 144, 3, 0);
+    assert_true(deviation(&p, even) < 1e-3);
+    for (size_t i = 0; i < p.n; i++) {
+        for (size_t j = 0; j < i; j++) {
+            assert_true(distance_of(p.xs + 2 * i, p.xs + 2 * j, 2, true) > 0.5 * sqrt(2 / (sqrt(3) * 144)));
+        }
+    }
+    koksma_points_fini(&p);
+}
+
+/* One, two and five points: every image on the torus acts. */
+static void few_points_work(void **state)
+{
+    (void)state;
+    static const char *const specs[] = {"gaussian-blue-noise", "poisson-disk-maximal"};
+    for (size_t s = 0; s < 2; s++) {
+        for (size_t n = 1; n <= 5; n++) {
+            koksma_points p = with_density(specs[s], steps, n, n, 0);
+            for (size_t i = 0; i < 2 * n; i++) {
+                assert_true(p.xs[i] >= 0 && p.xs[i] < 1);
+            }
+            koksma_points_fini(&p);
+        }
+    }
+    koksma_points p = with_density("gaussian-blue-noise", even, 2, 1, 0); /* opposite each other */
+    assert_near(distance_of(p.xs, p.xs + 2, 2, true), sqrt(0.5), 1e-3);
+    koksma_points_fini(&p);
+}
+
+static void threads_have_no_effect(void **state)
+{
+    (void)state;
+    koksma_points a = with_density("gaussian-blue-noise:steps=20", steps, 200, 1, 1);
+    koksma_points b = with_density("gaussian-blue-noise:steps=20", steps, 200, 1, 3);
+    assert_memory_equal(a.xs, b.xs, 400 * sizeof *a.xs);
+    koksma_points_fini(&a);
+    koksma_points_fini(&b);
+}
+
+/* ---- Models ---------------------------------------------------------------------------------------------- */
+
+/* A unit sphere of triangles, an octahedron whose faces are quartered and pushed out, and beside it a flat square of
+   side 2, whose border is open. */
+enum { LEVELS = 3, FACES = 8 << (2 * LEVELS), SQUARE_FACES = 2 };
+
+static double corners[FACES + SQUARE_FACES][3][3];
+static char model[64];
+
+static void quarter_face(const double c[3][3], int level, size_t *n)
+{
+    if (level == LEVELS) {
+        memcpy(corners[(*n)++], c, sizeof corners[0]);
+        return;
+    }
+    double middle[3][3];
+    for (int i = 0; i < 3; i++) {
+        double square = 0;
+        for (int k = 0; k < 3; k++) {
+            middle[i][k] = c[i][k] + c[(i + 1) % 3][k];
+            square += middle[i][k] * middle[i][k];
+        }
+        for (int k = 0; k < 3; k++) {
+            middle[i][k] /= sqrt(square);
+        }
+    }
+    for (int i = 0; i < 4; i++) {
+        double q[3][3];
+        memcpy(q[0], i < 3 ? c[i] : middle[0], sizeof q[0]);
+        memcpy(q[1], i < 3 ? middle[i] : middle[1], sizeof q[0]);
+        memcpy(q[2], i < 3 ? middle[(i + 2) % 3] : middle[2], sizeof q[0]);
+        quarter_face((const double(*)[3])q, level + 1, n);
+    }
+}
+
+static int write_model(void **state)
+{
+    (void)state;
+    size_t n = 0;
+    for (int octant = 0; octant < 8; octant++) {
+        const double x = octant & 1 ? -1 : 1, y = octant & 2 ? -1 : 1, z = octant & 4 ? -1 : 1;
+        const double c[3][3] = {{x, 0, 0}, {0, y, 0}, {0, 0, z}};
+        quarter_face(c, 0, &n);
+    }
+    const double square[4][3] = {{3, -1, 0}, {5, -1, 0}, {5, 1, 0}, {3, 1, 0}};
+    for (int c = 0; c < 3; c++) {
+        memcpy(corners[n][c], square[c], sizeof square[c]);
+        memcpy(corners[n + 1][c], square[(c + 2) % 4], sizeof square[c]);
+    }
+    snprintf(model, sizeof model, "/tmp/koksma-blue-XXXXXX");
+    assert_non_null(mkdtemp(model));
+    strcat(model, "/model.obj");
+    FILE *f = fopen(model, "w");
+    assert_non_null(f);
+    for (size_t i = 0; i < FACES + SQUARE_FACES; i++) {
+        for (int c = 0; c < 3; c++) {
+            fprintf(f, "v %.9g %.9g %.9g\n", corners[i][c][0], corners[i][c][1], corners[i][c][2]);
+        }
+        fprintf(f, "f %zu %zu %zu\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+    }
+    return fclose(f);
+}
+
+static int remove_model(void **state)
+{
+    (void)state;
+    remove(model);
+    *strrchr(model, '/') = '\0';
+    return rmdir(model);
+}
+
+static koksma_points on_model(const char *text, size_t n, uint64_t seed)
+{
+    const koksma_spec spec = spec_of(text);
+    koksma_points p;
+    assert_ok(koksma_points_init(&p, n, 7));
+    assert_ok(koksma_generate_on(&spec, seed, model, NULL, &p));
+    return p;
+}
+
+static double area_of(size_t face)
+{
+    double e[2][3], square = 0;
+    for (int k = 0; k < 3; k++) {
+        e[0][k] = corners[face][1][k] - corners[face][0][k];
+        e[1][k] = corners[face][2][k] - corners[face][0][k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int u = (k + 1) % 3, v = (k + 2) % 3;
+        square += pow(e[0][u] * e[1][v] - e[0][v] * e[1][u], 2);
+    }
+    return sqrt(square) / 2;
+}
+
+static const double square_area = 4;
+
+static double total_area(void)
+{
+    double sum = 0;
+    for (size_t face = 0; face < FACES + SQUARE_FACES; face++) {
+        sum += area_of(face);
+    }
+    return sum;
+}
+
+/* Chi-squared of the counts in the eight octants of the sphere, and in 3 x 3 parts of the square. Points lie on the
+   triangles that they name. */
+static double chi_squared(const koksma_points *p)
+{
+    double counts[17] = {0}, squared = 0;
+    const double total = total_area(), octant = (total - square_area) / 8;
+    for (size_t i = 0; i < p->n; i++) {
+        const double *x = p->xs + 7 * i;
+        const size_t face = (size_t)x[6];
+        double off = 0;
+        assert_true(face < FACES + SQUARE_FACES);
+        for (int k = 0; k < 3; k++) {
+            off += x[3 + k] * (x[k] - corners[face][0][k]);
+        }
+        assert_near(off, 0, 1e-6);
+        if (face < FACES) {
+            counts[(x[0] < 0) + 2 * (x[1] < 0) + 4 * (x[2] < 0)]++;
+        } else {
+            assert_true(x[0] >= 3 && x[0] <= 5 && x[1] >= -1 && x[1] <= 1);
+            counts[8 + (int)fmin((x[0] - 3) * 1.5, 2) + 3 * (int)fmin((x[1] + 1) * 1.5, 2)]++;
+        }
+    }
+    for (int b = 0; b < 17; b++) {
+        const double expected = (double)p->n * (b < 8 ? octant : square_area / 9) / total;
+        squared += (counts[b] - expected) * (counts[b] - expected) / expected;
+    }
+    return squared;
+}
+
+/* Independent points have 16 on average, and less than 3.9 in one case of 1,000. */
+static void models_are_covered_evenly(void **state)
+{
+    (void)state;
+    koksma_points p = on_model("gaussian-blue-noise", 400, 1);
+    assert_true(chi_squared(&p) < 3.9);
+    for (size_t i = 0; i < p.n; i++) {
+        for (size_t j = 0; j < i; j++) {
+            const double closest = sqrt(2 * total_area() / (sqrt(3) * (double)p.n));
+            assert_true(distance_of(p.xs + 7 * i, p.xs + 7 * j, 3, false) > 0.45 * closest);
+        }
+    }
+    koksma_points_fini(&p);
+    p = on_model("poisson-disk-maximal", 1000, 1);
+    assert_true(chi_squared(&p) < 39); /* its quantile of 0.999 for independent points */
+    koksma_points_fini(&p);
+}
+
+static void maximal_sets_cover_models(void **state)
+{
+    (void)state;
+    koksma_points p = on_model("poisson-disk-maximal", 500, 2);
+    double d = INFINITY;
+    for (size_t i = 0; i < p.n; i++) {
+        for (size_t j = 0; j < i; j++) {
+            d = fmin(d, distance_of(p.xs + 7 * i, p.xs + 7 * j, 3, false));
+        }
+    }
+    uint64_t random = 7;
+    for (int t = 0; t < 20000; t++) {
+        double x[3], nearest = INFINITY, u = uniform(&random), v = uniform(&random);
+        const size_t face = t % 3 ? (size_t)(uniform(&random) * FACES) : FACES + (size_t)(t % 2);
+        for (int k = 0; k < 3; k++) {
+            const double *c[3] = {corners[face][0], corners[face][1], corners[face][2]};
+            x[k] = c[0][k] + (u + v > 1 ? 1 - u : u) * (c[1][k] - c[0][k]) +
+                   (u + v > 1 ? 1 - v : v) * (c[2][k] - c[0][k]);
+        }
+        for (size_t i = 0; i < p.n; i++) {
+            nearest = fmin(nearest, distance_of(x, p.xs + 7 * i, 3, false));
+        }
+        assert_true(nearest < d * (1 + 1e-6));
+    }
+    koksma_points_fini(&p);
+}
+
+static bool stop(void *context, double fraction)
+{
+    (void)context;
+    (void)fraction;
+    return false;
+}
+
+static void calls_can_be_stopped(void **state)
+{
+    (void)state;
+    static const char *const specs[] = {"gaussian-blue-noise", "poisson-disk-maximal"};
+    koksma_points p;
+    assert_ok(koksma_points_init(&p, 500, 3));
+    for (size_t s = 0; s < 2; s++) {
+        const koksma_spec spec = spec_of(specs[s]);
+        assert_int_equal(koksma_generate_on(&spec, 0, model, &(koksma_run){.keep_going = stop}, &p),
+                         KOKSMA_INTERRUPTED);
+    }
+    koksma_points_fini(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(maximal_sets_follow_a_density),
+        cmocka_unit_test(maximal_sets_keep_a_given_distance),
+        cmocka_unit_test(gaussian_sets_follow_a_density),
+        cmocka_unit_test(gaussian_sets_of_an_even_density_are_even),
+        cmocka_unit_test(few_points_work),
+        cmocka_unit_test(threads_have_no_effect),
+        cmocka_unit_test(models_are_covered_evenly),
+        cmocka_unit_test(maximal_sets_cover_models),
+        cmocka_unit_test(calls_can_be_stopped),
+    };
+    return cmocka_run_group_tests(tests, write_model, remove_model);
+}
