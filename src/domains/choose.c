@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The patterns that have a form on a domain, in the table at the end. All of them choose among candidates that are
- * independent and have the wanted density:
+ * The patterns that can place points on a domain, listed in the table at the end of this file. Each chooses its
+ * points among independent candidates that have the wanted density:
  *
  *   random                 the first n candidates
  *   elimination            n of factor * n candidates by patterns/shared/elimination.c, with d_max of n points in the
@@ -9,8 +9,8 @@
  *   poisson-disk           candidates in turn, those too near to a kept one are rejected. A grid of cells, about one a
  *                          point, finds the kept ones near a candidate. After 20,000 rejections in a row it fails
  *
- * The distance of a pair is in units of the smaller of both units of distance: a candidate looks as far as its own
- * unit reaches.
+ * The unit of distance varies with the density. The distance of two candidates is measured in the smaller one of
+ * their two units, so that each candidate needs to search only as far as its own unit reaches.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ enum { REJECTIONS = 20000, LOOK_EVERY = 1 << 14 };
 
 #define NONE UINT32_MAX
 
-/* What a method chooses for. */
+/* The arguments of a method's choice. */
 typedef struct choice {
     const koksma__point_domain *domain;
     const koksma_pattern *pattern;
@@ -49,7 +49,7 @@ size_t koksma__domain_find(const double *sums, size_t count, double at)
             low = middle + 1;
         }
     }
-    /* where `at` was rounded up to the total: the last entry that is not empty */
+    /* if rounding has made `at` equal to the total, return the last entry whose share is above 0 */
     while (low > 0 && sums[low] <= sums[low - 1]) {
         low--;
     }
@@ -66,14 +66,14 @@ static koksma_status choose_first(const choice *c)
 
 /* ---- Elimination ----------------------------------------------------------------------------------------- */
 
-/* The candidates that are left, and a copy of them that elimination reads. */
+/* The candidates not eliminated yet, and a copy of them that elimination reads. */
 typedef struct candidates {
     double *xs, *units, *old_xs, *old_units;
     uint64_t *who, *old_who;
     uint32_t *order;
 } candidates;
 
-/* Keeps `keep` of `count` candidates, which come first then. */
+/* Keeps `keep` of `count` candidates and moves them to the front. */
 static koksma_status eliminate(const choice *c, candidates *a, size_t count, size_t keep, double d_max, double d_min)
 {
     const size_t dim = (size_t)c->domain->dim;
@@ -147,7 +147,7 @@ typedef struct darts {
     uint32_t side;
 } darts;
 
-/* Whether a kept point in the cells from the axis k on is too near to x. */
+/* Whether a kept point is too near to x; recursive: searches the neighbouring cells along the axes k, k + 1, ... */
 static bool is_near(const darts *a, int k, size_t row, const double *x, double unit)
 {
     const size_t dim = (size_t)a->domain->dim;
@@ -235,7 +235,8 @@ static koksma_status choose_darts(const choice *c)
 
 /* ---- The table ------------------------------------------------------------------------------------------- */
 
-/* Patterns with a form on domains. A method reads the pattern's parameters by their order in its table. */
+/* The patterns that can place points on a domain. A method reads the pattern's parameters by their order in its
+   table. */
 static const struct {
     const char *pattern;
     koksma_status (*choose)(const choice *c);
@@ -251,7 +252,7 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
 {
     const koksma_pattern *p = spec->pattern;
     p = p && p->alias_of ? koksma_pattern_find(p->alias_of) : p;
-    KOKSMA__FAIL_IF(!p, KOKSMA_ARGUMENT, "the spec is not that of a pattern");
+    KOKSMA__FAIL_IF(!p, KOKSMA_ARGUMENT, "the spec does not name a pattern");
     KOKSMA__TRY(koksma__generate_check(spec, p, 2));
     for (size_t i = 0; i < KOKSMA_MAX_MODIFIERS; i++) {
         const koksma_modifier *modifier = koksma_modifier_at(i);

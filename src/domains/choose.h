@@ -9,11 +9,12 @@
 typedef struct koksma__point_domain {
     const char *what;   /* for messages: "with a density" */
     int dim;            /* coordinates of a candidate, which are in [0,1) */
-    bool torus, varies; /* varies: the density does, and draw() sets the unit of distance */
-    double area;        /* of the domain, for candidates' coordinates */
-    double unit;        /* length 1 of the parameter d in candidates' coordinates */
+    bool torus, varies; /* varies: the density varies, and draw() sets the unit of distance */
+    double area;        /* area of the domain in the candidates' coordinates */
+    double unit;        /* the length, in candidates' coordinates, that d = 1 means */
     const void *data;   /* of draw */
-    /* Makes candidate i: its position, and the unit of distance there (1 in the mean of the density). */
+    /* Makes candidate i: its position, and the unit of distance there, which is 1 where the density equals its
+       mean. */
     void (*draw)(const void *data, uint64_t seed, uint64_t i, double *x, double *unit);
 } koksma__point_domain;
 
@@ -22,7 +23,8 @@ typedef struct koksma__point_domain {
 koksma_status koksma__domain_choose(const koksma__point_domain *domain, const koksma_spec *spec, uint64_t seed,
                                     size_t n, const koksma_run *run, uint64_t *chosen);
 
-/* The index of the first of `count` ascending sums that is above `at`; the last index whose sum rises if none is. */
+/* The index of the first of `count` ascending sums that is above `at`. If none is, the last index whose sum is above
+   the one before it. */
 size_t koksma__domain_find(const double *sums, size_t count, double at);
 
 #endif
