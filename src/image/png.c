@@ -3,10 +3,11 @@
  * PNG by libpng, 1 to 16 bits. Levels are read as sRGB, whose curve (IEC 61966-2-1) is applied here in double
  * precision:
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
- * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
- * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is read as sRGB, because writers of sRGB
- * files often store it. Transparency does not change the colours, so that albedos and comparisons use each pixel's
- * colour; read_alpha reads the transparency alone. Files are written as sRGB with 8 bits.
+ * unless the file has a gAMA chunk with the value g and has neither of the chunks sRGB and iCCP, which override gAMA
+ * (PNG, 3rd edition, section 13.13): then linear = s^(1/g). A value g within 5 % of 1/2.2 is read as sRGB, because
+ * writers of sRGB files often store that value. Transparency is not applied to the colours, so that albedos and
+ * comparisons use the stored colour of each pixel; read_alpha reads only the transparency. Files are written as sRGB
+ * with 8 bits.
  */
 #ifdef KOKSMA_PNG
 #include <math.h>
@@ -106,8 +107,8 @@ static double power_of(png_const_structp png, png_const_infop info)
     return 1e5 / gamma;
 }
 
-/* Reads the header, and asks libpng for grey or red, green and blue of 8 or 16 bits. It may longjmp, and so owns
-   nothing that needs releasing. */
+/* Reads the header, and asks libpng for grey or red, green and blue of 8 or 16 bits. This function may be left by
+   longjmp, and so owns nothing that needs releasing. */
 static bool get_head(png_structp png, png_infop info, head *h)
 {
     /* text chunks are skipped, as they may be huge once unpacked */
@@ -193,7 +194,7 @@ static koksma_status read_image(png_structp png, png_infop info, const stream *s
     if (alpha && h.channels % 2) {
         return KOKSMA_OK;
     }
-    /* deflate packs at most 1032 bytes into one, and a pixel has at least 1 bit */
+    /* deflate compresses by a factor of at most 1032, and a pixel has at least 1 bit */
     KOKSMA__TRY(koksma__image_claim(h.width, h.height, alpha ? 1 : h.channels, size, 8 * 1032, out));
     const size_t count = (size_t)h.width * h.height * (size_t)h.channels;
     unsigned char *levels = calloc(count, (size_t)h.level_bytes);
@@ -323,7 +324,8 @@ const koksma__image_format koksma__format_png = {
     .read = read,
     .read_alpha = read_alpha,
     .write = write,
-    .error = 0.5 / 255 * 2.4 / 1.055, /* error of half a level at 1, where the sRGB curve is steepest */
+    .error = 0.5 / 255 * 2.4 / 1.055, /* an error of half a level of 255 at the value 1, where the sRGB curve is
+                                         steepest */
 };
 #else
 
