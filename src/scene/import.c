@@ -65,7 +65,7 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
         }
     }
     if (scene->n_unknown == MOST_UNKNOWN) {
-        scene->unknown[MOST_UNKNOWN - 1].n++; /* the list is full: count this in the last entry */
+        scene->unknown[MOST_UNKNOWN - 1].n++; /* the list is full: count this warning in the last entry */
         return KOKSMA_OK;
     }
     koksma__unknown *to = koksma__add_one(&scene->unknown, &scene->n_unknown, sizeof *to);
@@ -233,8 +233,9 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     return KOKSMA_OK;
 }
 
-/* Sets a Phong lobe with a dielectric's reflectance along the normal over a Lambert surface with the rest of the
-   light. With an image as the colour, only the Lambert surface is set. */
+/* Replaces a coated material by a Phong lobe, which has a dielectric's reflectance along the normal, over a Lambert
+   surface, which reflects part of the remaining light. With an image as the colour, only the Lambert surface is
+   set. */
 static koksma_status set_coated(koksma__import *im, koksma__text_place place, const koksma__import_material *from,
                                 koksma__material *m)
 {
@@ -310,7 +311,7 @@ koksma_status koksma__import_light(koksma__import *im, koksma__text_place place,
         if (im->scene->lights[i].kind == light->kind) {
             koksma_image_fini(light->image);
             free(light->image);
-            return koksma__import_unknown(im, place, "a second environment: it is left out");
+            return koksma__import_unknown(im, place, "the scene has a second environment, which is left out");
         }
     }
     const koksma_status status = koksma__scene_add_light(im->scene, &to);
@@ -324,8 +325,8 @@ koksma_status koksma__import_light(koksma__import *im, koksma__text_place place,
     return KOKSMA_OK;
 }
 
-/* The point of the octahedral map, a square [0, 1]^2 with equal areas, for a direction (Clarberg 2008); the pole
-   is z. */
+/* The point in the square [0, 1]^2 of a direction in the equal-area octahedral map (Clarberg 2008), whose pole is
+   z. */
 static void octahedral_square(const double w[3], double uv[2])
 {
     const double x = fabs(w[0]), y = fabs(w[1]), z = fabs(w[2]), r = sqrt(fmax(0, 1 - z));
@@ -350,8 +351,8 @@ static void latitude_square(const double w[3], double uv[2])
     uv[1] = acos(fmin(fmax(w[1], -1), 1)) / M_PI;
 }
 
-/* Resamples an environment to a latitude-longitude image with Koksma's axes; each new pixel is the mean of the
-   nearest old pixels of four points. */
+/* Resamples an environment to a latitude-longitude image with Koksma's axes; each new pixel is the mean of the old
+   image at four points, each taken from the nearest old pixel. */
 static koksma_status turn_image(const koksma_image *from, bool octahedral, const double inverse[12],
                                 koksma_image *out)
 {
@@ -393,7 +394,7 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
     if (image && !koksma__import_invert(matrix, inverse)) {
         koksma_image_fini(image);
         free(image);
-        return koksma__import_fail(place, "an environment is flattened by a matrix without an inverse");
+        return koksma__import_fail(place, "the matrix of an environment has no inverse");
     }
     if (image && (size_t)image->width * (size_t)image->height > (size_t)1 << 26) {
         koksma_image_fini(image);
@@ -422,13 +423,14 @@ koksma_status koksma__import_spot(koksma__import *im, koksma__text_place place, 
         return koksma__import_fail(place, "a spot without a direction");
     }
     if (!(outer_deg > 0 && outer_deg <= 90)) {
-        return koksma__import_fail(place, "a spot's cone takes an angle above 0 and up to 90 degrees");
+        return koksma__import_fail(place, "the angle of a spot's cone must be above 0 and at most 90 degrees");
     }
     inner_deg = fmin(fmax(inner_deg, 0), outer_deg);
     light->values[0] = outer_deg; /* angle_deg and edge */
     light->values[1] = 1 - inner_deg / outer_deg;
     return inner_deg < outer_deg
-               ? koksma__import_unknown(im, place, "a spot's edge falls off by a square in the cosine here")
+               ? koksma__import_unknown(im, place,
+                                        "a spot's fall-off is replaced by the square of a linear ramp in the cosine")
                : KOKSMA_OK;
 }
 

@@ -19,9 +19,9 @@ typedef struct koksma__text_place {
 typedef struct koksma__import {
     koksma_scene *scene;
     const char *path;                  /* path of the scene's own file */
-    bool rows_down;                    /* texture coordinate 0 is an image's upper edge */
-    size_t n_files;                    /* number of texts that were read */
-    char folders[8][KOKSMA__MAX_PATH]; /* where files are sought that are not beside the scene */
+    bool rows_down;                    /* whether the second texture coordinate is 0 at an image's upper edge */
+    size_t n_files;                    /* number of included files that were read */
+    char folders[8][KOKSMA__MAX_PATH]; /* folders in which files are sought that are not beside the scene */
     size_t n_folders;
     struct koksma__known_mesh *known;
     int *twins; /* for each mesh: the mesh with the same triangles turned inside out, or -1 */
@@ -47,7 +47,7 @@ typedef struct koksma__import_material {
 /* The material and emission of a shape. */
 typedef struct koksma__import_surface {
     int material;       /* -1: no surface, light passes through */
-    bool emits, turned; /* turned: fronts and backs are swapped */
+    bool emits, turned; /* turned: the front and back sides are swapped */
     double radiance[3];
 } koksma__import_surface;
 
@@ -78,13 +78,13 @@ extern const double koksma__import_identity[12];
 koksma_status koksma__import_fail(koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(2, 3);
 koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status status);
 
-/* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...". Equal texts give one warning
-   with the number of places. Errors: MEMORY. */
+/* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...". Warnings with equal texts become
+   one, with the number of places. Errors: MEMORY. */
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
     KOKSMA_PRINTF(3, 4);
 
-/* Reads a text that the scene includes. It must be below the scene's folder, and a scene has at most
-   MOST_INCLUDES of them. The caller frees *bytes. */
+/* Reads a file that the scene includes. The file must be below the scene's folder, and a scene can include at most
+   MOST_INCLUDES files. The caller frees *bytes. */
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size);
 
@@ -114,7 +114,8 @@ koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place
 koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light);
 
 /* Makes a light a spot with its axis along `direction` and full intensity up to `inner_deg`, which falls to 0 at
-   `outer_deg`: by a square in the cosine, of which it warns. Errors: MALFORMED (no direction or no cone), MEMORY. */
+   `outer_deg` by the square of a linear ramp in the cosine; a warning states that. Errors: MALFORMED (no direction or
+   no cone), MEMORY. */
 koksma_status koksma__import_spot(koksma__import *im, koksma__text_place place, const double direction[3],
                                   double inner_deg, double outer_deg, koksma__light *light);
 
@@ -124,8 +125,8 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
                                  const double scale[3], const double matrix[12]);
 
 /* Sets the camera. The columns of its matrix are the direction to the right (times `right`, 1 or -1), the
-   direction up (whose length scales an orthographic camera's height), the direction ahead and the position; the angle
-   or height and the lens are those of `lens`. */
+   direction up (whose length scales an orthographic camera's height), the direction ahead and the position; `lens`
+   gives the angle or height and the lens. */
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
                                     double right, const koksma__camera *lens);
 

@@ -5,8 +5,8 @@
 
 #include "scene/import.h"
 
-/* Add a mesh: the first takes over the memory of *mesh, the second reads a file, each file once. *out is -1 if
-   the mesh is left out with a warning. */
+/* Add a mesh: the first function takes over the memory of *mesh, the second reads a file, but each file only once.
+   *out is -1 if the mesh is left out with a warning. */
 koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out);
 koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name,
                                        bool with_normals, int *out);
