@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Opens mesh files with the reader for the ending of their name, and joins the contents of a file into one mesh: the
- * file's meshes one after the other, each transformed by its placement. A file with one mesh placed once at the
- * identity, as all but glTF and OBJ files are, becomes the result without a copy. The result has normals (or texture
- * coordinates) if all its parts have them.
+ * file's meshes one after the other, each transformed by its placement. If the file has one mesh that is placed once
+ * by the identity matrix (always so for PLY and OFF), that mesh becomes the result without a copy. The result has
+ * normals (or texture coordinates) if all its parts have them.
  */
 #include "meshes/mesh_read.h"
 
@@ -57,8 +57,8 @@ static koksma_status check_start(const unsigned char *bytes, size_t size)
     return binary ? KOKSMA_OK : koksma__check_text(bytes, size);
 }
 
-/* Reads the file. hashed: also computes out->hash, which takes as long as reading a binary file; otherwise out->hash
-   is not set. */
+/* Reads the file. If `hashed`, also computes out->hash, which takes as long as reading a binary file; otherwise
+   out->hash is not set. */
 static koksma_status read_meshes(const char *path, koksma__named by, bool hashed, koksma__mesh_file *out)
 {
     unsigned char *bytes = NULL;
@@ -109,7 +109,7 @@ static void append_vertices(const koksma__mesh *from, const double matrix[12], k
     }
 }
 
-/* Appends a mesh after the vertices and triangles of out, which has the capacity. */
+/* Appends a mesh after the vertices and triangles of out, which has capacity for it. */
 static void append(const koksma__mesh *from, const double matrix[12], koksma__mesh *out)
 {
     const bool swapped = koksma__matrix_mirrors(matrix);

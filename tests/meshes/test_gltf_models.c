@@ -370,7 +370,7 @@ static void every_node_with_a_light_has_one(void **state)
     koksma_scene *scene;
     write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("1", "3"), .roots = "0, 1, 2", .material = plain});
     assert_int_equal(koksma_scene_open("lit.gltf", &scene), KOKSMA_MALFORMED);
-    assert_non_null(strstr(koksma_error_text(), "light is 1 of 1"));
+    assert_non_null(strstr(koksma_error_text(), "light 1 of 1 lights does not exist"));
     unlink("lit.gltf");
     unlink("my square.bin");
 }
