@@ -15,7 +15,7 @@
 /* The demand of a pixel for more samples. */
 typedef struct koksma__sample_demand {
     uint32_t now;   /* samples in the next round; 0: the pixel is done */
-    uint32_t later; /* number of samples in the last round that these samples make necessary */
+    uint32_t later; /* number of samples that the last round will need because of these samples */
     float score;    /* priority of the pixel; under a budget the highest scores are selected first */
     bool selected;  /* true: the next round draws samples of this pixel */
 } koksma__sample_demand;
@@ -25,8 +25,8 @@ typedef struct koksma__adaptive koksma__adaptive;
 /* An adaptive method. Any thread may call the functions that take a pixel, but only one thread at a time for each
    pixel. */
 typedef struct koksma__adaptive_method {
-    bool fresh; /* sets are drawn independently, even from patterns that could be continued */
-    bool pilot; /* the samples of the first sets only determine the demands */
+    bool fresh; /* whether sets are drawn independently, even from patterns that could be continued */
+    bool pilot; /* whether the samples of the first sets only determine the demands and are not averaged */
     /* Allocates the state and sets the demands of the first round, which selects all pixels. */
     koksma_status (*open)(koksma__adaptive *run);
     void (*close)(koksma__adaptive *run);
@@ -60,7 +60,7 @@ struct koksma__adaptive {
     const koksma_adaptive_options *options;
     const koksma__adaptive_method *method;
     size_t pixels, scratch;
-    uint64_t budget, spent; /* both count samples; budget UINT64_MAX: no budget */
+    uint64_t budget, spent; /* numbers of samples; a budget of UINT64_MAX means no budget */
     koksma__sampler base;   /* the sampler that draws sets of the pattern */
     koksma__sample_demand *demands;
     uint32_t *taken; /* number of samples of each pixel so far */
@@ -85,7 +85,7 @@ typedef struct koksma__pixel_sets {
     double sum[3];  /* weighted sum of the samples in each channel */
     double half[3]; /* unweighted sum over the sets 0, 2, 4, … */
     double all[3];
-    double sum_y, sum_yy;   /* sums of the luminances of samples and of their squares */
+    double sum_y, sum_yy;   /* sums of the samples' luminances and of the squares of these */
     double sum_mean_square; /* sum of the squared mean luminances of the sets */
     double sum_w3;          /* sum of the cubed weights */
     double moments[3][3];   /* element [j][k] is the sum over the samples of weight^j luminance^k */
@@ -113,8 +113,8 @@ size_t koksma__set_size(const koksma__adaptive *run);
 void koksma__sets_demand(const koksma__adaptive *run, size_t pixel, double sets, double score,
                          koksma__sample_demand *demand);
 
-/* Return the mean luminance of the samples, and the variance of the luminance of a sample as if the samples were
-   independent. */
+/* Return the mean luminance of the samples, and the variance of one sample's luminance, computed as if the samples
+   were independent. */
 double koksma__sets_mean(const koksma__adaptive *run, const koksma__pixel_sets *p);
 double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_sets *p);
 
