@@ -390,13 +390,13 @@ static void texts_that_are_wrong_say_so(void **state)
         {"random;", KOKSMA_UNKNOWN, "no pattern 'random;'"},
         {"random;jittered", KOKSMA_UNKNOWN, "no pattern 'random;jittered'"},
         {"pixel+time+pixel=random", KOKSMA_ARGUMENT, "use pixel occurs twice; a group takes each use once"},
-        {"pixel+time=random;time+lens=random", KOKSMA_ARGUMENT, "use time has a pattern already"},
-        {"pixel=random;pixel+lens=random", KOKSMA_ARGUMENT, "use pixel has a pattern already"},
-        {"pixel+lens=random;lens=random", KOKSMA_ARGUMENT, "use lens has a pattern already"},
-        {"pixel=random;pixel=jittered", KOKSMA_ARGUMENT, "it takes one, alone or in one group"},
+        {"pixel+time=random;time+lens=random", KOKSMA_ARGUMENT, "use time already has a pattern"},
+        {"pixel=random;pixel+lens=random", KOKSMA_ARGUMENT, "use pixel already has a pattern"},
+        {"pixel+lens=random;lens=random", KOKSMA_ARGUMENT, "use lens already has a pattern"},
+        {"pixel=random;pixel=jittered", KOKSMA_ARGUMENT, "a use takes one, alone or in one group"},
         {"pixel+lens=scan-time", KOKSMA_DIM,
-         "these uses have 4 dimensions together (pixel 2, lens 2), the pattern has 3"},
-        {"pixel+time=pmj02", KOKSMA_DIM, "have 3 dimensions together (pixel 2, time 1), the pattern has 2"},
+         "these uses have 4 dimensions together (pixel 2, lens 2), but the pattern has 3"},
+        {"pixel+time=pmj02", KOKSMA_DIM, "have 3 dimensions together (pixel 2, time 1), but the pattern has 2"},
         {"pixel=scan-time", KOKSMA_DIM, "such as pixel+time=PATTERN"},
     };
     koksma_render_options options = options_for("jittered", N);
@@ -445,7 +445,7 @@ static void groups_that_cannot_be_are_refused(void **state)
         assert_ok(koksma_adaptive_parse(k ? "selective" : "hierarchical", &adaptive));
         adaptive.budget = 64;
         assert_int_equal(koksma_render_adaptive(scene, &good, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
-        assert_non_null(strstr(koksma_error_text(), "without a pattern for pixel+time"));
+        assert_non_null(strstr(koksma_error_text(), "takes no pattern for pixel+time"));
     }
     assert_ok(koksma_adaptive_parse("two-stage", &adaptive));
     adaptive.budget = 128;

@@ -65,7 +65,7 @@ static void add_failures(koksma__failures *all, const koksma__failures *more)
     all->n += more->n;
 }
 
-/* If `before` is not OK, only counts the jobs. */
+/* If `before` is not OK, the jobs are only counted. */
 koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
                                koksma_study_summary *summary, koksma__failures *failures)
 {
@@ -147,8 +147,8 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
         status = status == KOKSMA_OK || koksma__run_control_time_is_up(&control) ? recorded : status;
     }
     if (all && !status && failures.n) {
-        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs can't be done, and all others are: %s", failures.n,
-                              summary->jobs, failures.text);
+        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs can't be done (first: %s); all others are done",
+                              failures.n, summary->jobs, failures.text);
     }
     return status;
 }
