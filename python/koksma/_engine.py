@@ -80,7 +80,7 @@ class Engine(_Base):
                 raise ArgumentError(f"{optimization!r} is not a valid optimization method: it takes a measure, "
                                     f"{' or '.join(_SCIPYS)}")
             if spec("measure", self._measure).measure.contents.answer != 0:
-                raise ArgumentError(f"optimization {optimization!r}: it takes a measure with exact values, as star is")
+                raise ArgumentError(f"optimization {optimization!r}: it takes a measure with exact values, such as star or l2-star")
             self.optimization_method = self._optimised
         self._init_quad: Dict[str, Any] = {"pattern": pattern, "d": d, "optimization": optimization}  # for qmc_quad
         self.pattern = pattern

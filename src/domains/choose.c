@@ -38,7 +38,7 @@ size_t koksma__domain_find(const double *sums, size_t count, double at)
             low = middle + 1;
         }
     }
-    /* where `at` was rounded up to the total: the last entry that is not empty */
+    /* if rounding has made `at` equal to the total, return the last entry whose share is above 0 */
     while (low > 0 && sums[low] <= sums[low - 1]) {
         low--;
     }
@@ -55,14 +55,14 @@ static koksma_status choose_first(const choice *c)
 
 /* ---- Elimination ----------------------------------------------------------------------------------------- */
 
-/* The candidates that are left, and a copy of them that elimination reads. */
+/* The candidates not eliminated yet, and a copy of them that elimination reads. */
 typedef struct candidates {
     double *xs, *units, *old_xs, *old_units;
     uint64_t *who, *old_who;
     uint32_t *order;
 } candidates;
 
-/* Keeps `keep` of `count` candidates, which come first then. */
+/* Keeps `keep` of `count` candidates and moves them to the front. */
 static koksma_status eliminate(const choice *c, candidates *a, size_t count, size_t keep, double d_max, double d_min)
 {
     const size_t dim = (size_t)c->domain->dim;
@@ -171,7 +171,8 @@ static koksma_status choose_darts(const choice *c)
 
 /* ---- The table ------------------------------------------------------------------------------------------- */
 
-/* Patterns with a form on domains. A method reads the pattern's parameters by their order in its table. */
+/* The patterns that can place points on a domain. A method reads the pattern's parameters by their order in its
+   table. */
 static const struct {
     const char *pattern;
     koksma_status (*choose)(const choice *c);
@@ -189,7 +190,7 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
 {
     const koksma_pattern *p = spec->pattern;
     p = p && p->alias_of ? koksma_pattern_find(p->alias_of) : p;
-    KOKSMA__FAIL_IF(!p, KOKSMA_ARGUMENT, "the spec is not that of a pattern");
+    KOKSMA__FAIL_IF(!p, KOKSMA_ARGUMENT, "the spec does not name a pattern");
     KOKSMA__TRY(koksma__generate_check(spec, p, 2));
     for (size_t i = 0; i < KOKSMA_MAX_MODIFIERS; i++) {
         const koksma_modifier *modifier = koksma_modifier_at(i);

@@ -57,7 +57,8 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
 koksma_status koksma__choose_maximal(const koksma__choice *choice);
 koksma_status koksma__choose_gaussian(const koksma__choice *choice);
 
-/* The index of the first of `count` ascending sums that is above `at`; the last index whose sum rises if none is. */
+/* The index of the first of `count` ascending sums that is above `at`. If none is, the last index whose sum is above
+   the one before it. */
 size_t koksma__domain_find(const double *sums, size_t count, double at);
 
 #endif

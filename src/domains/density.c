@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * koksma_generate_density: points in the unit square whose density follows an image. A candidate is uniform in a pixel
- * that is drawn in proportion to its luminance, by bisection of the sums of all pixels before it. Where the luminance
- * is p times its mean, the unit of distance is 1 / sqrt p: n p points a unit of area have distances in proportion to
- * it.
+ * koksma_generate_density: points in the unit square whose density follows an image. A candidate is a uniform point
+ * in a pixel that is drawn with probability proportional to its luminance, by bisection in the running sums of the
+ * luminance. Where the luminance is p times its mean, there are n p points in a unit of area, whose distances are
+ * proportional to 1 / sqrt p: this is the unit of distance there.
  */
 #include <koksma/density.h>
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * koksma_generate_on: points on the triangles of a model, uniform in area. A candidate is uniform in a triangle that is
- * drawn in proportion to its area, by bisection of the sums of all areas before it; the warp `triangle` maps the unit
- * square to the triangle. Methods see positions in the smallest cube about the model, scaled to the unit cube.
+ * koksma_generate_on: points on the triangles of a model, uniform in area. A candidate is a uniform point in a
+ * triangle that is drawn with probability proportional to its area, by bisection in the running sums of the areas;
+ * the warp `triangle` maps the unit square to the triangle. The methods of choose.c get positions in the model's
+ * smallest bounding cube, scaled to the unit cube.
  */
 #include <koksma/density.h>
 #include <koksma/warp.h>
@@ -18,7 +19,7 @@
 
 typedef struct surface {
     koksma__mesh mesh;
-    double *sums; /* of the areas of all triangles up to this one */
+    double *sums; /* sum of the areas of all triangles up to this one */
     double side;  /* of the cube */
     const koksma_warp *warp;
 } surface;

@@ -1,26 +1,28 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The coherence of an error: the peak of its spectrum over the mean. Shirley 1991 (5.5.6): "it is the regularity of
- * the error, rather than its magnitude, that is objectionable"; Mitchell 1992 warns of the Moire patterns of the
- * Zaremba points. Noise has a flat or, dithered well, a rising spectrum (Ulichney 1987; Georgiev & Fajardo 2016;
- * Heitz & Belcour 2019 look at the spectra of rendering errors for that reason); bands and Moire have peaks. Fisher's
- * test of 1929 (coherence_law.c) decides whether a peak of a periodogram is significant, here over all frequencies of
- * an image and for the mean of several images.
+ * The coherence of an image's error: the peak of the error's power spectrum divided by the spectrum's mean. Shirley
+ * 1991 (5.5.6): "it is the regularity of the error, rather than its magnitude, that is objectionable"; Mitchell 1992
+ * warns of the Moire patterns of the Zaremba points. The spectrum of noise is flat, and rises with the frequency
+ * after good dithering (Ulichney 1987; Georgiev & Fajardo 2016; Heitz & Belcour 2019 study the spectra of rendering
+ * errors for that reason); bands and Moire patterns have peaks. Fisher's test of 1929 (coherence_law.c) decides
+ * whether a peak of a periodogram is significant; here it covers all frequencies of an image, and the mean over
+ * several images.
  *
- * Choices. - Single frequencies, no window and no smoothing. Errors sit on edges: they are noise times a size that
- * varies over the image. The power of such noise is still exponentially distributed at each frequency, but at
- * neighbouring frequencies it is correlated, so
- *   that sums over neighbours, and windows, have a distribution that depends on the scene. The price is that a
- *   wave half-way between two frequencies in both directions keeps (2/pi)^4 = 0.16 of its peak; the mean
- *   over all waves is 0.6.
+ * How the peak is made a fair test:
+ * - Single frequencies, no window and no smoothing. Errors occur at edges: they are noise whose size varies over the
+ *   image. The power of such noise is still exponentially distributed at each frequency, but neighbouring frequencies
+ *   are correlated, so that sums over neighbours, and windows, have a distribution that depends on the scene. The
+ *   price is that a wave half-way between two frequencies in both directions keeps (2/pi)^4 = 0.16 of its peak; the
+ *   mean over all waves is 0.6.
  * - Each image's power is divided by its own mean before the images are averaged, so that all images have the same
- * weight. - Blue noise is not coherent: P is divided by the power of its ring where that is above 1. The rings have
- * equal areas (16, or fewer so that each has 64 frequencies). The power of a ring is the mean of P in it, where a
- * peak counts no more than noise of the ring's power would have (in ROUNDS rounds), made nondecreasing in frequency
- * (isotonic regression: Ayer et al. 1955, pool adjacent violators). So a ring's power is normalised away only as far
- * as all finer rings have as much; coarse errors, which the eye sees best, are never normalised away. - - The share r
- * of the error that T images have in common: with z the errors over their standard deviations, |sum z|^2 / n = T + T
- * (T - 1) r.
+ *   weight.
+ * - Blue noise is not coherent: the power P of a frequency is divided by the power of its ring where that is above 1.
+ *   The rings have equal areas (16, or fewer so that each has 64 frequencies). The power of a ring is the mean of P in
+ *   it, where a peak counts no more than noise of the ring's power would have (in ROUNDS rounds), made nondecreasing
+ *   in frequency (isotonic regression: Ayer et al. 1955, pool adjacent violators). So the power of a ring is removed
+ *   only as far as all rings of higher frequency have as much; coarse errors, which the eye sees best, always remain.
+ * - The share r of the error that T images have in common follows from z, the errors divided by their standard
+ *   deviations and summed over the images: |sum z|^2 / n = T + T (T - 1) r.
  *
  * Sums are in index order. Errors whose deviation from their mean is below 1e-12 of the largest error count as 0,
  * because they are rounding.
@@ -137,7 +139,7 @@ static koksma_status standardise(const koksma_coherence *c, double *errors, bool
                         i / (size_t)c->width);
         largest = fmax(largest, fabs(errors[i]));
     }
-    const double scale = largest > 0 ? 1 / largest : 1; /* so that squares neither overflow nor underflow */
+    const double scale = largest > 0 ? 1 / largest : 1; /* scaled so that squares neither overflow nor underflow */
     for (size_t i = 0; i < n; i++) {
         errors[i] *= scale;
         koksma__sum_add(&sum, errors[i]);
@@ -256,8 +258,8 @@ static void count_frequencies(const koksma_coherence *c, rings *out)
     out->n = n < 1 ? 1 : n < MAX_RINGS ? n : MAX_RINGS;
 }
 
-/* The mean power of each ring, in several rounds. A power above `most` times the mean of the round before counts as
-   only `most` times that mean. */
+/* The mean power of each ring, in several rounds. A power above `most` times the previous round's mean counts as only
+   `most` times that mean. */
 static void find_rings(const koksma_coherence *c, double most, rings *out)
 {
     const size_t columns = koksma__fourier_columns(c->width);
@@ -306,7 +308,8 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
     for (size_t v = 0; v < (size_t)c->height; v++) {
         for (size_t u = 0; u < columns; u++) {
             const size_t i = v * columns + u;
-            /* only such a power can be a new maximum, as it is divided by a ring's power of at least 1 */
+            /* only a power above the maximum so far can raise it, as powers are divided by their ring's, which is 1
+               or more */
             if (weight_of(c, u, v) && c->power[i] > out->coherence) {
                 const double ring = r->power[ring_of(c, u, v, r->n)];
                 if (c->power[i] / ring > out->coherence) {
@@ -319,7 +322,7 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
     }
     const double y = signed_frequency(peak / columns, c->height);
     out->frequency_x = (double)(peak % columns) / c->width;
-    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* rows are counted downwards */
+    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* -y: rows are counted downwards */
     if (c->images > 1) {
         const double images = (double)c->images, mean = c->power[peak];
         const double variance = fmax(c->squares[peak] - mean * mean, 0) * images / (images - 1);

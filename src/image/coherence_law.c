@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * How large the peak of a white error's spectrum is by chance.
+ * The distribution of the peak of the spectrum of white noise: how large a peak arises by chance.
  *
- * One image: white noise of n pixels puts n - 1 degrees of freedom on its frequencies, 2 on each with a mirror image
- * ("wave"), 1 on each of up to three frequencies that are their own mirror image (alternating columns, rows or both).
- * A wave's power, divided by the mean over all, exceeds x with probability (Fisher 1929)
+ * One image: the spectrum of white noise of n pixels has n - 1 degrees of freedom: 2 at each frequency with a mirror
+ * image ("wave"), and 1 at each of up to three frequencies that are their own mirror images (alternating columns,
+ * rows or both). The power of a wave, divided by the mean power of all frequencies, exceeds x with probability
+ * (Fisher 1929)
  *
  *     (1 - 2 x / (n - 1))^((n - 3) / 2),   nearly exp(-x).
  *

@@ -5,8 +5,8 @@
  * 3.1.5 lacks DWAA and DWAB, and decodes B44 and B44A wrongly without an error: exr_rgba.c reads those four.
  *
  * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
- * reader takes such a stream for uncompressed pixels. So each file is read back after writing, and written
- * uncompressed if a bit differs.
+ * reader takes such a stream for uncompressed pixels. So each file is read back after writing; if a bit differs, the
+ * file is written again without compression.
  */
 #include <math.h>
 #include <openexr.h>
@@ -24,8 +24,8 @@ typedef struct source {
     koksma__bytes *out;
 } source;
 
-/* The text of the first error. It cannot be a member of source: OpenEXRCore 3.1 calls the handler while it holds the
-   lock of the context it writes by, and asking the context for its source would wait for that lock. */
+/* The text of the first error. It cannot be a member of the struct `source`: OpenEXRCore 3.1 calls the error handler
+   while it holds the lock of the context, and reading `source` from the context would wait for that lock. */
 static _Thread_local char message[256];
 
 /* Whether malloc has failed. OpenEXRCore's own "out of memory" also means data that it cannot decompress. */
@@ -100,8 +100,8 @@ static int count_channels(const exr_attr_chlist_t *list)
     return rgb == 3 ? 3 : y || list->num_channels == 1 ? 1 : 0;
 }
 
-/* Reads a file by exr_rgba.c. It accepts only R, G, B or Y alone, as the library behind it turns Y beside other
-   channels into colours. */
+/* Reads a file by exr_rgba.c. Y is accepted only as the single channel, because OpenEXR's library turns Y beside
+   other channels into colours. */
 static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, int channels, koksma_image *out)
 {
     bool y = false, others = false, wide = false;
@@ -112,7 +112,8 @@ static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, i
         wide |= list->entries[i].pixel_type != EXR_PIXEL_HALF;
     }
     return others || y != (channels == 1)
-               ? koksma__fail(KOKSMA_MALFORMED, "as an EXR: B44 and DWA files are read for R, G, B or for Y alone")
+               ? koksma__fail(KOKSMA_MALFORMED,
+                              "as an EXR: of B44 and DWA files only those with R, G, B or with Y alone are read")
                : koksma__exr_rgba_read(s->bytes, s->size, channels, wide, out);
 }
 
@@ -154,7 +155,7 @@ static exr_result_t read_lines(exr_const_context_t file, int top, exr_decode_pip
     exr_result_t r = exr_get_scanlines_per_chunk(file, 0, &lines);
     for (int y = 0; !r && y < image->height; y += lines) {
         r = exr_read_scanline_chunk_info(file, 0, top + y, &chunk);
-        /* checked first, as the decoder writes as many pixels as the chunk claims */
+        /* checked before decoding, because the decoder writes as many pixels as the chunk claims */
         if (!r && (chunk.start_y != top + y || chunk.width != image->width || chunk.height > image->height - y)) {
             r = EXR_ERR_CORRUPT_CHUNK;
         }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * EXR files that OpenEXRCore 3.1.5 decodes wrongly (B44, B44A) or not at all (DWAA, DWAB), read by the C interface of
- * OpenEXR's C++ library. That interface opens files by name only, so that the bytes go through a file in memory, and
- * it gives half floats. Its last error is a variable that threads share: an error's text may be another thread's, but
- * the status is right.
+ * OpenEXR's C++ library. That interface opens files only by name, so the bytes are copied to a file in memory
+ * (memfd). It returns half floats. It keeps its last error in a variable that all threads share: the text of an error
+ * may be that of another thread, but the status is right.
  */
 #define _GNU_SOURCE /* memfd_create */
 #include <errno.h>
@@ -35,7 +35,7 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
     KOKSMA__REQUIRE_MEMORY(row, width * sizeof *row);
     bool whole = true, fits = true;
     for (int y = low_y; whole && y <= high_y; y++) {
-        /* the library wants the address where pixel (0, 0) would be */
+        /* the library expects the address that pixel (0, 0) would have */
         ImfRgba *base = (ImfRgba *)((uintptr_t)row - (uintptr_t)((ptrdiff_t)low_x * (ptrdiff_t)sizeof *row));
         whole = ImfInputSetFrameBuffer(file, base, 1, 0) && ImfInputReadPixels(file, y, y);
         for (size_t x = 0; whole && x < width; x++) {
@@ -68,8 +68,8 @@ static bool is_channel_list(const unsigned char *value, size_t size)
 }
 
 /* Whether a value's stated size is that of its type. For these types the C++ library reads the type's size and
-   ignores the stated one, so that it would find the next attribute elsewhere than a reader that goes by stated sizes.
-   For all other types it uses the stated size. */
+   ignores the stated one, so that it would look for the next attribute at another place than a reader that uses the
+   stated sizes. For all other types it uses the stated size. */
 static bool value_fits(const char *type, const unsigned char *value, size_t size)
 {
     static const struct {
@@ -134,7 +134,8 @@ static bool header_fits(const unsigned char *bytes, size_t size)
             return false;
         }
         at += value;
-        at += parts && at + 1 < size && !bytes[at]; /* on to the next header, or to the empty one that ends them */
+        at += parts && at + 1 < size && !bytes[at]; /* go to the next header, or to the empty header that ends the
+                                                       list */
     }
     return at < size;
 }
@@ -152,7 +153,7 @@ koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int
     }
     koksma_status status = KOKSMA_OK;
     if (n < 0) {
-        status = koksma__fail(KOKSMA_SYSTEM, "as an EXR: no file in memory: %s", strerror(errno));
+        status = koksma__fail(KOKSMA_SYSTEM, "as an EXR: can't make a file in memory: %s", strerror(errno));
     } else {
         snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
         ImfInputFile *file = ImfOpenInputFile(path);

@@ -30,10 +30,11 @@ typedef struct koksma__image_format {
     koksma_status (*read_alpha)(const unsigned char *bytes, size_t size, koksma_image *out);
     /* Writes the first of n layers, or more if the format can hold them. */
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
-    bool has_layers; /* a file holds all layers; else only the first */
-    /* 0: every float is kept exactly; else the largest error of numbers in [0,1], to which others are clamped */
+    bool has_layers; /* whether a file holds all layers; otherwise it holds only the first */
+    /* 0 if every float is kept exactly; otherwise numbers are clamped to [0,1], and this is their largest error */
     double error;
-    const char *left_out; /* the library that this build lacks, without which read and write are NULL; else NULL */
+    const char *left_out; /* the library that the format needs and this build lacks, in which case read and write are
+                             NULL; otherwise NULL */
     const koksma__module *module; /* the module that read and write load; NULL: none */
 } koksma__image_format;
 
@@ -41,7 +42,7 @@ typedef struct koksma__image_format {
 #include "image/formats.def"
 #undef FORMAT
 
-/* a layer's name in letters, and the capacity for ".R" and 0 after it */
+/* maximum length of a layer's name, and the capacity for the name, ".R" and the final 0 */
 enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 };
 
 /* Writes the name of channel k of a layer. */
@@ -59,7 +60,7 @@ koksma_status koksma__image_check_shape(int width, int height, int channels);
 /* Format i of the table; NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
-/* The most pixels of an image that a scene or model names: 8192 x 8192. */
+/* The maximum number of pixels of an image that a scene or model names: 8192 x 8192. */
 enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
 
 /* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors name no
@@ -67,9 +68,9 @@ enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
                                        koksma_image *out);
 
-/* Checks that all pixels are numbers below 1e30. Others come from a sun that is too bright for its file's number
-   format, or from a failed computation, and must not turn dark unnoticed. MALFORMED names `name` and the first bad
-   pixel. */
+/* Checks that all pixels are numbers below 1e30. Other values come from a sun that is too bright for the file's
+   number format, or from a failed computation; they must not be drawn as black without an error. MALFORMED names
+   `name` and the first bad pixel. */
 koksma_status koksma__image_check(const koksma_image *image, const char *name);
 
 /* koksma_image_init for a size that a file claims: MALFORMED when the size is out of range, or when `bytes` bytes of

@@ -4,9 +4,9 @@
  * Levels are read as sRGB, as in png.c; a colour profile in the file is not applied. Files are written without
  * subsampling at quality 100.
  *
- * A file that is cut short is an error, although the library would fill the rest with grey; so is one with more than
- * 1000 scans, each of which takes as long as decoding the whole picture. On an error libjpeg leaves by longjmp from
- * on_error().
+ * A file that is cut short is an error, although the library would fill the rest with grey; so is a file with more
+ * than 1000 scans, because each scan takes as long as decoding the whole picture. When libjpeg reports an error,
+ * on_error() returns to the caller by longjmp.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -76,7 +76,7 @@ static float to_linear(int level)
     return (float)(s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4));
 }
 
-/* Reads the header. It may longjmp, as read_rows may, and so owns nothing that needs releasing. */
+/* Reads the header. This function and read_rows may be left by longjmp, and so own nothing that needs releasing. */
 static bool read_head(struct jpeg_decompress_struct *jpeg, errors *e, const unsigned char *bytes, size_t size)
 {
     if (setjmp(e->back)) {
@@ -123,7 +123,7 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     if (!status) {
         const int channels = jpeg.num_components == 1 ? 1 : 3;
         jpeg.progress = &progress;
-        /* one run of a progressive file may code up to 2^15 blocks of 8 x 8 pixels */
+        /* one run of empty blocks in a progressive file may stand for up to 2^15 blocks of 8 x 8 pixels */
         status = HOST->image_claim(jpeg.image_width, jpeg.image_height, channels, size, 64.0 * 32768, out);
         unsigned char *row = status ? NULL : malloc((size_t)out->width * (size_t)channels);
         if (!status && !row) {

@@ -59,8 +59,8 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     KOKSMA__TRY(koksma__image_claim(width, height, channels, left, 0.25 / channels, out));
     const size_t row = (size_t)width * (size_t)channels, start = size - 4 * row * (size_t)height;
     KOKSMA__FAIL_IF(!is_end(bytes + head, start - head), KOKSMA_MALFORMED,
-                    "line 3: %zu bytes follow the scale: too many for one blank and %lld x %lld pixels", size - head,
-                    width, height);
+                    "line 3: %zu bytes follow the scale, more than one blank and %lld x %lld pixels take",
+                    size - head, width, height);
     for (size_t y = 0; y < (size_t)height; y++) {
         const unsigned char *from = bytes + start + 4 * row * ((size_t)height - 1 - y);
         for (size_t i = 0; i < row; i++) {

@@ -109,8 +109,8 @@ static double power_of(png_const_structp png, png_const_infop info)
     return 1e5 / gamma;
 }
 
-/* Reads the header, and asks libpng for grey or red, green and blue of 8 or 16 bits. It may longjmp, and so owns
-   nothing that needs releasing. */
+/* Reads the header, and asks libpng for grey or red, green and blue of 8 or 16 bits. This function may be left by
+   longjmp, and so owns nothing that needs releasing. */
 static bool get_head(png_structp png, png_infop info, head *h)
 {
     /* text chunks are skipped, as they may be huge once unpacked */
@@ -197,7 +197,7 @@ static koksma_status read_image(png_structp png, png_infop info, const stream *s
     if (alpha && h.channels % 2) {
         return KOKSMA_OK;
     }
-    /* deflate packs at most 1032 bytes into one, and a pixel has at least 1 bit */
+    /* deflate compresses by a factor of at most 1032, and a pixel has at least 1 bit */
     KOKSMA__TRY(koksma__image_claim(h.width, h.height, alpha ? 1 : h.channels, size, 8 * 1032, out));
     const size_t count = (size_t)h.width * h.height * (size_t)h.channels;
     unsigned char *levels = calloc(count, (size_t)h.level_bytes);
@@ -333,7 +333,8 @@ const koksma__image_format koksma__format_png = {
     .read_srgb = read_srgb,
     .read_alpha = read_alpha,
     .write = write,
-    .error = 0.5 / 255 * 2.4 / 1.055, /* error of half a level at 1, where the sRGB curve is steepest */
+    .error = 0.5 / 255 * 2.4 / 1.055, /* an error of half a level of 255 at the value 1, where the sRGB curve is
+                                         steepest */
 };
 #else
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Memory and access for images, and reading and writing image files with the formats of formats.def. */
+/* Allocates images, accesses their pixels, and reads and writes image files in the formats of formats.def. */
 #include "image/registry.h"
 
 #include <math.h>
@@ -46,7 +46,8 @@ koksma_status koksma__image_check_shape(int width, int height, int channels)
 {
     KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
                         (size_t)width * (size_t)height > KOKSMA_MAX_PIXELS,
-                    KOKSMA_ARGUMENT, "%d x %d pixels: a side is 1 to %d, and all are at most %zu", width, height,
+                    KOKSMA_ARGUMENT,
+                    "%d x %d pixels: each side must be 1 to %d, and the number of pixels at most %zu", width, height,
                     KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
     KOKSMA__FAIL_IF(channels != 1 && channels != 3, KOKSMA_ARGUMENT, "%d channels: an image has 1 or 3", channels);
     return KOKSMA_OK;
@@ -82,10 +83,11 @@ koksma_status koksma__image_claim(long long width, long long height, int channel
 {
     KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
                         (size_t)(width * height) > most_pixels,
-                    KOKSMA_MALFORMED, "it claims %lld x %lld pixels: a side is 1 to %d, and all are at most %zu",
+                    KOKSMA_MALFORMED,
+                    "it claims %lld x %lld pixels: each side must be 1 to %d, and the number of pixels at most %zu",
                     width, height, KOKSMA_MAX_IMAGE_SIDE, most_pixels);
     KOKSMA__FAIL_IF((double)width * (double)height > (double)bytes * pixels_a_byte, KOKSMA_MALFORMED,
-                    "cut short: it claims %lld x %lld pixels and has %zu bytes", width, height, bytes);
+                    "cut short: it claims %lld x %lld pixels but has only %zu bytes", width, height, bytes);
     return koksma_image_init(out, (int)width, (int)height, channels);
 }
 
@@ -110,7 +112,8 @@ static koksma_status no_library(const koksma__image_format *format)
                                          format->left_out, format->name);
 }
 
-/* Lists all names as in "exr, png or pfm": for each name, `before` and its letters, in capitals or lower case. */
+/* Lists the names of all formats as in "exr, png or pfm": before each name comes the text `before`; names are in
+   capitals or lower case. */
 static const char *list_names(const char *before, bool capitals, const char *comma, const char *last, char *text,
                               size_t size)
 {
@@ -268,7 +271,7 @@ koksma_status koksma_image_check_path(const char *path)
     const koksma__image_format *format = format_of_name(path);
     if (!format) {
         char names[128];
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in %s", path,
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: the name of an image file must end in %s", path,
                             list_names(".", false, ", ", " or ", names, sizeof names));
     }
     return missing(format) ? koksma__fail_in(no_library(format), path) : KOKSMA_OK;

@@ -7,7 +7,8 @@
 
 #include "core/read_file.h"
 
-/* koksma_image_read for a kind of file, with who named the file (core/read_file.h). */
+/* koksma_image_read with the kind of the file, and with who named the file: the user or another file
+   (core/read_file.h). */
 koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out);
 
 /* The part of an image file to read: colours in linear light; the same of levels that are sRGB's, whatever transfer
@@ -26,7 +27,8 @@ koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, k
    UNSUPPORTED. */
 koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size);
 
-/* koksma_image_write for a file below a folder, whose name the program chose (koksma__atomic_open). */
+/* koksma_image_write for a file in a folder, when the program, not the user, has chosen the file's name
+   (koksma__atomic_open). */
 koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
                                      const char *metadata);
 

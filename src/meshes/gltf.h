@@ -29,7 +29,7 @@ enum {
 };
 
 typedef struct koksma__gltf_bytes {
-    const unsigned char *bytes; /* NULL: the bytes are missing */
+    const unsigned char *bytes; /* NULL if the file that has the bytes is missing */
     size_t size;
 } koksma__gltf_bytes;
 
@@ -43,8 +43,9 @@ typedef struct koksma__gltf {
     koksma__gltf_bytes *images;  /* images within the file, each loaded when first needed */
     koksma__list shown;          /* placements of the file's meshes */
     bool *mesh_shown;
-    bool *material_used;   /* whether a shown mesh uses it; the last entry is for primitives without a material */
-    bool *material_tinted; /* whether a shown mesh with vertex colours uses it; the last entry as above */
+    /* whether a mesh that is shown uses the material; the last entry stands for primitives without a material */
+    bool *material_used;
+    bool *material_tinted; /* whether a mesh that is shown and has vertex colours uses the material; same indices */
     size_t *beyond;        /* 1 + the largest index in an accessor of indices; 0: not computed yet */
 } koksma__gltf;
 

@@ -2,8 +2,8 @@
 /*
  * The bytes of a glTF file: buffers from files beside the model, from base64 in it, or from the second chunk of a
  * binary file; buffer views; and accessors, whose elements are contiguous or `byteStride` apart (glTF 2.0, sections
- * 3.6.1 and 4.4). Numbers are little-endian on every machine. A missing buffer is an error only if something that is
- * read lies in it.
+ * 3.6.1 and 4.4). Numbers are little-endian on every machine. A missing buffer is an error only if data in it are
+ * needed.
  */
 #include "meshes/gltf_buffers.h"
 
@@ -25,7 +25,7 @@ static int base64_value(char c)
     return at ? (int)(at - digits) : -1;
 }
 
-/* Hands the bytes over to the mesh file, which frees them when it is closed. */
+/* Gives the bytes to the koksma__mesh_file, which frees them when it is closed. */
 static koksma_status keep(koksma__gltf *g, unsigned char *bytes, size_t size, koksma__gltf_bytes *out)
 {
     unsigned char **kept = koksma__list_add(&g->out->owned, 1, sizeof *kept);
@@ -45,7 +45,7 @@ koksma_status koksma__gltf_decode(koksma__gltf *g, const field *f, const char *u
     const char *text = strchr(uri, ',');
     const size_t mark = strlen(base64);
     KOKSMA__JSON_FAIL_IF(!text || (size_t)(text - uri) < mark || strncmp(text - mark, base64, mark) != 0, f,
-                         "uri: data that is not base64 is not read");
+                         "uri: only data in base64 can be read");
     const size_t length = strlen(++text);
     unsigned char *bytes = malloc(length / 4 * 3 + 4);
     uint32_t bits = 0;
@@ -100,7 +100,7 @@ koksma_status koksma__gltf_load_buffers(koksma__gltf *g)
             *b = g->binary;
         }
         KOKSMA__JSON_FAIL_IF(!status && b->bytes && b->size < (size_t)length, &f,
-                             "byteLength is %lld, and there are %zu bytes", length, b->size);
+                             "byteLength is %lld, but there are only %zu bytes", length, b->size);
     }
     return status;
 }
@@ -124,7 +124,7 @@ koksma_status koksma__gltf_view(const koksma__gltf *g, size_t view, koksma__gltf
         status = koksma__json_get_text(&buffer, "uri", false, &uri);
         return status ? status
                       : koksma__json_fail(&buffer, uri ? "uri: there is no file '%.300s'" : "there is no uri%s",
-                                          uri ? uri : ", and no binary piece of the file");
+                                          uri ? uri : ", and the file has no binary chunk");
     }
     *out = (koksma__gltf_bytes){g->buffers[number].bytes + offset, (size_t)length};
     *stride = (size_t)step;

@@ -30,13 +30,13 @@ static koksma_status each(const koksma__gltf *g, const field *object, const char
     return status;
 }
 
-/* Checks that the member `key`, if the object has it, is an index below n of a `thing`. */
+/* Checks that the member `key`, if the object has it, is the index of a `thing`: below n. */
 static koksma_status names(const field *object, const char *key, const char *thing, size_t n)
 {
     long long number = 0;
     KOKSMA__TRY(koksma__json_get_whole(object, key, false, 0, KOKSMA__GLTF_ITEMS, &number));
     KOKSMA__JSON_FAIL_IF(koksma__json_has(object, key) && (size_t)number >= n, object,
-                         "%s: there is no %s %lld; the file has %zu, from 0 on", key, thing, number, n);
+                         "%s: there is no %s %lld; the file has %zu, numbered from 0", key, thing, number, n);
     return KOKSMA_OK;
 }
 
@@ -102,7 +102,8 @@ static koksma_status check_accessor(const koksma__gltf *g, const field *f)
     status = status ? status : koksma__json_get_whole(f, "componentType", true, 5120, 5126, &component);
     status = status ? status : koksma__json_get_text(f, "type", true, &type);
     const long long size = status ? 1 : element_size(type, component);
-    KOKSMA__JSON_FAIL_IF(!status && !size, f, "no elements of type '%.32s' and component type %lld", type, component);
+    KOKSMA__JSON_FAIL_IF(!status && !size, f, "elements of type '%.32s' and component type %lld do not exist", type,
+                         component);
     KOKSMA__JSON_FAIL_IF(!status && koksma__json_has(f, "sparse"), f, "sparse accessors are not read");
     if (status || !koksma__json_has(f, "bufferView")) {
         return status;
@@ -142,7 +143,7 @@ static koksma_status check_texture(const koksma__gltf *g, const field *f)
     return status ? status : names(f, "sampler", "sampler", g->n[KOKSMA__GLTF_SAMPLERS]);
 }
 
-/* Checks the texture that the member `key` of a material, or of a part of a material, names. */
+/* Checks the texture whose index is the member `key` of a material or of a part of a material. */
 static koksma_status check_texture_of(const koksma__gltf *g, const field *f, const char *key)
 {
     field info;
@@ -179,8 +180,7 @@ static koksma_status check_node(const koksma__gltf *g, const field *f)
     return status ? status : names(f, "skin", "skin", g->n[KOKSMA__GLTF_SKINS]);
 }
 
-/* Checks that every node has at most one parent and that the roots of scenes have none, so that there are no
-   cycles. */
+/* Checks that no node has two parents and that the roots of scenes have no parent, so that there are no cycles. */
 static koksma_status check_tree(const koksma__gltf *g, unsigned char *has_parent)
 {
     field nodes, scenes, list;
@@ -216,8 +216,8 @@ bool koksma__gltf_reads(const char *extension)
     return false;
 }
 
-/* Checks one of the extensions that the file requires: a reader that lacks it must not show the file (glTF 2.0,
-   section 3.12). */
+/* Checks one of the extensions that the file requires: a reader that does not support a required extension must not
+   show the file (glTF 2.0, section 3.12). */
 static koksma_status check_extension(const koksma__gltf *g, const field *item)
 {
     const char *name;

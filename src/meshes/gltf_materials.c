@@ -56,8 +56,8 @@ static koksma_status take_image(koksma__gltf *g, size_t number, koksma__file_tex
     return out->name ? KOKSMA_OK : koksma__fail_memory(sizeof name);
 }
 
-/* KHR_texture_transform: u' = c sx u + s sy v + ox, v' = -s sx u + c sy v + oy, with v downwards; here v is upwards,
-   1 - v. */
+/* KHR_texture_transform: u' = c sx u + s sy v + ox, v' = -s sx u + c sy v + oy, with v downwards. Koksma's v is
+   upwards: 1 - v. */
 static koksma_status take_transform(const field *info, koksma__file_texture *out)
 {
     static const char *const transform[] = {"extensions", "KHR_texture_transform", NULL};
@@ -214,7 +214,7 @@ static koksma_status take_material(koksma__gltf *g, size_t i, koksma__file_mater
     return KOKSMA_OK;
 }
 
-/* Reads all materials in use; the last one is that of primitives without a material. */
+/* Reads all materials in use; the last one stands for primitives without a material. */
 koksma_status koksma__gltf_read_materials(koksma__gltf *g)
 {
     const size_t n = g->n[KOKSMA__GLTF_MATERIALS];

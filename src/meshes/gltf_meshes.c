@@ -23,8 +23,7 @@ typedef struct primitive {
     long long mode, material;                                        /* material: its index, or n for no material */
 } primitive;
 
-/* Reads attribute `key`, which is missing or has `width` components for each of n vertices. `wide`: one component
-   more is allowed. */
+/* Reads the attribute `key`, if it exists: `width` components for each of n vertices, or, if `wide`, width + 1. */
 static koksma_status take_attribute(const koksma__gltf *g, const field *list, const char *key, int width, bool floats,
                                     bool wide, const primitive *p, koksma__gltf_elements *out)
 {
@@ -37,13 +36,14 @@ static koksma_status take_attribute(const koksma__gltf *g, const field *list, co
     const bool normalised = out->normalised && (out->component == 5121 || out->component == 5123);
     KOKSMA__JSON_FAIL_IF((out->width != width && !(wide && out->width == width + 1)) ||
                              (out->component != 5126 && (floats || !normalised)),
-                         list, "%s: accessor %lld has %d components of type %d; due are %d of type 5126%s", key,
+                         list, "%s: accessor %lld has %d components of type %d instead of %d of type 5126%s", key,
                          number, out->width, out->component, width,
                          floats ? "" : ", or normalized ones of 5121 or 5123");
     if (p && out->n != p->positions.n) {
         status = koksma__json_get_whole(list, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions);
         return status ? status
-                      : koksma__json_fail(list, "%s: accessor %lld has %zu elements, and accessor %lld %zu positions",
+                      : koksma__json_fail(list,
+                                          "%s: accessor %lld has %zu elements, but accessor %lld has %zu positions",
                                           key, number, out->n, positions, p->positions.n);
     }
     return KOKSMA_OK;
@@ -67,7 +67,8 @@ static koksma_status take_indices(const koksma__gltf *g, const field *f, const f
                                           "SCALAR of 5121, 5123 or 5125",
                                           number, type, e->component);
     }
-    if (!status && !g->beyond[number]) { /* computed once for each accessor, as many primitives may share it */
+    /* computed once for each accessor, because many primitives may share an accessor */
+    if (!status && !g->beyond[number]) {
         for (size_t i = 0; i < e->n; i++) {
             const size_t after = koksma__gltf_whole(e, i) + 1;
             g->beyond[number] = after > g->beyond[number] ? after : g->beyond[number];
@@ -79,15 +80,15 @@ static koksma_status take_indices(const koksma__gltf *g, const field *f, const f
             status = koksma__json_get_whole(attributes, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions);
             return status ? status
                           : koksma__json_fail(f,
-                                              "indices: number %zu of accessor %lld is vertex %zu; accessor %lld has "
-                                              "%zu vertices, from 0 on",
+                                              "indices: number %zu of accessor %lld is vertex %zu, but accessor %lld "
+                                              "has %zu vertices, numbered from 0",
                                               i, number, vertex, positions, p->positions.n);
         }
     }
     return status;
 }
 
-/* Reads a primitive. One without positions has n = 0 and shows nothing. */
+/* Reads a primitive. A primitive without positions has n = 0 and shows nothing. */
 static koksma_status take_primitive(const koksma__gltf *g, const field *f, primitive *p)
 {
     field list;

@@ -15,7 +15,7 @@
 typedef koksma__json_node field;
 
 enum { MAX_DEPTH = 512 /* of nodes */ };
-#define WIDEST 1e30 /* bound of a node's numbers; resulting positions are checked later */
+#define WIDEST 1e30 /* largest magnitude of a node's numbers; the resulting positions are checked later */
 
 static const char *const punctual[] = {"extensions", "KHR_lights_punctual", NULL};
 
@@ -54,8 +54,7 @@ static koksma_status own_matrix(const field *node, double out[12])
     return KOKSMA_OK;
 }
 
-/* Visits a node and its descendants: sets their matrices and adds the placements of their meshes, a node's own before
-   its children's. */
+/* Visits a node, then its descendants: sets their matrices and adds the placements of their meshes. */
 static koksma_status walk(graph *s, size_t i, const double parent[12], int depth)
 {
     koksma__gltf *g = s->g;
@@ -95,7 +94,7 @@ static koksma_status walk_scene(graph *s)
     long long scene = 0, number = 0;
     size_t n = 0;
     KOKSMA__TRY(koksma__json_get_whole(&g->root, "scene", false, 0, KOKSMA__GLTF_ITEMS, &scene));
-    KOKSMA__JSON_FAIL_IF(!g->n[KOKSMA__GLTF_SCENES], &g->root, "no scenes: nothing of the file is shown");
+    KOKSMA__JSON_FAIL_IF(!g->n[KOKSMA__GLTF_SCENES], &g->root, "the file has no scenes: nothing is shown");
     const field shown = koksma__gltf_item(g, KOKSMA__GLTF_SCENES, (size_t)scene);
     koksma_status status = koksma__gltf_list(&shown, "nodes", &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
@@ -135,8 +134,8 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
         return KOKSMA_OK;
     }
     koksma_status status = koksma__json_get_whole(&found, "light", true, 0, KOKSMA__GLTF_ITEMS, &number);
-    KOKSMA__JSON_FAIL_IF(!status && (size_t)number >= s->n_lights, &found, "light is %lld of %zu", number,
-                         s->n_lights);
+    KOKSMA__JSON_FAIL_IF(!status && (size_t)number >= s->n_lights, &found, "light %lld of %zu lights does not exist",
+                         number, s->n_lights);
     if (status || !s->shown[i]) {
         return status;
     }
@@ -148,7 +147,7 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
     status = status ? status : koksma__json_get_numbers(&from, "color", false, 0, WIDEST, 3, colour);
     light->far_away = !strcmp(type, "directional");
     KOKSMA__JSON_FAIL_IF(!status && !light->far_away && strcmp(type, "point") != 0 && strcmp(type, "spot") != 0,
-                         &from, "no lights of type '%.32s' are read", type);
+                         &from, "lights of type '%.32s' can't be read", type);
     light->is_spot = !strcmp(type, "spot");
     status = status || !light->is_spot ? status : take_cone(&from, light);
     for (int k = 0; k < 3; k++) {
@@ -158,7 +157,7 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
     return status;
 }
 
-/* Takes the first perspective camera that some node places, at the first such node. */
+/* Takes the perspective camera of the first node that has one. */
 static koksma_status take_camera(const graph *s)
 {
     static const char *const perspective[] = {"perspective", NULL};

@@ -43,7 +43,7 @@ static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__g
     const size_t next = 20 + text->size;
     KOKSMA__FAIL_IF(number_at(file + 8) != size ||
                         (next < size && (size - next < 8 || number_at(file + next) > size - next - 8)),
-                    KOKSMA_MALFORMED, "%s: its chunks are not as long as the file", path);
+                    KOKSMA_MALFORMED, "%s: the lengths of its chunks do not add up to the length of the file", path);
     if (next < size && text->size % 4) { /* glTF 2.0, section 4.4.3.1 */
         return koksma__fail(KOKSMA_MALFORMED, "%s: its first chunk has %zu bytes, which is not a multiple of 4", path,
                             text->size);

@@ -5,8 +5,8 @@
 
 #include "meshes/mesh_file.h"
 
-/* Adds the contents of the file, JSON or binary, and of its buffers to out; out->path is set. Errors: MISSING,
-   MALFORMED, MEMORY. */
+/* Adds the contents of the file out->path, JSON or binary, and of its buffers to out. Errors: MISSING, MALFORMED,
+   MEMORY. */
 koksma_status koksma__gltf_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
 
 #endif

@@ -62,7 +62,7 @@ static koksma_status check_vertices(koksma__mesh *m)
             /* turns -0 into 0, so that equal positions have equal bits */
             const float x = m->vertices[3 * i + k] += 0.0f;
             KOKSMA__FAIL_IF(!(fabsf(x) <= (float)FAR), KOKSMA_MALFORMED,
-                            "vertex %zu has a coordinate of %g: it takes -1e6 to 1e6", i, (double)x);
+                            "vertex %zu has a coordinate of %g: it must be -1e6 to 1e6", i, (double)x);
             low[k] = x < low[k] ? x : low[k];
             high[k] = x > high[k] ? x : high[k];
         }
@@ -95,7 +95,7 @@ koksma_status koksma__mesh_check(koksma__mesh *m)
     const koksma_status status = check_vertices(m);
     for (size_t i = 0; !status && i < 3 * m->n_triangles; i++) {
         KOKSMA__FAIL_IF(m->indices[i] >= m->n_vertices, KOKSMA_MALFORMED,
-                        "triangle %zu names a vertex that is not there: there are %zu", i / 3, m->n_vertices);
+                        "triangle %zu names a vertex that does not exist: there are %zu", i / 3, m->n_vertices);
     }
     m->n_degenerate = 0;
     for (size_t t = 0; !status && t < m->n_triangles; t++) {
@@ -277,8 +277,8 @@ koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[
     return p;
 }
 
-/* The angle between the unit quaternions, half of that of the rotation between them, along the shorter arc; *sign is
-   -1 if the second must be negated for that. */
+/* The angle between two unit quaternions along the shorter arc, which is half the angle of the rotation from one to
+   the other; *sign is -1 if the second quaternion must be negated for the shorter arc. */
 static double arc(const koksma__pose poses[2], double *sign)
 {
     const double *a = poses[0].rotation, *b = poses[1].rotation;

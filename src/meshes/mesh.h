@@ -80,8 +80,8 @@ koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[
    rotation along the shortest arc at constant speed (slerp, Shoemake 1985). */
 void koksma__poses_at(const koksma__pose poses[2], double t, double matrix[12]);
 
-/* The number of steps, 1 to KOKSMA__MAX_STEPS, after which linear interpolation of the matrices turns by at most 1.5
-   degrees a step: a point is then at most 1e-4 of its distance from the axis inside its circle. */
+/* The number of steps, 1 to KOKSMA__MAX_STEPS, for which the rotation in each step is at most 1.5 degrees. With
+   matrices that are linear within a step, a point leaves its circle around the axis by at most 1e-4 of the radius. */
 enum { KOKSMA__MAX_STEPS = 120 };
 int koksma__pose_steps(const koksma__pose poses[2]);
 
@@ -106,14 +106,15 @@ void koksma__matrix_multiply(const double a[12], const double b[12], double out[
 typedef struct koksma__unread {
     size_t animations, skins;
     size_t vertex_colours; /* number of meshes with vertex colours */
-    size_t second_uvs;     /* textures that use another set of coordinates than the first texture */
+    size_t second_uvs;     /* textures that use another set of coordinates than the first texture of their material */
     /* morphs: primitives with morph targets; lines: primitives of points or lines */
     size_t morphs, lines;
-    size_t too_bright;                /* lights, or emissive materials */
-    size_t see_through;               /* materials */
-    size_t libraries, materials;      /* material files that are missing; materials that no material file defines */
-    char library[256], material[256]; /* name of the first of each */
-    /* number of unsupported extensions in use; `extension` has their names, as far as they fit */
+    size_t too_bright;           /* lights, or emissive materials */
+    size_t see_through;          /* materials */
+    size_t libraries, materials; /* material files that are missing; materials that no material file defines */
+    /* name of the first of the missing files and of the first of the undefined materials */
+    char library[256], material[256];
+    /* number of unsupported extensions in use; `extension` lists their names, as many as fit */
     size_t extensions;
     char extension[256];
 } koksma__unread;

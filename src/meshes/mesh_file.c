@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the readers of mesh files share: lists that grow, the limits of a file, fans of triangles, and the search for
- * files that a model names. Reading takes time linear in the file's size, and at most 36 bytes of memory for each
- * byte of text (an OBJ file whose corners are all "1 "). All meshes of a file together have at most 64 Mi vertices
- * and triangles.
+ * Functions that the readers of mesh files share: lists that grow, the limits of a file, fans of triangles, and the
+ * search for files that a model names. Reading takes time linear in the file's size, and at most 36 bytes of memory
+ * for each byte of text (an OBJ file whose corners are all "1 "). All meshes of a file together have at most 64 Mi
+ * vertices and triangles.
  */
 #include "meshes/mesh_file.h"
 
@@ -103,8 +103,8 @@ koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, s
     f->n_vertices += mesh->n_vertices;
     f->n_triangles += mesh->n_triangles;
     if (f->n_vertices > most || f->n_triangles > most) {
-        status =
-            koksma__fail(KOKSMA_MALFORMED, "%s: over %zu vertices or triangles in all its meshes", f->path, most);
+        status = koksma__fail(KOKSMA_MALFORMED,
+                              "%s: all its meshes together have more than %zu vertices or triangles", f->path, most);
     } else {
         to = koksma__list_add(&f->meshes, 1, sizeof *to);
         status = to ? KOKSMA_OK : KOKSMA_MEMORY;
@@ -121,8 +121,8 @@ koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, s
 koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, const double *matrix)
 {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    KOKSMA__FAIL_IF(f->placements.n == MAX_PLACEMENTS, KOKSMA_MALFORMED, "%s: over %d meshes at nodes", f->path,
-                    MAX_PLACEMENTS);
+    KOKSMA__FAIL_IF(f->placements.n == MAX_PLACEMENTS, KOKSMA_MALFORMED, "%s: nodes place more than %d meshes",
+                    f->path, MAX_PLACEMENTS);
     koksma__file_placement *to = koksma__list_add(&f->placements, 1, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     to->mesh = mesh;

@@ -26,22 +26,22 @@ bool koksma__list_reserve(koksma__list *list, size_t more, size_t item_size);
 typedef struct koksma__file_texture {
     char *name; /* owned; NULL: there is no texture */
     bool within;
-    const unsigned char *bytes; /* NULL: the model stores it in a way that is not supported */
+    const unsigned char *bytes; /* NULL if the model stores the image in a way that is not supported */
     size_t size;
-    bool moved, nearest; /* moved: the texture coordinates, with v upwards, are transformed to matrix (u, v, 1) */
+    bool moved, nearest; /* moved: the image is looked up at matrix (u, v, 1), with v upwards, in place of (u, v) */
     float matrix[6], scale;
     /* glTF's wrap modes along u and v: 0 or 10497 repeat, 33071 clamp to the edge, 33648 mirrored repeat */
     int wrap[2];
 } koksma__file_texture;
 
-/* A material as its file gives it. The values of textures are multiplied by colour and glow. */
+/* A material as the file describes it. The values of textures are multiplied by colour and glow. */
 typedef struct koksma__file_material {
     float colour[3], metallic, roughness;
     double glow[3];
     koksma__file_texture colour_map, glow_map;
     bool see_through; /* the material has a transparency that is not supported */
-    /* for glTF: metallic and roughness values, and further textures */
-    /* blends: by alpha and the transparency of colour_map; tinted: by vertex colours */
+    /* principled: a material of glTF, with metallic and roughness values and further textures */
+    /* blends: alpha and the transparency of colour_map apply; tinted: vertex colours apply */
     bool principled, blends, tinted;
     double ior, alpha, cutoff; /* cutoff 0: alpha is the fraction of the rays that meet the surface */
     koksma__file_texture surface_map, normal_map;
@@ -95,9 +95,9 @@ static inline koksma__file_placement *koksma__file_placement_at(const koksma__me
     return (koksma__file_placement *)f->placements.items + i;
 }
 
-/* Appends a mesh; the file owns it from now on, even after a failure. The vertices and triangles of all meshes of a
-   file together are limited to those allowed for one mesh, so that a small file that names one mesh many times can't
-   fill the memory. Errors: MALFORMED, MEMORY. */
+/* Appends a mesh; the file owns it from now on, even after a failure. All meshes of a file together may have as many
+   vertices and triangles as one mesh, so that a small file that names a mesh many times can't fill the memory.
+   Errors: MALFORMED, MEMORY. */
 koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, size_t material);
 
 /* Adds a placement; matrix: NULL for the identity. Errors: MALFORMED (over 2^20), MEMORY. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins a material, or continues the one
- * that has this name. The reader uses Kd (colour), Ke (emission), d and Tr (opaque or not), Pm and Pr (metallic,
- * roughness), map_Kd and map_Ke or map_emissive (textures, whose options are skipped), and ignores all other
- * keywords. A colour is one to three numbers; missing numbers are equal to the first. Format: Wavefront's "Advanced
- * Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
+ * OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins the material of that name, or
+ * continues it if it exists. The reader uses Kd (colour), Ke (emission), d and Tr (opaque or not), Pm and Pr
+ * (metallic, roughness), map_Kd and map_Ke or map_emissive (textures, whose options are skipped), and ignores all
+ * other keywords. A colour is one to three numbers; missing numbers are equal to the first. Format: Wavefront's
+ * "Advanced Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
  */
 #include "meshes/mesh_mtl.h"
 
@@ -171,7 +171,7 @@ static koksma_status take_texture(koksma__text *t, koksma__file_texture *out)
 
 static koksma_status take_one(koksma__text *t, float *out)
 {
-    return take_number(t, out) ? KOKSMA_OK : koksma__text_wrong(t, "a number below 1e38 is due");
+    return take_number(t, out) ? KOKSMA_OK : koksma__text_wrong(t, "expected a number below 1e38");
 }
 
 /* Reads one line's property of material m. */
@@ -214,7 +214,7 @@ static koksma_status take_line(koksma__text *t, koksma__mtl_names *names, koksma
     size_t length;
     if (t->stop - t->at > MAX_LINE || memchr(t->at, '\0', (size_t)(t->stop - t->at))) {
         return koksma__text_wrong(t, t->stop - t->at > MAX_LINE ? "longer than 1000 characters"
-                                                                : "not text (a zero byte)");
+                                                                : "the file is not text: it contains a zero byte");
     }
     if (!koksma__text_word(t, &word, &length)) {
         return KOKSMA_OK;

@@ -8,24 +8,24 @@
 typedef struct koksma__mtl_name {
     char *name;      /* owned */
     size_t material; /* index of the material in the mesh file */
-    bool made;       /* whether a material file defines it; else it is only used */
+    bool made;       /* whether a material file defines the material; otherwise it is only used */
 } koksma__mtl_name;
 
-/* A hash table of names with open addressing: a slot is 1 + the index of a name, or 0 if free; at most half are in
-   use. */
+/* A hash table of names with open addressing: a slot is 1 + the index of a name, or 0 if it is free. At most half of
+   the slots are in use. */
 typedef struct koksma__mtl_names {
     koksma__list names;
     uint32_t *slots;
     size_t n_slots;
 } koksma__mtl_names;
 
-/* The entry of the name, added with a grey material if the name is new; NULL when memory runs out. The pointer is
+/* The entry of the name; a new name gets an entry with a grey material. NULL when memory runs out. The pointer is
    valid until the next call. */
 koksma__mtl_name *koksma__mtl_find(koksma__mtl_names *names, koksma__mesh_file *f, const char *name, size_t length);
 void koksma__mtl_names_fini(koksma__mtl_names *names);
 
-/* Reads the material file at `path` into materials of f, and adds its hash to the file's. Errors: MISSING, MALFORMED,
-   MEMORY. */
+/* Reads the material file at `path` into the materials of f, and adds its hash to f's hash. Errors: MISSING,
+   MALFORMED, MEMORY. */
 koksma_status koksma__mtl_read(const char *path, koksma__mtl_names *names, koksma__mesh_file *f);
 
 #endif

@@ -5,10 +5,10 @@
  *
  * A corner names a position and perhaps a texture vertex and a normal, by numbers that count from 1, or backwards
  * from the last one if they are negative. Numbers may refer to later lines, so the corners are stored until the end
- * of the file; then each corner becomes a vertex of its own, because OBJ files share positions, not vertices.
- * Polygons are fans of triangles. A new mesh begins where o or g name another object or group and where usemtl names
- * another material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of
- * its corners names one; those of its other corners are 0.
+ * of the file. Then each corner becomes a separate vertex, because OBJ files share positions, not vertices. Polygons
+ * are fans of triangles. A new mesh begins where o or g name another object or group and where usemtl names another
+ * material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of its
+ * corners names one; corners without get the value 0.
  *
  * Format: Wavefront's "Advanced Visualizer Manual", appendix B1.
  */
@@ -38,24 +38,25 @@ typedef struct corner {
 /* Start of one mesh's corners and indices, which end where the next mesh's begin. */
 typedef struct part {
     size_t first_corner, first_index, material;
-    int kinds; /* kinds of items that its corners name, as bits */
+    int kinds; /* the kinds of items that its corners name, as bits */
 } part;
 
 typedef struct obj {
     koksma__text text;
     koksma__mesh_file *out;
-    koksma__list vertices[KINDS]; /* floats: x y z, and 1 if the colour is not white; u v; x y z */
+    /* floats of positions (x y z, and 1 if the colour is not white), texture vertices (u v) and normals (x y z) */
+    koksma__list vertices[KINDS];
     koksma__list corners, indices, parts;
     size_t highest[KINDS]; /* largest number that a corner names */
-    size_t line_of[KINDS]; /* line that names it first */
+    size_t line_of[KINDS]; /* the line that first names that number */
     koksma__mtl_names names;
     koksma__list used;                 /* size_t indices of names in the order of their first use */
-    size_t material;                   /* of the following polygons */
+    size_t material;                   /* material of the following polygons */
     bool split;                        /* the next polygon begins a new mesh */
     uint64_t group, object;            /* hashes of the current names */
     uint64_t libraries[MAX_LIBRARIES]; /* hashes of the mtllib lines' names */
     size_t n_libraries;
-    bool own_library; /* the material file with the model's own name was read */
+    bool own_library; /* whether the material file with the same name as the model was read */
     char joined[MAX_LINE + 1];
 } obj;
 
@@ -132,7 +133,7 @@ static koksma_status take_vertex(obj *o, int kind)
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     const float weight = kind == PLACE && (n == 4 || n == 7) ? v[3] : 1, *colour = v + n - 3;
     if (weight == 0) {
-        return wrong(o, "a vertex of weight 0 is nowhere");
+        return wrong(o, "a vertex of weight 0 is at infinity");
     }
     for (size_t k = 0; k < widths[kind] && k < 3; k++) {
         to[k] = v[k] / weight;
@@ -145,7 +146,7 @@ static koksma_status take_vertex(obj *o, int kind)
 
 /* ---- Polygons ----------------------------------------------------------------------------------------------- */
 
-/* The number of items of a kind read so far. */
+/* The number of items of one kind (positions, texture vertices or normals) read so far. */
 static size_t count_of(const obj *o, int kind)
 {
     return o->vertices[kind].n / widths[kind];
@@ -204,7 +205,7 @@ static part *find_part(obj *o)
     return new;
 }
 
-/* Reads the corners of a face, line or point, which must all name the same kinds of items; a face becomes
+/* Reads the corners of a face, line or point; all its corners must name the same kinds of items. A face becomes
    triangles. */
 static koksma_status take_corners(obj *o, bool face)
 {
@@ -217,7 +218,7 @@ static koksma_status take_corners(obj *o, bool face)
         corner *to = koksma__list_add(&o->corners, 1, sizeof *to);
         const int kinds = to ? take_corner(o, word, t->at, to) : 0;
         if (!kinds) {
-            return to ? wrong(o, "a corner is v, v/t, v//n or v/t/n, numbers of vertices that are there")
+            return to ? wrong(o, "a corner must be v, v/t, v//n or v/t/n, with numbers of vertices that exist")
                       : KOKSMA_MEMORY;
         }
         first = first ? first : kinds;
@@ -267,7 +268,7 @@ static koksma_status use_material(obj *o, const char *name, size_t length)
     return KOKSMA_OK;
 }
 
-/* If a material file is missing, reads the one that has the model's own name. */
+/* If a material file is missing, reads the material file that has the same name as the model. */
 static koksma_status note_missing(obj *o, const char *name)
 {
     char own[KOKSMA__MAX_PATH];
@@ -335,7 +336,7 @@ static koksma_status take_line(obj *o)
         return status;
     }
     if (memchr(word, '\0', (size_t)(t->stop - word))) {
-        return wrong(o, "not text (a zero byte)");
+        return wrong(o, "the file is not text: it contains a zero byte");
     }
     if (length == 1 && *word == 'v') {
         return take_vertex(o, PLACE);
@@ -366,7 +367,7 @@ static koksma_status check_corners(const obj *o)
     static const char *const names[KINDS] = {[PLACE] = "vertex", [TEXTURE] = "texture vertex", [NORMAL] = "normal"};
     for (int kind = 0; kind < KINDS; kind++) {
         KOKSMA__FAIL_IF(o->highest[kind] > count_of(o, kind), KOKSMA_MALFORMED,
-                        "%s: line %zu: a corner names %s %zu; there are %zu", o->text.path, o->line_of[kind],
+                        "%s: line %zu: a corner names %s %zu, but there are %zu", o->text.path, o->line_of[kind],
                         names[kind], o->highest[kind], count_of(o, kind));
     }
     return KOKSMA_OK;

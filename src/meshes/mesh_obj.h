@@ -6,7 +6,7 @@
 #include "meshes/mesh_file.h"
 
 /* Adds the contents of the file and its material files to out. The whole file must be in memory, followed by a zero
-   byte, and not empty; out->path is set. Errors: MISSING, MALFORMED, MEMORY. */
+   byte, and not empty; out->path must be set. Errors: MISSING, MALFORMED, MEMORY. */
 koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
 
 #endif

@@ -15,10 +15,10 @@
 typedef struct off {
     koksma__text text;
     long long vertices, faces;
-    koksma__list positions, corners, indices; /* corners: of one face */
+    koksma__list positions, corners, indices; /* the corners of one face */
 } off;
 
-/* Goes to the next line that has more than a comment. */
+/* Goes to the next line that is not empty and not only a comment. */
 static koksma_status next_line(off *o)
 {
     return koksma__text_full_line(&o->text, '#');
@@ -37,7 +37,7 @@ static koksma_status take_header(off *o)
     koksma_status status = next_line(o);
     const size_t length = status ? 0 : koksma__text_rest(&o->text, &word);
     if (!status && !koksma__text_is(word, length, "OFF")) {
-        return koksma__text_wrong(&o->text, "not 'OFF', with which such a file begins");
+        return koksma__text_wrong(&o->text, "the file does not begin with 'OFF'");
     }
     status = status ? status : next_line(o);
     if (!status && (!take_whole(&o->text, &o->vertices) || !take_whole(&o->text, &o->faces))) {
@@ -70,7 +70,8 @@ static koksma_status take_face(off *o)
     for (long long i = 0; i < corners; i++) { /* stops at the line's end, even if more corners are claimed */
         if (!take_whole(&o->text, &vertex) || vertex >= o->vertices) {
             return koksma__text_wrong(
-                &o->text, "a face is the number of its corners, and their vertices, each below the number of these");
+                &o->text,
+                "a face must be the number of its corners, and the indices of their vertices, which must exist");
         }
         uint32_t *to = koksma__list_add(&o->corners, 1, sizeof *to);
         KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
@@ -85,7 +86,7 @@ static koksma_status finish(off *o, koksma__mesh_file *out)
     koksma__file_material *grey;
     koksma_status status = koksma__mesh_init(o->positions.n / 3, 0, false, false, &mesh);
     if (!status) {
-        if (o->positions.n) { /* without positions there is nothing to copy */
+        if (o->positions.n) { /* a file without positions has nothing to copy */
             memcpy(mesh.vertices, o->positions.items, o->positions.n * sizeof *mesh.vertices);
         }
         koksma__fan_finish(&o->indices, &mesh);

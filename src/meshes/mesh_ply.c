@@ -4,11 +4,10 @@
  * their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one line.
  *
  * Of "vertex" the properties x y z, nx ny nz, texture coordinates (u v, s t, tx ty, texture_u texture_v) and colours
- * (only whether there are any) are read; of "face" the list vertex_indices or vertex_index, a fan of triangles, and
- * the list texcoord, u and v for each corner, which become the texture coordinates of the vertices: if faces that
- * share a vertex disagree, the last face wins. A comment "TextureFile NAME" names the texture. Everything else is
- * skipped, but still checked: a file that is cut short, or that lacks a number where the header requires one, is an
- * error.
+ * (only whether any exist) are read; of "face" the list vertex_indices or vertex_index, a fan of triangles, and the
+ * list texcoord, u and v for each corner, which become the texture coordinates of the vertices: if faces that share a
+ * vertex disagree, the last face wins. A comment "TextureFile NAME" names the texture. Everything else is skipped,
+ * but still checked: a file that is cut short, or that lacks a number where the header requires one, is an error.
  *
  * Format: G. Turk, "The PLY Polygon File Format" (1994); texcoord and TextureFile are MeshLab's.
  */
@@ -42,7 +41,7 @@ typedef struct element {
     char name[NAME];
     size_t count;
     int first, n; /* range of its properties */
-    size_t bytes; /* least size of one element */
+    size_t bytes; /* smallest size of one element in bytes */
 } element;
 
 typedef struct ply {
@@ -55,7 +54,7 @@ typedef struct ply {
     property properties[MAX_PROPERTIES];
     char texture[1024];
     koksma__mesh mesh;
-    koksma__list corners, indices; /* corners: of one face */
+    koksma__list corners, indices; /* the corners of one face */
 } ply;
 
 /* ---- The header ------------------------------------------------------------------------------------------ */
@@ -107,7 +106,7 @@ static koksma_status take_property(ply *p, const char *line)
 {
     char first[16], second[16] = "", name[NAME], rest[2];
     if (!p->n_elements) {
-        return koksma__text_wrong(&p->text, "a property of no element");
+        return koksma__text_wrong(&p->text, "a property comes before any element");
     }
     if (p->n_properties == MAX_PROPERTIES) {
         return koksma__text_wrong(&p->text, "more than 1024 properties");
@@ -124,9 +123,9 @@ static koksma_status take_property(ply *p, const char *line)
         to->slot = find_slot(e->name, name, false);
     }
     if (!to->item || (to->slot == CORNERS && to->item->kind == REAL)) {
-        return koksma__text_wrong(&p->text, "no property of a known type");
+        return koksma__text_wrong(&p->text, "the property has an unknown type");
     }
-    /* the least that a value can take; in a text file that is a digit and a blank */
+    /* the smallest number of bytes that a value can take: in a text file a digit and a blank */
     e->bytes += p->is_text ? 2 : to->count ? to->count->bytes : to->item->bytes;
     p->n_properties++;
     e->n++;
@@ -137,7 +136,7 @@ static koksma_status take_element(ply *p, const char *line)
 {
     char name[NAME], digits[24], rest[2];
     if (sscanf(line, "element %63s %23[0-9] %1s", name, digits, rest) != 2) {
-        return koksma__text_wrong(&p->text, "neither an element, nor a property, a comment or end_header");
+        return koksma__text_wrong(&p->text, "expected an element, a property, a comment or end_header");
     }
     if (p->n_elements == MAX_ELEMENTS) {
         return koksma__text_wrong(&p->text, "more than 64 elements");
@@ -160,12 +159,12 @@ static koksma_status next_header_line(ply *p, char line[1024])
 {
     if (!koksma__text_line(&p->text)) {
         p->text.number++;
-        return koksma__text_wrong(&p->text, "the file ends before what it claims");
+        return koksma__text_wrong(&p->text, "the file ends before all data that it claims");
     }
     const size_t length = (size_t)(p->text.stop - p->text.at);
     if (length >= 1024 || memchr(p->text.at, '\0', length)) {
-        return koksma__text_wrong(&p->text,
-                                  length >= 1024 ? "longer than 1023 characters" : "not text (a zero byte)");
+        return koksma__text_wrong(&p->text, length >= 1024 ? "longer than 1023 characters"
+                                                           : "the file is not text: it contains a zero byte");
     }
     memcpy(line, p->text.at, length);
     line[length] = '\0';
@@ -186,13 +185,13 @@ static koksma_status take_header(ply *p)
     char line[1024], format[24] = "", version[8], rest[2];
     koksma_status status = next_header_line(p, line);
     if (!status && strcmp(line, "ply") != 0) {
-        return koksma__text_wrong(&p->text, "not 'ply', with which such a file begins");
+        return koksma__text_wrong(&p->text, "the file does not begin with 'ply'");
     }
     status = status ? status : next_header_line(p, line);
     if (!status && (sscanf(line, "format %23s %7s %1s", format, version, rest) != 2 || strcmp(version, "1.0") != 0 ||
                     (strcmp(format, "ascii") != 0 && strcmp(format, "binary_little_endian") != 0 &&
                      strcmp(format, "binary_big_endian") != 0))) {
-        return koksma__text_wrong(&p->text, "no format ascii, binary_little_endian or binary_big_endian 1.0");
+        return koksma__text_wrong(&p->text, "the format is not ascii, binary_little_endian or binary_big_endian 1.0");
     }
     p->is_text = !strcmp(format, "ascii");
     p->big_endian = !strcmp(format, "binary_big_endian");
@@ -229,14 +228,14 @@ static koksma_status take_text(ply *p, const type *of, double *real, long long *
     size_t length;
     float value = 0;
     if (!koksma__text_word(&p->text, &word, &length)) {
-        return koksma__text_wrong(&p->text, "fewer numbers than its element has");
+        return koksma__text_wrong(&p->text, "the line has fewer numbers than its element");
     }
     const char *end = word + length, *at = word;
     const bool negative = *word == '-', sign = negative || *word == '+';
     if (of->kind != REAL) {
         at += of->kind == WHOLE && sign;
         if (!koksma__text_whole(&at, end, whole) || at != end) {
-            return koksma__text_wrong(&p->text, "a whole number was due");
+            return koksma__text_wrong(&p->text, "expected a whole number");
         }
         *whole = negative ? -*whole : *whole;
         *real = (double)*whole;
@@ -248,7 +247,7 @@ static koksma_status take_text(ply *p, const type *of, double *real, long long *
         return KOKSMA_OK;
     }
     if (!koksma__text_float(&at, end, &value) || at != end) {
-        return koksma__text_wrong(&p->text, "a number was due");
+        return koksma__text_wrong(&p->text, "expected a number");
     }
     *real = (double)value;
     return KOKSMA_OK;
@@ -301,7 +300,7 @@ static inline koksma_status take_number(ply *p, const type *of, bool as_whole, d
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* Checks that number i of element e is the index of a vertex. */
+/* Checks that the number i, an entry of element e, is the index of a vertex. */
 static koksma_status check_corner(const ply *p, const element *e, size_t i, long long vertex)
 {
     char where[40] = "";
@@ -311,8 +310,8 @@ static koksma_status check_corner(const ply *p, const element *e, size_t i, long
     if (p->is_text) {
         snprintf(where, sizeof where, "line %zu: ", p->text.number);
     }
-    return koksma__fail(KOKSMA_MALFORMED, "%s: %s%s %zu names vertex %lld; there are %zu, from 0 on", p->text.path,
-                        where, e->name, i, vertex, p->n_vertices);
+    return koksma__fail(KOKSMA_MALFORMED, "%s: %s%s %zu names vertex %lld, but there are %zu, numbered from 0",
+                        p->text.path, where, e->name, i, vertex, p->n_vertices);
 }
 
 /* The mesh's array for a property of its vertices, with entries *step numbers apart. NULL: the property is not stored
@@ -377,7 +376,7 @@ static koksma_status take_list(ply *p, const element *e, size_t i, const propert
     }
     koksma_status status = take_number(p, of->count, true, &real, &n);
     if (!status && n < 0) {
-        return p->is_text ? koksma__text_wrong(t, "a list of less than nothing") : cut_short(p, e, i);
+        return p->is_text ? koksma__text_wrong(t, "a list has a negative length") : cut_short(p, e, i);
     }
     if (!status && !p->is_text) {
         if ((size_t)n > (size_t)(t->end - t->next) / of->item->bytes) {
@@ -421,7 +420,7 @@ static koksma_status take_item(ply *p, const element *e, size_t i, bool vertices
         }
     }
     if (!status && p->is_text && koksma__text_word(&p->text, &word, &length)) {
-        return koksma__text_wrong(&p->text, "more numbers than its element has");
+        return koksma__text_wrong(&p->text, "the line has more numbers than its element");
     }
     if (status || vertices) {
         return status;
@@ -429,8 +428,8 @@ static koksma_status take_item(ply *p, const element *e, size_t i, bool vertices
     return koksma__fan_add(p->text.path, &p->indices, p->corners.items, p->corners.n);
 }
 
-/* Reads property `of` of the binary vertices first .. first + n - 1; the first one is at `at`, and each takes stride
-   bytes. */
+/* Reads the property `of` of the binary vertices first .. first + n - 1; the first of them is at `at`, and each takes
+   stride bytes. */
 static void take_column(ply *p, const property *of, const unsigned char *at, size_t stride, size_t first, size_t n)
 {
     size_t step;
@@ -476,8 +475,8 @@ static size_t take_vertices(ply *p, const element *e)
 }
 
 /* Reads the next triangles, at most 4096, of a binary file in the most common form: a count of one byte, and corners
-   of 4 bytes. *taken is their number; it stops before a face in another form or with an index out of range, which
-   take_item() handles. */
+   of 4 bytes. *taken is their number. The function stops before a face in another form or with an index out of range;
+   take_item() handles these. */
 static koksma_status take_triangles(ply *p, const element *e, size_t most, size_t *taken)
 {
     enum { BYTES = 13, RUN = 4096 };
@@ -491,7 +490,7 @@ static koksma_status take_triangles(ply *p, const element *e, size_t most, size_
         before / 3 + RUN > KOKSMA__MAX_TRIANGLES) {
         return KOKSMA_OK;
     }
-    if (!before) { /* reserve for all faces as triangles: their corners take less memory than the file */
+    if (!before) { /* reserve memory as if all faces were triangles: their corners take less memory than the file */
         KOKSMA__TRY(koksma__list_reserve(&p->indices, 3 * most, sizeof(uint32_t)) ? KOKSMA_OK : KOKSMA_MEMORY);
     }
     most = most < RUN ? most : RUN;

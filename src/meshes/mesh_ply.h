@@ -6,7 +6,7 @@
 #include "meshes/mesh_file.h"
 
 /* Adds the contents of the file to out. The whole file must be in memory, followed by a zero byte, and not empty;
-   out->path is set. Errors: MALFORMED, MEMORY. */
+   out->path must be set. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
 
 #endif

@@ -143,7 +143,7 @@ static void append_vertices(const koksma__mesh *from, const double matrix[12], k
     }
 }
 
-/* Appends a mesh after the vertices and triangles of out, which has the capacity. */
+/* Appends a mesh after the vertices and triangles of out, which has capacity for it. */
 static void append(const koksma__mesh *from, const double matrix[12], koksma__mesh *out)
 {
     const bool swapped = koksma__matrix_mirrors(matrix);

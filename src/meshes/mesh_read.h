@@ -8,7 +8,7 @@
 /* Whether a file's name has the ending of a mesh file (.obj .ply .ply.gz .off .gltf .glb .serialized). */
 bool koksma__is_mesh_file(const char *path);
 
-/* Reads a mesh file and the files that it names. The caller calls koksma__mesh_file_fini, also after an error.
+/* Reads a mesh file and the files that it names. The caller must call koksma__mesh_file_fini even after an error.
    Errors: MISSING, MALFORMED, MEMORY. */
 koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out);
 

@@ -56,7 +56,7 @@ koksma_status koksma__text_full_line(koksma__text *t, char comment)
         }
     }
     t->number++;
-    return koksma__text_wrong(t, "the file ends before what it claims");
+    return koksma__text_wrong(t, "the file ends before all data that it claims");
 }
 
 koksma_status koksma__text_wrong(const koksma__text *t, const char *reason)
@@ -91,8 +91,8 @@ size_t koksma__text_rest(koksma__text *t, const char **rest)
     return (size_t)(stop - *rest);
 }
 
-/* Reads digits into *w while it has fewer than 19, and returns their number. *left counts the digits after those, and
-   *lossy is set if one of these was not 0. */
+/* Reads digits into *w while it has fewer than 19, and returns their number. *left receives the number of further
+   *digits, and *lossy is set if one of these is not 0. */
 static size_t take_digits(const char **at, const char *end, uint64_t *w, int *left, bool *lossy)
 {
     const char *first = *at;

@@ -18,7 +18,7 @@ typedef struct koksma__text {
 /* Starts before the first line, and skips a UTF-8 byte order mark. */
 koksma__text koksma__text_open(const char *path, const unsigned char *file, size_t size);
 
-/* Goes to the next line, which excludes its end (LF or CR LF); false: there is none. */
+/* Goes to the next line, whose end (LF or CR LF) is not part of it; false if there is none. */
 bool koksma__text_line(koksma__text *t);
 
 /* Goes to the next line with text before the first character `comment`, at which the line is cut. Errors: MALFORMED
@@ -42,10 +42,10 @@ size_t koksma__text_rest(koksma__text *t, const char **rest);
 
 /* Reads a decimal number at `*at`: digits with at most one point, perhaps with a sign and an exponent. The result is
    the nearest float, for any number of digits; beyond the largest float it is infinite. Returns false if there is no
-   number. The byte at `end` must be one that cannot continue a number. */
+   number. The byte at `end` must not be able to continue a number. */
 bool koksma__text_float(const char **at, const char *end, float *out);
 
-/* Reads digits as an integer; a value above 2^62 becomes 2^62. Returns false if there are none. */
+/* Reads digits as an integer; a value above 2^62 becomes 2^62. Returns false if there is no digit. */
 bool koksma__text_whole(const char **at, const char *end, long long *out);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * L-BFGS (Nocedal 1980; Nocedal & Wright 2006, algorithm 7.4) with a backtracking line search. For functions on the
- * torus, coordinates move on the whole axis and are then reduced modulo 1 to [0,1); for others they are projected to
- * their intervals, which are [0,1] or of length 1/n.
+ * torus, coordinates are reduced modulo 1 after each step; for other functions each is projected to its interval,
+ * which is [0,1] or has length 1/n.
  *
- * Half of the starts are the best set with some points drawn anew or all moved a little; the others are the points {i
- * a + s} (fractional parts) with random vectors a and s, or random points.
+ * Half of the descents start from the best set, with some points replaced by random ones or all moved a little; the
+ * others start from the points {i a + s} (fractional parts) with random vectors a and s, or random points.
  */
 #include "optimise/descent.h"
 
@@ -106,7 +106,8 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
     for (int k = 0; k < iterations && !status && d->work < d->budget; k++) {
         find_direction(d);
         double slope = dot(n, d->gradient, d->direction);
-        if (!(slope < 0)) { /* not a descent direction: the stored steps no longer describe the curvature */
+        /* the direction does not descend, because the stored steps no longer describe the curvature */
+        if (!(slope < 0)) {
             d->kept = 0;
             find_direction(d);
             slope = dot(n, d->gradient, d->direction);
@@ -129,7 +130,8 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
         }
         bool ends = square - next <= 1e-12 * square;
         square = next;
-        /* stop if HOPE more stretches with the gain of the last one would not reach the goal */
+        /* stop if HOPE more stretches of STRETCH iterations, each gaining as much as the last one, would not reach
+           the goal */
         if (k % STRETCH == STRETCH - 1) {
             ends = ends || HOPE * (mark - square) < square - d->goal;
             mark = square;
@@ -143,7 +145,7 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
     return status;
 }
 
-/* Exchanges a coordinate between some pairs of points that are near in another coordinate. */
+/* Exchanges a coordinate between the points of some pairs that are close to each other in another coordinate. */
 static void exchange(koksma__descent *d, koksma__stream *random, size_t pairs)
 {
     const size_t n = d->points.n, dim = (size_t)d->points.dim;
@@ -191,8 +193,8 @@ static void kick(koksma__descent *d, koksma__stream *random)
     }
 }
 
-/* The points {i a + s} (fractional parts). In half of the cases one axis is i / n + s, and in half of those a has
-   multiples of 1/n, which makes the set a lattice of rank 1. */
+/* The points {i a + s} (fractional parts). In half of the cases one coordinate is i / n + s, and in half of those all
+   entries of a are multiples of 1/n, which makes the set a rank-1 lattice. */
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random)
 {
     const double n = (double)d->points.n;
@@ -238,7 +240,8 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
     d->gradient_before = d->before + n;
     d->steps = d->gradient_before + 2 * n; /* the current step is stored in the numbers before it */
     d->changes = d->steps + KOKSMA__MEMORY * n;
-    d->budget = fmax(1.5e7, KOKSMA__ITERATIONS * cost); /* some tenths of a second, or at least one descent */
+    /* work that takes some tenths of a second, but at least one descent */
+    d->budget = fmax(1.5e7, KOKSMA__ITERATIONS * cost);
     d->length = keep == KOKSMA_KEEP_NET ? (1 - 2e-9) / (double)points->n : 1 - 0x1p-53;
     for (size_t c = 0; c < n; c++) {
         d->low[c] =

@@ -21,25 +21,27 @@ typedef struct koksma__descent {
     double *before, *gradient_before;
     double *steps, *changes; /* the last KOKSMA__MEMORY differences of x and of the gradient */
     double length, products[KOKSMA__MEMORY], work, cost,
-        budget;  /* in numbers read: work so far, cost of one gradient, most work */
+        budget;  /* work so far, work of one gradient, and maximum work, each as a number of numbers read */
     size_t kept; /* number of steps so far */
     double goal; /* a descent that is unlikely to reach this value ends early */
 } koksma__descent;
 
 /* Allocates for sets with the size of `points`; with keep=net each coordinate stays in its interval of length 1/n.
-   bounded false: coordinates are on the torus. `cost` is the work of one call of the function. Errors: MEMORY. */
+   If `bounded` is false, coordinates are on the torus. `cost` is the work of one call of the function. Errors:
+   MEMORY. */
 koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *points, koksma_keep keep, bool bounded,
                                    double cost);
 void koksma__descent_fini(koksma__descent *d);
 
-/* Sets the points with which a descent starts: the best set changed, or new points. */
+/* Sets the points from which a descent starts: a changed copy of the best set, or new points. */
 void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep, koksma__stream *random);
 
-/* Sets the points {i a + s} (fractional parts) with random vectors a and s; in half of the cases one axis is i / n +
-   s. */
+/* Sets the points {i a + s} (fractional parts) with random vectors a and s; in half of the cases one coordinate is i
+   / n + s. */
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random);
 
-/* Moves the points to the least value found from their position, in at most the given number of iterations. */
+/* Descends from the points in at most the given number of iterations, and leaves the best points found in their
+   place. */
 koksma_status koksma__descend(koksma__descent *d, int iterations, double *least);
 
 #endif

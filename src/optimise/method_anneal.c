@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * anneal: minimises the L2 discrepancies of boxes by a search over permutations, in which the coordinates follow.
+ * anneal: minimises the L2 discrepancies of boxes by a search over the orders of the points along the axes, to which
+ * the coordinates are then fitted.
  *
- * Where the order of the points along each axis is fixed, the squared discrepancy is smooth, and nearly all of its
- * local minima differ in these orders. So a search anneals the orders: two points swap one coordinate, and the swap
- * is accepted if the square grows by less than a random threshold, whose mean falls from round to round. Half of the
- * swaps are between points that follow each other closely along another axis. After each round a few iterations of
- * L-BFGS move the coordinates to where the new orders want them. The last rounds accept gains only. Then
- * the search tries single swaps with a descent after each, as a swap that costs a little at fixed coordinates can gain
- * at those that fit it: at 64 points this brings l2-star from .00691 to .00677. Half of the searches start from random
- * orders of the centres (i + 1/2)/n, the others from the best set at a lower threshold.
+ * While the order of the points along each axis is fixed, the squared discrepancy is a smooth function, and nearly
+ * all of its local minima have different orders. So a search anneals the orders: two points swap one coordinate, and
+ * the swap is accepted if the square grows by less than a random threshold, whose mean falls from round to round.
+ * Half of the swaps are between points that are close to each other in the order along another axis. After each round
+ * a few iterations of L-BFGS fit the coordinates to the new orders. The last rounds accept only swaps that reduce the
+ * value. Then the search tries single swaps with a descent after each, because a swap that raises the value a little
+ * at fixed coordinates can reduce it after the descent: with 64 points this lowers l2-star from .00691 to .00677.
+ * Half of the searches start from random orders of the centres (i + 1/2)/n, the others from the best set at a lower
+ * threshold.
  *
  * A swap of coordinate k of points p and q changes n^2 times the square by (Jin, Chen & Sudjianto 2005)
  *
@@ -30,8 +32,9 @@
 #include "optimise/descent.h"
 #include "optimise/value.h"
 
-/* LEAST_N: fewer points are left to descents, which find their best sets at once. In each of ROUNDS rounds there are
-   SWAPS n proposals; searches from the best set leave out the first WARM rounds. COLD rounds accept gains only. */
+/* LEAST_N: for fewer points the method `descent` is used, which finds the best sets at once. In each of ROUNDS rounds
+   there are SWAPS n proposals; searches from the best set leave out the first WARM rounds. The last COLD rounds
+   accept only swaps that reduce the value. */
 enum {
     LEAST_N = 10,
     MOST_NUMBERS = 1 << 21,
@@ -47,11 +50,12 @@ enum {
     STALE = 2
 };
 
-/* The mean threshold in the first round, as a share of the square after a first descent, and its factor from round to
-   round. */
+/* The mean threshold in the first round, divided by the square after a first descent, and the factor by which it
+   falls from each round to the next. */
 static const double FIRST = 0.1, FALL = 0.96;
 
-/* Single swaps are tried if they add at most this share to the square; coordinates read while they are tried. */
+/* LEAP: single swaps are tried if they raise the square by at most this share. POLISH: number of coordinates read
+   while they are tried. */
 static const double LEAP = 0.02, POLISH = 1e8;
 
 typedef struct job {
@@ -60,7 +64,7 @@ typedef struct job {
     double *kernels;        /* K_k(i, j) at (k n + i) stride + j; the columns from n on are 0 */
     double *linear;         /* a_k of point i at k n + i */
     double *products;       /* two rows: R_p and R_q */
-    double *before;         /* a set to return to */
+    double *before;         /* the set to restore if a trial swap gains nothing */
     uint32_t *order, *rank; /* for each axis the points in order, and the rank of each point */
     koksma__stream random;
     void *memory;
@@ -94,7 +98,7 @@ static koksma_status prepare(job *j, const double *xs)
     for (size_t k = 0; k < dim; k++) {
         uint32_t *order = j->order + k * n;
         KOKSMA__TRY(koksma__order(&one_thread, n, xs + k, dim, order));
-        double *g = j->products; /* one half of the kernel, g(x_i) */
+        double *g = j->products; /* the part g(x_i) of the kernel */
         for (size_t i = 0; i < n; i++) {
             j->rank[k * n + order[i]] = (uint32_t)i;
             j->linear[k * n + i] = koksma__l2_polynomial(row->a24, xs[i * dim + k]) / 24;
@@ -223,7 +227,8 @@ static koksma_status square_of(const void *context, const koksma_points *points,
     return koksma__search_square(m->measure, m->options, points, value, gradient);
 }
 
-/* Tries random swaps, each with a descent, until STALE n^2 in sequence gain nothing or the work is spent. */
+/* Tries random swaps, each followed by a descent, until STALE n^2 swaps in a row gain nothing or the work is used
+   up. */
 static koksma_status improve(job *j, koksma__descent *d, double *square)
 {
     const size_t bytes = d->count * sizeof(double), n = j->n, dim = j->dim;
@@ -311,7 +316,7 @@ static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 
 const koksma_method koksma__method_anneal = {
     .name = "anneal",
-    .title = "annealed orders of the points, whose coordinates follow (L2 family)",
+    .title = "simulated annealing of the points' orders, with coordinates fitted to them (L2 family)",
     .cite = "jin2005 dueck1990 nocedal1980",
     .serves = serves,
     .search = search,

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * digital: the generator matrices of a digital sequence in base 2, for any measure, by its value alone. A move of the
- * walk adds, in the matrix of one coordinate, a row to a row below it, or a column to a column on its right. For all
- * k both preserve the rank of the first k columns in the first k rows, so that each coordinate remains a
- * (0,1)-sequence: its first 2^k points include one in each interval of length 2^-k. Adding rows only, which is
- * Matousek's linear scrambling, preserves all net parameters; adding columns changes direction numbers, and with them
- * the joint distribution of the coordinates. Columns of coordinate 0 are not changed, because adding a column in all
- * coordinates at once changes no prefix of 2^k points. A move is kept if the value grows by no more than a threshold
- * that falls to 0 (threshold accepting: Dueck & Scheuer 1990). A quarter of the walks start with 8 random moves for
- * each column and coordinate.
+ * digital: searches for the generator matrices of a digital sequence in base 2; needs only the value of the measure,
+ * and so works for any measure. A move of the walk adds, in the matrix of one coordinate, a row to a row below it, or
+ * a column to a column on its right. Both kinds of move preserve, for all k, the rank of the upper left k x k
+ * submatrix, so that each coordinate remains a (0,1)-sequence: its first 2^k points include one in each interval of
+ * length 2^-k. Adding rows is Matousek's linear scrambling, and preserves all net parameters; adding columns changes
+ * the direction numbers, and so the joint distribution of the coordinates. Columns of coordinate 0 are not changed,
+ * because a column added in all coordinates at once leaves every prefix of 2^k points the same set. A move is kept if
+ * the value grows by no more than a threshold that falls to 0 (threshold accepting: Dueck & Scheuer 1990). A quarter
+ * of the walks start with 8 random moves for each column and coordinate.
  *
  * Source: Matousek 1998 for the scrambling; Sobol' sequences with optimised direction numbers: Joe & Kuo 2008.
  */
@@ -54,8 +54,8 @@ static void add_column(koksma_points *points, size_t k, unsigned from, unsigned 
     *x = (double)((uint64_t)(*x * 0x1p53) ^ y) * 0x1p-53;
 }
 
-/* One move. Only rows down to LOWER below those that distinguish 2^m points are changed: lower ones move points too
-   little to matter. */
+/* One move. Only the rows that distinguish 2^m points, and LOWER rows below these, are changed: lower rows move
+   points too little to matter. */
 static size_t move(koksma_points *points, unsigned m, koksma__stream *random)
 {
     const size_t k = koksma__next_below(random, (size_t)points->dim);

@@ -89,7 +89,7 @@ static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 
 const koksma_method koksma__method_exchange = {
     .name = "exchange",
-    .title = "swaps of one coordinate that keep Latin hypercubes (L2 family)",
+    .title = "swaps of one coordinate of two points, which keep a Latin hypercube (L2 family)",
     .cite = "jin2005 dueck1990",
     .serves = serves,
     .search = search,

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * perturb: for any measure, by its value alone. A walk moves one point at a time on the torus, by a step whose length
- * is drawn log-uniformly between 10^-4 and 1 times the mean spacing n^(-1/d). With keep=net the point stays within
- * its intervals of length 1/n; with keep=latin two points swap a coordinate instead. A move is accepted if the new
- * value is at most the walk's current value plus a threshold that falls to 0 (threshold accepting: Dueck & Scheuer
- * 1990).
+ * perturb: a random search that needs only the value of the measure, and so works for any measure. A walk moves one
+ * point at a time on the torus, by a step whose length is drawn log-uniformly between 10^-4 and 1 times the mean
+ * spacing n^(-1/d). With keep=net the point stays within its intervals of length 1/n; with keep=latin two points swap
+ * a coordinate instead. A move is accepted if the new value is at most the walk's current value plus a threshold that
+ * falls to 0 (threshold accepting: Dueck & Scheuer 1990).
  */
 #include <math.h>
 #include <string.h>
@@ -83,7 +83,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
 
 const koksma_method koksma__method_perturb = {
     .name = "perturb",
-    .title = "moves of one point, or swaps of one coordinate, by the value alone",
+    .title = "moves of one point, or swaps of one coordinate, for any measure",
     .cite = "dueck1990",
     .serves = serves,
     .search = search,

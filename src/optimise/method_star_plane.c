@@ -4,28 +4,28 @@
  * each permutation are computed exactly. The file is long because the constraint solver and the search share all
  * their state.
  *
- * Let point i by x have rank p(i) by y, c(i,j) be the number of points of ranks up to i by x and j by y, and F = n f.
- * Then coordinates with D* <= f exist if and only if
+ * Let the i-th point by x have rank p(i) by y, let c(i,j) be the number of points with rank at most i by x and at
+ * most j by y, and let F = n f. Then coordinates with D* <= f exist if and only if
  *
  *     X_i Y_j >= c(i,j) - F,   X_i Y_j <= c(i-1,j-1) + F,   X_i <= X_i+1,   Y_j <= Y_j+1,   X_n+1 Y_n+1 = n,
  *
  * i, j = 1 .. n + 1; X_n+1 and Y_n+1 stand for the sides of the square. In logarithms these are difference
- * constraints. They have a solution if no cycle of constraints is violated; then any start leads to a solution by
- * raising X and lowering Y where a constraint is violated, one node after the other (Bellman & Ford with a queue). A
- * violated cycle, found by following the causes of changes, becomes satisfiable at the F for which the product of its
- * terms (count - F) equals the product of its terms (count + F): F is raised to this value, and the search for
- * violations goes on. When no constraint is violated, F is the least for p, and the cycle that set F is called
- * critical.
+ * constraints. They have a solution if and only if no cycle of constraints is violated. A solution is then found from
+ * any start by raising X or lowering Y where a constraint is violated, one node after the other (Bellman & Ford with
+ * a queue). A violated cycle is found by following the causes of changes; it becomes satisfiable at the F for which
+ * the product of its terms (count - F) equals the product of its terms (count + F): F is raised to this value, and
+ * the search for violations goes on. When no constraint is violated, F is the least value for the permutation p, and
+ * the cycle to which F was raised last is called critical.
  *
- * Starts are the order of the points (i, {i a + s}) for a with small partial quotients and random s, or, in a share
- * of the searches (width_of), the best set. The least F of a walk is its target; the walk accepts permutations whose
- * F is below a limit, a threshold above the target (Dueck 1993: record-to-record travel). Moves: two points swap
- * their ranks by y, such that a box of a cycle that is violated at the target and holds too many points loses one, or
- * one that holds too few gains one: no other swap can help. The last CYCLES cycles found violated are stored, and a
- * walk reduces the number of stored cycles that are violated at the target: a move that increases this number, or
- * violates a stored cycle at the limit, is rejected before any constraint is checked. Only when no stored cycle is
- * violated the least F is computed, which gives a new target or a new cycle (min-conflicts with constraints generated
- * on demand). Work is counted in corners visited.
+ * A walk starts from the permutation of the points (i, {i a + s}), where a has small partial quotients and s is
+ * random, or, in a share of the searches (width_of), from the best set. The least F that a walk has met is its
+ * target; it accepts permutations whose F is below a limit, which exceeds the target by a threshold (Dueck 1993:
+ * record-to-record travel). A move swaps the ranks by y of two points, so that, of the boxes of a cycle that is
+ * violated at the target, one with too many points loses a point or one with too few gains a point: no other swap can
+ * help. The last CYCLES violated cycles are stored, and a walk reduces the number of stored cycles that are violated
+ * at the target: a move that increases this number, or violates a stored cycle at the limit, is rejected before any
+ * constraint is checked. The least F is computed only when no stored cycle is violated; it gives a new target or a
+ * new cycle (min-conflicts with constraints generated on demand). Work is counted in corners visited.
  *
  * Source: the constraints as in Clement, Doerr, Klamroth & Paquete 2023, who solve them as integer programs.
  */
@@ -92,7 +92,7 @@ typedef struct plane {
     uint8_t *queued;
     size_t first, waiting; /* the queue's first entry and length; a ring of 2 side nodes */
     uint32_t stamp;
-    cycle cycles[CYCLES];     /* the stored cycles, those violated last in front */
+    cycle cycles[CYCLES];     /* the stored cycles; the most recently violated ones come first */
     cycle guides[GUIDES];     /* some of the stored cycles that are violated at a walk's target */
     size_t guided, conflicts; /* number of guides, and number of stored cycles violated at the target */
     edge *traced, *critical;  /* capacity 2 side edges each */
@@ -232,8 +232,8 @@ static void clear(plane *s)
     s->first = s->waiting = 0;
 }
 
-/* The corner of the constraint through which one node moves another; false if the nodes are neighbours on one axis,
-   which only their order constrains. */
+/* The corner of the constraint through which one node moves another; false if the two nodes belong to one axis, where
+   the only constraint is their order. */
 static bool corner_of(const plane *s, uint32_t from, uint32_t to, edge *out)
 {
     const uint32_t side = (uint32_t)s->side;
@@ -246,7 +246,7 @@ static bool corner_of(const plane *s, uint32_t from, uint32_t to, edge *out)
     return true;
 }
 
-/* Traces the cycle that closes when `from` moves `to`, where `to` is among the causes of `from`. */
+/* Traces the cycle that arises when node `from` moves node `to`, although `to` is among the causes of `from`. */
 static void trace(plane *s, uint32_t from, uint32_t to)
 {
     s->n_traced = 0;
@@ -293,7 +293,8 @@ static bool set(plane *s, uint32_t from, uint32_t to, double value)
     return true;
 }
 
-/* Finds the corners of a node and `count` nodes from `others` on whose constraints may be violated at F. */
+/* Finds the corners of a node with the `count` nodes from number `others` on whose constraints may be violated at
+   F. */
 static size_t far(const plane *s, size_t count, const int16_t *counts, size_t others, uint32_t node, double F)
 {
     const float sign = node < s->side ? -1 : 1, rounding = (float)s->n * 0x1p-21F;
@@ -301,7 +302,7 @@ static size_t far(const plane *s, size_t count, const int16_t *counts, size_t ot
                                           (float)F - rounding, s->found);
 }
 
-/* Moves the nodes whose constraints with this node are violated; false when a cycle closes. */
+/* Moves the nodes whose constraints with this node are violated; false if that makes a cycle. */
 static bool relax(plane *s, uint32_t node, double F)
 {
     const size_t side = s->side;
@@ -401,7 +402,7 @@ static bool solve(plane *s, double *F, double guess, double limit)
     }
 }
 
-/* Whether a rank is within `reach` of the corner's rank j, above it or up to it. */
+/* Whether a rank is within `reach` of the corner's rank j: above j, or at most j. */
 static bool beside(size_t rank, size_t j, size_t reach, bool above)
 {
     return above ? rank > j && rank <= j + reach : rank <= j && rank + reach > j;
@@ -430,7 +431,7 @@ static bool draw_swap(plane *s, swap *w)
         return false;
     }
     const bool many = e.sign > 0;
-    /* half of the swaps are of points within about sqrt(n) ranks of the corner, the others of any points */
+    /* half of the swaps take points within about sqrt(n) ranks of the corner, the others take any points */
     const size_t reach = koksma__next(&s->random) % 2 ? (size_t)sqrt((double)n) : n;
     const size_t before = log_uniform(&s->random, i < reach ? i : reach),
                  after = log_uniform(&s->random, n - i < reach ? n - i : reach);
@@ -488,7 +489,7 @@ static void round_all(plane *s)
 static void push_violated(plane *s, swap w, double F)
 {
     const size_t side = s->side, stride = s->stride, a = s->rank[w.a], b = s->rank[w.b];
-    const bool fewer = a > b; /* the swap has lowered the counts */
+    const bool fewer = a > b; /* whether the swap has lowered the counts */
     const size_t low = fewer ? b : a, high = fewer ? a : b;
     for (size_t k = fewer ? w.a : low; k < (fewer ? w.b : high); k++) {
         const int16_t *counts = fewer ? s->counts + k * stride + low : s->turned + k * stride + w.a;
@@ -499,8 +500,8 @@ static void push_violated(plane *s, swap w, double F)
     }
 }
 
-/* Makes one or two swaps, if F stays up to limit and no more stored cycles are violated at target. The coordinates
-   satisfy the constraints at limit before and after. */
+/* Makes one or two swaps, unless F would exceed `limit` or more stored cycles would be violated at `target`. The
+   coordinates satisfy the constraints at `limit` before and after the call. */
 static bool move(plane *s, double target, double limit)
 {
     swap w[2];
@@ -578,7 +579,7 @@ static void walk(plane *s, double F, double *best, koksma_points *points)
     s->guided = 0;
 }
 
-/* Takes order and coordinates from given points; the coordinates of the square's side are 1. */
+/* Takes the ranks and coordinates from given points; the sides of the square are at 1. */
 static koksma_status take_points(plane *s, const double *xs, uint32_t *order)
 {
     const koksma_run run = {.threads = 1};

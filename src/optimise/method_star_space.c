@@ -7,15 +7,16 @@
  *
  * where c and o are the numbers of points in the closed and in the open box of the corner, and X, Y, Z the sorted
  * coordinates of the points, and 1. For fixed ranks the counts are fixed, and the coordinates with E = 0 form a
- * convex set in log X, log Y, log Z. Reaching E = 0 proves the target f; then a target a little below the new value
- * is tried, until one is not reached.
+ * convex set in log X, log Y, log Z. Coordinates with E = 0 have a star discrepancy of at most f; then a slightly
+ * lower target is tried, until a target is not reached.
  *
- * A vectorised pass over all corners (far_corners) gives the value and a list of the corners whose excess is near it.
- * L-BFGS uses only the listed corners, about a hundredth of all, as if ranks did not change; the next pass checks the
- * result. Three of four searches walk from the best set, the others from the best of DRAWS sets {i a + s}, and start
- * again after STALE kicks without a gain. Kicks exchange a coordinate of two points such that a listed box with too
- * many points loses one, or a box with too few gains one, as no other exchange can help; one kick in five draws
- * points anew. The walk accepts the result of a descent if its value is at most a threshold above the walk's value.
+ * A vectorised pass over all corners (far_corners) gives the star discrepancy and a list of the corners whose local
+ * discrepancy is near it. L-BFGS uses only the listed corners, about 1 % of all corners, and ignores changes of
+ * ranks; the next pass checks the result. Three of four searches start a walk at the best set, the others at the best
+ * of DRAWS sets {i a + s}. A walk starts again after STALE kicks (random changes) without a gain. A kick exchanges a
+ * coordinate of two points so that a listed box with too many points loses one, or a box with too few gains one,
+ * because no other exchange can help; one kick in five replaces points by random ones. The walk accepts the result of
+ * a descent if its value is at most a threshold above the walk's value.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -37,13 +38,13 @@ typedef struct corner {
 } corner;
 
 typedef struct job {
-    size_t n, stride; /* stride: of the rows of counts */
+    size_t n, stride; /* stride: length of a row of counts in memory */
     double target;
     uint32_t *order, *found; /* order: the points sorted along each axis, followed by their ranks along each axis */
     double *low, *x;         /* the sorted coordinates along each axis, followed by 1 */
     float *z;                /* the sorted coordinates of the third axis, followed by 0 */
     int16_t *open, *closed;  /* the numbers of points before x_i, and up to x_i, with ranks below (j, k) */
-    corner *corners, *kept;  /* kept: the corners for the walk's set */
+    corner *corners, *kept;  /* kept: the corners listed for the set of the walk */
     size_t listed, n_kept;
     void *memory;
 } job;
@@ -69,7 +70,7 @@ static koksma_status job_init(job *j, size_t n)
     return KOKSMA_OK;
 }
 
-/* Adds the i-th point by x to the counts. */
+/* Adds the i-th point in the order of x to the counts. */
 static void count(const job *j, size_t i, int16_t *counts)
 {
     const size_t n = j->n, point = j->order[i];
@@ -159,7 +160,7 @@ static koksma_status list(job *j, koksma__descent *d, double limit, double *valu
     return status;
 }
 
-/* Whether a point is inside a corner's box along all axes except `but`. */
+/* Whether a point is inside a corner's box along all axes except the axis `but`. */
 static bool inside(const job *j, const corner *at, const double *xs, size_t point, size_t but)
 {
     bool in = true;
@@ -257,9 +258,9 @@ static koksma_status start(job *j, koksma__descent *d, const koksma_points *poin
     return status;
 }
 
-/* A descent in which no coordinate moves by more than the difference between the value and the target. A corner that
-   is not listed is twice as far below the value, and so rises above the target only if all three of its coordinates
-   move by that much. */
+/* A descent in which no coordinate moves by more than the difference between value and target. The local discrepancy
+   at a corner that is not listed is below the value by twice that difference, and so can exceed the target only if
+   all three coordinates of the corner move that far. */
 static koksma_status descend_near(job *j, koksma__descent *d, double value)
 {
     const double length = d->length, reach = fmin(value - j->target, length / 2);
@@ -275,9 +276,9 @@ static koksma_status descend_near(job *j, koksma__descent *d, double value)
     return status;
 }
 
-/* Descends at targets below the value as long as that helps: first far below it if cut is infinite (a start),
-   otherwise a little below it (after a kick). `lowest` and `best` get the least value and its set. Ends early if the
-   value stays above cut. */
+/* Descends to targets below the value as long as that helps: the first target is far below the value if `cut` is
+   infinite (a start), and a little below it otherwise (after a kick). `lowest` and `best` get the least value and its
+   set. Ends early if the value stays above `cut`. */
 static koksma_status follow(job *j, koksma__descent *d, double cut, double *best, double *lowest)
 {
     static const double shares[] = {0.7, 0.85, 0.95, 0.98, 0.99, 0.995, 0.998};
@@ -358,7 +359,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     job j;
     const size_t n = points->n, bytes = 6 * n * sizeof(double);
     koksma_status status = job_init(&j, n);
-    double *best = status ? NULL : malloc(bytes); /* the best set of a descent, followed by the walk's set */
+    double *best = status ? NULL : malloc(bytes); /* the best set of a descent, followed by the set of the walk */
     if (!status && !best) {
         status = koksma__fail_memory(bytes);
     }
@@ -387,7 +388,7 @@ static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
 
 const koksma_method koksma__method_star_space = {
     .name = "star-space",
-    .title = "descent of the excesses of corners near the largest (star, 3D)",
+    .title = "descent on the largest local discrepancies (star, 3D)",
     .cite = "nocedal2006",
     .serves = serves,
     .search = search,

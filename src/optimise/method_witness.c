@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * witness: minimises suprema over boxes, half-planes or disks, by the region where the supremum is reached, the
- * witness. Its border touches points. Moving these points out of a closed region with too many points, or into an
- * open region with too few, reduces that region's discrepancy: it follows a subgradient of the supremum. A walk moves
- * each touching point with probability 1/2, by a step whose length is drawn log-uniformly between 10^-4 and 1 times
- * the mean spacing; every fourth move is of a random point, because other regions have nearly the same discrepancy. A
- * move is accepted if the value grows by less than a threshold that falls to 0 (threshold accepting: Dueck & Scheuer
- * 1990).
+ * witness: minimises a discrepancy that is a supremum over boxes, half-planes or disks. The region where the supremum
+ * is reached is the witness, and its border touches points. Moving these points out of a closed region with too many
+ * points, or into an open region with too few, reduces that region's discrepancy: it follows a subgradient of the
+ * supremum. A walk moves each touching point with probability 1/2, by a step whose length is drawn log-uniformly
+ * between 10^-4 and 1 times the mean spacing; every fourth move is of a random point, because other regions have
+ * nearly the same discrepancy. A move is accepted if the value grows by less than a threshold that falls to 0
+ * (threshold accepting: Dueck & Scheuer 1990).
  */
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 
 enum { MOVES = 200 };
 
-/* The distance up to which a point counts as on the border. */
+/* A point within this distance of the border counts as touching it. */
 #define NEAR 1e-9
 
 static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
@@ -27,8 +27,8 @@ static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
                : 0;
 }
 
-/* Sets out to the direction in which a point leaves the region through the border that it touches; false: it touches
-   none. */
+/* Sets `out` to the direction in which a point leaves the region through the border that it touches; false if the
+   point touches no border. */
 static bool outward(const koksma_witness *w, const double *x, double *out)
 {
     double distance = w->kind == KOKSMA_WITNESS_HALF_PLANE ? -w->hi[0] : 0, length = 0;
@@ -120,7 +120,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
 
 const koksma_method koksma__method_witness = {
     .name = "witness",
-    .title = "moves of the points that the worst region touches (extreme, edge, disk)",
+    .title = "moves of the points on the border of the worst region (extreme, edge, disk)",
     .cite = "dueck1990",
     .serves = serves,
     .search = search,

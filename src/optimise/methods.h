@@ -10,7 +10,7 @@
 #include "optimise/methods.def"
 #undef METHOD
 
-/* The random numbers of one search, in sequence. Its initial state is all zero but for the seed. */
+/* The random numbers of one search, in sequence. Initially all members but the seed are 0. */
 typedef struct koksma__stream {
     uint64_t seed, used;
     koksma__words words;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * koksma_optimise: steps of a fixed amount of work. A step gives the best set to SEARCHES independent searches of the
- * method, each with its own seed, which run on any number of threads. The best of their results (the first of equal
- * ones) becomes the new best set if it is better. Every result is measured by koksma_evaluate; values that a method
+ * koksma_optimise runs in steps of a fixed amount of work. In each step SEARCHES independent searches, each with its
+ * own seed, start from the best set; they run on any number of threads. The best of their results (the first of equal
+ * ones) becomes the new best set if it is better. koksma_evaluate measures every result; values that a method
  * computes are not used. Processes that share a run each make every size-th search, where size is their number, and
  * send the results to the others, so that all continue from the same best set.
  */
@@ -31,7 +31,7 @@ typedef struct step {
     const koksma_method *method;
     const koksma_optimum *best;
     double *found; /* SEARCHES pieces */
-    size_t piece;  /* size: doubles in the result of one search */
+    size_t piece;  /* size: number of doubles in the result of one search */
     const koksma_run *run;
     double start_s;
 } step;
@@ -64,7 +64,7 @@ static koksma_status search(void *context, size_t block)
     return status ? status : evaluate(s->measure, s->options, &points, piece(s, i));
 }
 
-/* Reports the fraction done of the whole run: of its steps, or of its time. */
+/* Reports the fraction of the run that is done, in steps or in time. */
 static bool keep_going(void *context, double fraction)
 {
     const step *s = context;
@@ -76,7 +76,7 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(s->run, fmin(done, 1));
 }
 
-/* Runs those of the searches 0 .. SEARCHES - 1 that belong to this process. */
+/* Runs the searches with the numbers 0 to SEARCHES - 1 that belong to this process. */
 static koksma_status take_step(step *s, koksma_optimum *best)
 {
     const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = keep_going, .context = s};
@@ -101,7 +101,7 @@ static koksma_status take_step(step *s, koksma_optimum *best)
     return KOKSMA_OK;
 }
 
-/* Whether every process of a shared run continues. */
+/* Whether all processes that share the run want to continue. */
 static koksma_status agree(const koksma_processes *others, bool *going)
 {
     double wishes[MOST_PROCESSES];
@@ -116,8 +116,8 @@ static koksma_status agree(const koksma_processes *others, bool *going)
     return KOKSMA_OK;
 }
 
-/* A lower bound: n points in one dimension have a star discrepancy of at least 1/(2n) and an extreme discrepancy of
-   at least 1/n, and so have their projections on an axis. */
+/* A lower bound: the projections of n points on an axis have a star discrepancy of at least 1/(2n) and an extreme
+   discrepancy of at least 1/n, and those of the points themselves are no smaller. */
 static double lower_bound(const koksma_spec *measure, const koksma_optimise_options *o)
 {
     return o->keep == KOKSMA_KEEP_SEQUENCE || o->n_projections ? (double)NAN
@@ -144,11 +144,11 @@ static koksma_status first_set(const koksma_optimise_options *o, const koksma_ru
 static koksma_status check(const koksma_spec *measure, const koksma_optimise_options *o, const koksma_method **method)
 {
     if (!measure->measure || measure->measure->answer != KOKSMA_ANSWER_EXACT) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a measure with exact values, as star is",
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a measure with exact values, such as star or l2-star",
                             measure->measure ? measure->measure->name : "koksma_optimise");
     }
     KOKSMA__FAIL_IF((unsigned)o->keep > KOKSMA_KEEP_SEQUENCE, KOKSMA_ARGUMENT,
-                    "koksma_optimise: keep = %d is none of koksma_keep", (int)o->keep);
+                    "koksma_optimise: keep = %d is not a value of koksma_keep", (int)o->keep);
     KOKSMA__FAIL_IF(o->processes && (!o->processes->exchange || o->processes->rank < 0 ||
                                      o->processes->rank >= o->processes->size || o->processes->size > MOST_PROCESSES),
                     KOKSMA_ARGUMENT, "koksma_optimise: process %d of %d: 1 to %d processes can share a search",

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Searches for 2D points with a given radial power. With the power P(k) = (1/n) |sum_j exp(-2 pi i k.x_j)|^2, its mean
- * p_r over the N_r frequencies k of ring r (as in koksma/spectrum.h) and a target t_r, the search minimises
+ * The measure of searches for 2D points whose power spectrum has a given radial mean. With the power P(k) = (1/n)
+ * |sum_j exp(-2 pi i k.x_j)|^2, its mean p_r over the N_r frequencies k of ring r (as in koksma/spectrum.h) and a
+ * target t_r, the search minimises
  *
  *     D^2 = sum_(r = 1 .. R) r (p_r - t_r)^2 / sum_r r,
  *
@@ -12,9 +13,10 @@
  * One gradient takes O(n R^2): two passes over the points for each frequency of a half plane, with the powers of
  * exp(-2 pi i x) and exp(-2 pi i y) of each point in tables. Sums are in fixed order.
  *
- * Targets with names are the lowest that a stationary set of their form can have: its pair correlation, 1 plus the
- * Fourier transform of p - 1, is 0 at distance 0. For a step from 0 to 1 at the frequency f that is pi f^2 = n (Heck,
- * Schlomer & Deussen 2013), for 1 - exp(-f^2 / (2 s^2)) it is 2 pi s^2 = n, the spectrum of the Ginibre process.
+ * A named target is the lowest curve of its form that a stationary point set can have: the pair correlation, which is
+ * 1 plus the Fourier transform of p - 1, is 0 at distance 0. For a step from 0 to 1 at the frequency f this means pi
+ * f^2 = n (Heck, Schlomer & Deussen 2013), for 1 - exp(-f^2 / (2 s^2)) it means 2 pi s^2 = n, the spectrum of the
+ * Ginibre process.
  */
 #include "optimise/radial_power.h"
 
@@ -35,7 +37,7 @@ enum { LANES = 8, SETS = 16 };
 static koksma_status only_in_searches(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     (void)points, (void)args, (void)out;
-    return koksma__fail(KOKSMA_ARGUMENT, "radial power: it has a value in searches only");
+    return koksma__fail(KOKSMA_ARGUMENT, "radial power: only searches can compute it");
 }
 
 const koksma_measure koksma__measure_radial_power = {
@@ -49,10 +51,10 @@ const koksma_measure koksma__measure_radial_power = {
 
 koksma_status koksma__radial_power_check(const koksma_optimise_options *o)
 {
-    KOKSMA__FAIL_IF(!o->power && o->rings, KOKSMA_ARGUMENT, "options->power is NULL, and rings = %d", o->rings);
+    KOKSMA__FAIL_IF(!o->power && o->rings, KOKSMA_ARGUMENT, "options->power is NULL, but rings = %d", o->rings);
     KOKSMA__FAIL_IF(o->power && (o->rings < 1 || o->rings > KOKSMA_SPECTRUM_MAX_HALF), KOKSMA_ARGUMENT,
                     "rings = %d: a target power takes 1 to %d", o->rings, KOKSMA_SPECTRUM_MAX_HALF);
-    KOKSMA__FAIL_IF(o->power && o->dim != 2, KOKSMA_DIM, "dim = %d: a target power takes 2", o->dim);
+    KOKSMA__FAIL_IF(o->power && o->dim != 2, KOKSMA_DIM, "dim = %d: a target power needs 2 dimensions", o->dim);
     KOKSMA__FAIL_IF(o->power && (o->n_projections || o->keep == KOKSMA_KEEP_SEQUENCE), KOKSMA_ARGUMENT,
                     "a target power takes neither projections nor keep=sequence");
     for (int r = 0; o->power && r < o->rings; r++) {
@@ -164,7 +166,8 @@ static void find_powers(job *j)
     }
 }
 
-/* Adds the derivatives of all rings to j->moves; j->slopes are those of the square by each mean. */
+/* Adds the derivatives of all rings to j->moves; j->slopes holds the derivatives of the square by the mean of each
+   ring. */
 static void find_gradient(job *j)
 {
     const double *sums = j->sums;
@@ -210,8 +213,8 @@ koksma_status koksma__radial_power_square(const koksma_optimise_options *o, cons
     return KOKSMA_OK;
 }
 
-/* Reads a profile: lines of a frequency, in units of sqrt n and rising, and a power; linear between them, constant
-   outside. */
+/* Reads a target: each line has a frequency, in units of sqrt n and higher than the one before, and a power. The
+   target is linear between the lines and constant outside. */
 static koksma_status read_profile(const char *path, double root, int rings, double *power)
 {
     unsigned char *bytes;
@@ -234,9 +237,10 @@ static koksma_status read_profile(const char *path, double root, int rings, doub
             after = koksma__strtod(second, &last);
             if (second == rest || last == second || last[strspn(last, " \t\r")] || !(rows ? to > from : to >= 0) ||
                 !isfinite(to) || !(after >= 0 && isfinite(after))) {
-                status = koksma__fail(
-                    KOKSMA_MALFORMED,
-                    "%s:%d: it takes a rising frequency, in units of sqrt(n), and a power of 0 or more", path, line);
+                status = koksma__fail(KOKSMA_MALFORMED,
+                                      "%s:%d: a line must have a frequency, in units of sqrt(n) and above the one "
+                                      "before, and a power of 0 or more",
+                                      path, line);
             }
             for (; !status && ring <= rings && ring / root <= to; ring++) {
                 power[ring - 1] = rows ? before + (after - before) * (ring / root - from) / (to - from) : after;
@@ -245,7 +249,7 @@ static koksma_status read_profile(const char *path, double root, int rings, doub
         }
     }
     if (!status && !rows) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: it has no lines of a frequency and a power", path);
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: the file has no line with a frequency and a power", path);
     }
     for (; !status && ring <= rings; ring++) {
         power[ring - 1] = after;
@@ -254,7 +258,7 @@ static koksma_status read_profile(const char *path, double root, int rings, doub
     return status;
 }
 
-/* The mean over SETS sets of n points. */
+/* The target from a pattern: the mean radial power over SETS sets of n points. */
 static koksma_status power_of_pattern(const koksma_spec *pattern, size_t n, int rings, const koksma_run *run,
                                       double *power)
 {
@@ -285,9 +289,9 @@ koksma_status koksma_radial_power(const char *text, size_t n, int rings, const k
     KOKSMA__REQUIRE(text, power);
     KOKSMA__REQUIRE_RUN(run);
     KOKSMA__FAIL_IF(n < 1 || n > KOKSMA_MAX_COORDINATES / 2, KOKSMA_N,
-                    "n = %zu: a radial power takes 1 to %zu points", n, (size_t)KOKSMA_MAX_COORDINATES / 2);
+                    "n = %zu: a radial power needs 1 to %zu points", n, (size_t)KOKSMA_MAX_COORDINATES / 2);
     KOKSMA__FAIL_IF(rings < 1 || rings > KOKSMA_SPECTRUM_MAX_HALF, KOKSMA_ARGUMENT,
-                    "rings = %d: a radial power takes 1 to %d", rings, KOKSMA_SPECTRUM_MAX_HALF);
+                    "rings = %d: a radial power needs 1 to %d", rings, KOKSMA_SPECTRUM_MAX_HALF);
     const bool step = !strcmp(text, "step");
     koksma_spec pattern;
     if (step || !strcmp(text, "gaussian")) {

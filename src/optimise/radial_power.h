@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The distance of a set's radial power from a target. */
+/* The distance between the radial power of a point set and a target curve. */
 #ifndef KOKSMA_OPTIMISE_RADIAL_POWER_H
 #define KOKSMA_OPTIMISE_RADIAL_POWER_H
 
 #include <koksma/optimise.h>
 
-/* The measure that a search for a target power has in place of one of the table. */
+/* The measure that a search for a target power minimises, in place of one from the table of measures. */
 extern const koksma_measure koksma__measure_radial_power;
 
 /* Fails unless the options of a search for a target power are valid. Errors: ARGUMENT, DIM. */

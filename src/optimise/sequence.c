@@ -2,8 +2,8 @@
 /*
  * Digital sequences in base 2. Points are the first 2^m of a digital sequence if and only if point 0 is the origin
  * and, for 0 < r < 2^c, the digits of point 2^c + r are the sums modulo 2 of the digits of points 2^c and r: point
- * 2^c is column c of the generator matrices (Niederreiter 1992). So searches need to exchange only points, and the
- * matrices can be recovered from them.
+ * 2^c is column c of the generator matrices (Niederreiter 1992). So searches exchange only points; the matrices can
+ * be recovered from these.
  */
 #include "optimise/sequence.h"
 
@@ -29,8 +29,8 @@ koksma_status koksma__sequence_check(const koksma_points *points)
         for (size_t k = 0; k < dim; k++) {
             const uint64_t sum = digits_of(points->xs[high * dim + k]) ^ digits_of(points->xs[(i - high) * dim + k]);
             KOKSMA__FAIL_IF(points->xs[i * dim + k] != (double)sum * 0x1p-53, KOKSMA_ARGUMENT,
-                            "point %zu: the points are not the first ones of a digital sequence in base 2, as those "
-                            "of sobol and net-file are",
+                            "point %zu: the points are not the first points of a digital sequence in base 2, such as "
+                            "sobol or net-file",
                             i);
         }
     }

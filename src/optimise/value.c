@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The value that a search minimises. With projections u of weights w_u it is the square root of
+ * The value that a search minimises. With projections u of weights w_u it is the square root of sum_u w_u D_u^2 /
+ * sum_u w_u, where D_u is the measure of the points' coordinates u:
  *
- *     sum_u w_u D_u^2 / sum_u w_u,   where D_u is the measure of the points in the coordinates u:
- *
- * the weighted discrepancy of Sloan & Wozniakowski (1998) for the L2 family, so that its square has a gradient if the
- * squared measure has one. For a sequence the value is the weighted geometric mean over its prefixes of 2, 4, ..., n
- * points and over the projections: a gain of 1 % counts as much at 2 points as at n, although measures decrease with
- * n at different rates.
+ * the weighted discrepancy of Sloan & Wozniakowski (1998) for the L2 family, so that the square of the value has a
+ * gradient if the square of the measure has one. For a sequence the value is the weighted geometric mean over its
+ * prefixes of 2, 4, ..., n points and over the projections: a gain of 1 % counts as much at 2 points as at n,
+ * although measures decrease with n at different rates.
  */
 #include "optimise/value.h"
 
@@ -23,15 +22,15 @@ static const koksma_run one_thread = {.threads = 1};
 koksma_status koksma__search_check(const koksma_optimise_options *o)
 {
     KOKSMA__FAIL_IF((o->n_projections && !o->projections) || (o->weights && !o->n_projections), KOKSMA_ARGUMENT,
-                    "options->projections is NULL or empty, and %s",
+                    "options->projections is NULL or empty, but %s",
                     o->weights ? "there are weights" : "n_projections is not 0");
     KOKSMA__TRY(koksma__radial_power_check(o));
-    KOKSMA__FAIL_IF(o->n_projections && o->dim > 64, KOKSMA_DIM, "dim = %d: projections are of at most 64 dimensions",
-                    o->dim);
+    KOKSMA__FAIL_IF(o->n_projections && o->dim > 64, KOKSMA_DIM,
+                    "dim = %d: projections need points of at most 64 dimensions", o->dim);
     for (size_t p = 0; p < o->n_projections; p++) {
         const uint64_t u = o->projections[p];
         KOKSMA__FAIL_IF(!u || (o->dim < 64 && u >> o->dim), KOKSMA_ARGUMENT, "projection %zu has %s", p,
-                        u ? "a coordinate that the points have not" : "no coordinate");
+                        u ? "a coordinate that the points do not have" : "no coordinate");
         KOKSMA__FAIL_IF(o->weights && !(o->weights[p] > 0 && isfinite(o->weights[p])), KOKSMA_ARGUMENT,
                         "the weight of projection %zu is %g: weights are above 0", p, o->weights[p]);
     }
@@ -43,7 +42,7 @@ static double weight(const koksma_optimise_options *o, size_t p)
     return o->weights ? o->weights[p] : 1;
 }
 
-/* The points in the coordinates of a projection. */
+/* The points, reduced to the coordinates of a projection. */
 static void project(const koksma_points *points, uint64_t u, koksma_points *out)
 {
     const size_t dim = (size_t)points->dim;
@@ -67,7 +66,7 @@ static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_p
         koksma_value value;
         KOKSMA__TRY(koksma_evaluate(measure, &prefix, &one_thread, &value));
         KOKSMA__FAIL_IF(!(value.value > 0), KOKSMA_ARGUMENT,
-                        "%s of the first %zu points is %g: the geometric mean over all prefixes takes values above 0",
+                        "%s of the first %zu points is %g: the geometric mean over all prefixes needs values above 0",
                         measure->measure->name, n, value.value);
         *mean += log(value.value);
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The value that a search minimises: a measure, or its mean over prefixes of a sequence and over projections. */
+/* The value that a search minimises: a measure, or the mean of a measure over the prefixes of a sequence and over
+   projections. */
 #ifndef KOKSMA_OPTIMISE_VALUE_H
 #define KOKSMA_OPTIMISE_VALUE_H
 
@@ -13,8 +14,8 @@ koksma_status koksma__search_check(const koksma_optimise_options *options);
 koksma_status koksma__search_value(const koksma_spec *measure, const koksma_optimise_options *options,
                                    const koksma_points *points, double *value);
 
-/* The square of the value and its derivatives with respect to the coordinates, for a measure with a gradient and not
-   for sequences. Errors: MEMORY. */
+/* The square of the value and its derivatives with respect to the coordinates; not for sequences or for measures
+   without a gradient. Errors: MEMORY. */
 koksma_status koksma__search_square(const koksma_spec *measure, const koksma_optimise_options *options,
                                     const koksma_points *points, double *square, double *gradient);
 

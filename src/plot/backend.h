@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The interface of the backends that draw a canvas: the few strokes that plots are made of. svg.c implements it for
-   SVG, the module koksma-cairo.so (cairo.c), loaded with the first such canvas, for PDF and PNG. Backends do not
-   clip: canvas.c clips shapes. */
+/* The interface of the backends that draw a canvas: the few drawing operations of which plots consist. svg.c
+   implements it for SVG, the module koksma-cairo.so (cairo.c), loaded with the first such canvas, for PDF and PNG.
+   Backends do not clip: canvas.c clips shapes. */
 #ifndef KOKSMA_PLOT_BACKEND_H
 #define KOKSMA_PLOT_BACKEND_H
 
@@ -11,7 +11,7 @@ typedef struct koksma__colour {
     double r, g, b, a;
 } koksma__colour;
 
-/* How a line is drawn; the last value is for guides. */
+/* How a line is drawn; the last value is for guide lines. */
 typedef enum koksma__dash {
     KOKSMA__DASH_WHOLE,
     KOKSMA__DASH_LONG,
@@ -20,7 +20,7 @@ typedef enum koksma__dash {
     KOKSMA__DASH_GUIDE
 } koksma__dash;
 
-/* How a shape is drawn. thickness 0: filled. */
+/* How a shape is drawn. A shape of thickness 0 is filled. */
 typedef struct koksma__style {
     double thickness;
     koksma__colour colour;

@@ -191,8 +191,8 @@ void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double heig
     canvas->draw->text(canvas, x, y, height, anchor, shown, colour);
 }
 
-/* Whether a line may break before text[at]: after a sign inside a word, or at a blank other than those in "n =
-   16". */
+/* Whether a line may break before text[at]: after a punctuation mark inside a word, or at a blank unless it belongs
+   to an equation such as "n = 16". */
 static bool may_break(const char *text, size_t at)
 {
     const char last = text[at - 1], before = at > 1 ? text[at - 2] : ' ';
@@ -200,8 +200,8 @@ static bool may_break(const char *text, size_t at)
                        : strchr(",:;@/_-=", last) && before != ' ' && text[at] != ' ';
 }
 
-/* The number of bytes of the first line: up to the last blank or sign that fits; without one, as many characters as
-   fit, at least one. */
+/* The number of bytes of the first line, which ends at the last blank or punctuation mark that fits; if there is
+   none, as many characters as fit, at least one. */
 static size_t line_length(const char *text, double width, double height)
 {
     size_t fits = 0, best = 0;

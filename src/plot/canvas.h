@@ -31,15 +31,15 @@ void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double heig
 /* An upper bound of a text's width in common sans-serif fonts. */
 double koksma__text_width(const char *text, double height);
 
-/* Writes a text in lines of at most a given width, broken after blanks and signs; y is the base line of the first
-   line. With a NULL canvas it only counts. Returns the number of lines, 0 for a NULL text. */
+/* Writes a text in lines of at most a given width, broken after blanks and punctuation marks; y is the base line of
+   the first line. With a NULL canvas it only counts. Returns the number of lines, 0 for a NULL text. */
 size_t koksma__canvas_lines(koksma__canvas *canvas, double x, double y, double width, double height, double anchor,
                             const char *text, koksma__colour colour);
 
 /* The distance between the base lines of successive lines of text. */
 double koksma__line_height(double height);
 
-/* Returns the finished picture, which the caller frees. Releases the canvas, also on failure. */
+/* Returns the finished picture, which the caller frees. Releases the canvas, even if it fails. */
 koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size);
 
 #endif

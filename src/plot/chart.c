@@ -2,8 +2,8 @@
 /*
  * Curves on a pair of axes. Ticks are at 1, 2 or 5 times powers of ten; on a logarithmic axis at powers of ten, also
  * at 2 and 5 times these if the axis spans less than two decades, or at the abscissas of the marks if there are few.
- * The layout from top to bottom: title, label of y, axes, ticks and label of x, and the legend, which thus hides
- * nothing.
+ * The layout from top to bottom: title, label of y, axes, ticks and label of x, and the legend, which is below the
+ * axes so that it hides no curve.
  */
 #include "plot/chart.h"
 
@@ -72,9 +72,8 @@ static void find_ranges(const koksma_chart *c, axis *x, axis *y)
     }
 }
 
-/* Extends the range a little at both ends, but a linear axis with a small positive low end begins at
-   exactly 0. Returns false when there are no
-   values. */
+/* Extends the range a little at both ends; a linear axis whose low end is positive and small begins at exactly 0.
+   Returns false when there are no values. */
 static bool settle(axis *a, double room)
 {
     if (!(a->high >= a->low)) {
@@ -101,8 +100,7 @@ koksma_status koksma__chart_check(const koksma_chart *c)
     }
     return status || (settle(&x, 0) && settle(&y, 0))
                ? status
-               : koksma__fail(KOKSMA_ARGUMENT, "%s: there is no value that can be drawn",
-                              c->y_label ? c->y_label : "chart");
+               : koksma__fail(KOKSMA_ARGUMENT, "%s: no value can be drawn", c->y_label ? c->y_label : "chart");
 }
 
 /* ---- Ticks -------------------------------------------------------------------------------------------- */
@@ -161,7 +159,7 @@ static int marked_xs(const koksma_chart *c, const axis *x, double ticks[MAX_TICK
     return n > 1 ? n : 0;
 }
 
-/* Formats a value as %g does, without leading zeros and the plus of the exponent. */
+/* Formats a value as %g does, but without a plus sign and leading zeros in the exponent. */
 static const char *tick_text(double value, char text[TICK])
 {
     koksma__snprintf(text, TICK, "%.8g", value);
@@ -201,7 +199,7 @@ static void draw_ticks(const axes *a, const koksma_chart *c)
     }
 }
 
-/* The width of the widest label of y. The ticks of y depend on the height alone. */
+/* The width of the widest label of y. The ticks of y depend only on the height. */
 static double label_width(const axis *y, double height)
 {
     double ticks[MAX_TICKS], widest = 0;

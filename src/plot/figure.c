@@ -22,7 +22,7 @@ static const double aspect = 0.5; /* height of a chart's axes over the width of 
 /* Cells side by side. */
 typedef struct line {
     size_t first, n, columns;
-    double title, texts, flexible; /* heights: of titles, of all texts, of the squares or axes */
+    double title, texts, flexible; /* heights of the titles, of all texts, and of the squares or axes */
     bool charts;                   /* has at least one chart; charts can grow in height */
 } line;
 
@@ -90,7 +90,7 @@ static koksma_status fit_height(layout *a, double asked)
 {
     const double room = asked - a->fixed, more = room - a->flexible;
     if (asked > 0 && room < 24 * (double)a->n) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a picture %g high: at this width it takes %g at least", asked,
+        return koksma__fail(KOKSMA_ARGUMENT, "a picture %g high: at this width the height must be at least %g", asked,
                             ceil(a->fixed + 24 * (double)a->n));
     }
     for (size_t i = 0; i < a->n && asked > 0; i++) {
@@ -143,13 +143,13 @@ static koksma_status draw(const layout *a, double height, koksma_plot_format for
 koksma_status koksma__figure_size(koksma_plot_format format, double asked, double fallback, double *size)
 {
     if (format != KOKSMA_PLOT_SVG && format != KOKSMA_PLOT_PDF && format != KOKSMA_PLOT_PNG) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%d is no format of a plot", (int)format);
+        return koksma__fail(KOKSMA_ARGUMENT, "%d is not a format of plots", (int)format);
     }
     *size = asked == 0 ? fallback : asked;
     return *size >= KOKSMA_PLOT_MIN_SIZE && *size <= KOKSMA_PLOT_MAX_SIZE
                ? KOKSMA_OK
-               : koksma__fail(KOKSMA_ARGUMENT, "a picture of size %g: it takes %d to %d", asked, KOKSMA_PLOT_MIN_SIZE,
-                              KOKSMA_PLOT_MAX_SIZE);
+               : koksma__fail(KOKSMA_ARGUMENT, "a picture of size %g: the size must be %d to %d", asked,
+                              KOKSMA_PLOT_MIN_SIZE, KOKSMA_PLOT_MAX_SIZE);
 }
 
 /* Checks the cells, and sets the default width, that of the widest row. */
@@ -181,7 +181,7 @@ koksma_status koksma_plot_figure(const koksma_figure *figure, koksma_plot_format
     double width = 0, height = 0;
     koksma_status status = figure->n_cells
                                ? check_cells(figure, &width)
-                               : koksma__fail(KOKSMA_ARGUMENT, "a figure without cells: it takes 1 or more");
+                               : koksma__fail(KOKSMA_ARGUMENT, "a figure without cells: it must have 1 or more");
     status = status ? status : koksma__figure_size(format, figure->width, fmin(width, KOKSMA_PLOT_MAX_SIZE), &width);
     if (!status && figure->height != 0) {
         status = koksma__figure_size(format, figure->height, 0, &height);

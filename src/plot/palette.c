@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The colours of plots. The style number of a curve is colour + KOKSMA__COLOURS * dash: palette.def gives each
- * pattern a colour, and specs of equal colour in a picture get different dashes. A curve that is not a pattern's gets
- * the first free number.
+ * pattern a colour, and specs of equal colour in a picture get different dashes. A curve that belongs to no pattern
+ * gets the first free number.
  */
 #include "plot/palette.h"
 

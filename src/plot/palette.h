@@ -25,7 +25,7 @@ enum {
 size_t koksma__colour_of(const char *spec);
 
 /* Chooses and marks as taken the style number, colour + KOKSMA__COLOURS * dash, of a curve in one picture, from a
-   pattern's spec or another text. taken: KOKSMA__CURVE_STYLES flags. A text that is not a pattern gets the first free
+   pattern's spec or another text. taken: KOKSMA__CURVE_STYLES flags. A text that names no pattern gets the first free
    number. Returns KOKSMA__CURVE_STYLES if no number is free. */
 size_t koksma__take_curve_number(const char *spec, bool *taken);
 

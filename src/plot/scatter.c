@@ -18,7 +18,7 @@
 
 enum { MARGIN = 6, TITLE = 12, TEXT = 11, LABEL = 10, SWATCH = 12, FAR = 100, CURVE = 96, LOCAL = 256, NOTE = 128 };
 
-/* A square of the picture that shows coordinates axes[0] and axes[1] of the points. */
+/* A square in the picture. It shows coordinates axes[0] and axes[1] of the points. */
 typedef struct plot {
     koksma__canvas *canvas;
     const koksma__theme *theme;
@@ -46,8 +46,8 @@ static double at_y(const plot *p, double y)
     return p->top + (1 - y) * p->side;
 }
 
-/* The position in the picture of a point of the square, directly or through a warp whose domain fills the picture's
-   square. Hemispheres are seen from above. */
+/* The position in the picture of a point of the unit square: scaled, or first mapped by a warp, whose range fills the
+   picture's square. Hemispheres are seen from above. */
 static void position(const plot *p, const koksma_warp *warp, const double in[2], double out[2])
 {
     double at[3] = {in[0], in[1], 0};
@@ -143,7 +143,7 @@ static void draw_witness(const plot *p, const koksma_witness *w)
     }
 }
 
-/* White for 0, towards orange for 1 and towards blue for -1. */
+/* The colour of a value: white for 0, orange for 1, blue for -1, and mixtures between. */
 static void paint(double share, unsigned char rgb[3])
 {
     static const double full[2][3] = {{0.13, 0.4, 0.72}, {0.9, 0.38, 0.05}};
@@ -231,7 +231,7 @@ static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, doub
     }
     for (int ky = -half; ky <= half; ky++) {
         for (int kx = -half; kx <= half; kx++) {
-            /* at frequency 0 it is n for every point set */
+            /* at frequency 0 the power is n for every point set */
             const double power = kx || ky ? koksma_spectrum_power(s, kx, ky) : 0;
             memset(rgb + 3 * ((size_t)(half - ky) * (size_t)side + (size_t)(kx + half)),
                    (unsigned char)(255 * fmin(power / white, 1) + 0.5), 3);
@@ -243,12 +243,13 @@ static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, doub
     return status;
 }
 
-/* Writes a note on the meaning of the colours, or on the dimensions shown; empty if neither is needed. */
+/* Writes a note that explains the colours, or says which dimensions are shown; the note is empty if neither is
+   needed. */
 static void put_note(const koksma_panel *panel, double largest, char text[NOTE])
 {
     *text = '\0';
     if (!panel->points) {
-        koksma__snprintf(text, NOTE, "power: black 0, white %g; frequencies to %d",
+        koksma__snprintf(text, NOTE, "power: 0 is black, %g white; frequencies up to %d",
                          panel->white > 0 ? panel->white : 2, panel->spectrum->half);
     } else if (panel->scatter.local_discrepancy) {
         koksma__snprintf(text, NOTE, "local discrepancy -%.4f (blue) to %.4f (orange)", largest, largest);
@@ -270,7 +271,7 @@ static double lines_height(const char *text, double width, double height)
 
 double koksma__panel_side(const koksma_panel *panel)
 {
-    return fmax(320, 110 * (dimensions(panel) - 1.0)); /* the panel is not checked yet */
+    return fmax(320, 110 * (dimensions(panel) - 1.0)); /* this runs before the panel is checked */
 }
 
 double koksma__panel_title(const koksma_panel *panel, double width)
@@ -329,27 +330,27 @@ koksma_status koksma__panel_check(const koksma_panel *panel)
                                : koksma__fail(KOKSMA_ARGUMENT, "a panel has neither points nor a spectrum");
     }
     if (panel->points->dim < 2) {
-        return koksma__fail(KOKSMA_DIM, "a scatter plot takes points of 2 or more dimensions");
+        return koksma__fail(KOKSMA_DIM, "a scatter plot needs points of 2 or more dimensions");
     }
     if (o->columns > KOKSMA_PLOT_MAX_CELLS || o->rows > KOKSMA_PLOT_MAX_CELLS) {
         return koksma__fail(KOKSMA_ARGUMENT, "a grid of %zu columns and %zu rows: each is up to %d", o->columns,
                             o->rows, KOKSMA_PLOT_MAX_CELLS);
     }
     if (o->local_discrepancy && (o->warp || panel->points->dim != 2)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the local discrepancy is drawn of points of the square, 2 dimensions");
+        return koksma__fail(KOKSMA_ARGUMENT, "the local discrepancy can be drawn only for points of 2 dimensions");
     }
     if (o->warp && panel->points->dim != 2) {
-        return koksma__fail(KOKSMA_DIM, "a map takes points of 2 dimensions, not %d", panel->points->dim);
+        return koksma__fail(KOKSMA_DIM, "a map needs points of 2 dimensions, not %d", panel->points->dim);
     }
     if (o->warp && o->witness) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a witness is drawn in the square, not through a map");
+        return koksma__fail(KOKSMA_ARGUMENT, "a witness can be drawn only without a map");
     }
     if (o->witness && (unsigned)o->witness->kind > KOKSMA_WITNESS_DISK) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%d is no kind of witness", (int)o->witness->kind);
+        return koksma__fail(KOKSMA_ARGUMENT, "%d is not a kind of witness", (int)o->witness->kind);
     }
     for (int k = 0; o->witness && k < 2; k++) {
         if (!(fabs(o->witness->lo[k]) <= FAR && fabs(o->witness->hi[k]) <= FAR)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "a witness whose bounds are not within %d of 0", FAR);
+            return koksma__fail(KOKSMA_ARGUMENT, "the bounds of a witness must lie within %d of 0", FAR);
         }
     }
     return koksma__points_check(panel->points);

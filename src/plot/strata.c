@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Subdivided squares, as in figures 5.35 and 5.36 of Shirley 1991: boxes filled with the greys of their values, dots
- * at the samples, and over them the splits: black where a split was needless, a circle where it was needed. Circles
- * are drawn last, so that a needed split inside a needless one stays visible.
+ * Pictures of subdivided squares, as in figures 5.35 and 5.36 of Shirley 1991: boxes filled with the greys of their
+ * values, dots at the samples, and over these the splits: a black mark where a split was needless, a circle where it
+ * was needed. Circles are drawn last, so that a needed split inside a needless one stays visible.
  */
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The SVG backend: shapes become elements such as <rect> and <circle>, texts become <text>, which can be searched and
- * edited, and images become PNG. Successive shapes of one style share a <g>. There are no ids, so that several
- * pictures fit into one page, and no counters outlive a canvas, so that equal strokes give equal bytes.
+ * edited, and images become PNG. Successive shapes of one style share a <g>. Elements have no ids, so that several
+ * pictures can be put into one page. No counter outlives a canvas, so that equal drawings give equal bytes.
  */
 #include "plot/svg.h"
 
@@ -170,8 +170,8 @@ static void put_base64(svg *s, const unsigned char *bytes, size_t size)
     }
 }
 
-/* Writes an image of sRGB levels: it converts them to linear values, which the PNG writer converts back to the same
-   levels. */
+/* Writes an image given as sRGB levels: converts them to linear values, which the PNG writer converts back to the
+   same levels. */
 static koksma_status pixels(koksma__canvas *canvas, koksma__box b, int columns, int rows, const unsigned char *rgb)
 {
     svg *s = (svg *)canvas;

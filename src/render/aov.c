@@ -4,15 +4,17 @@
  *
  * The light of a sample is a sum over paths; a path whose light was reflected or refracted r times, mirrors and glass
  * included, belongs to `bounce:r`. `direct` is r = 0 and 1: light seen, and light of lights reflected once; `indirect`
- * is the rest. At the vertex that a ray reaches after b reflections the tracer adds emission, r = b; light of sampled
- * lights, r = b + 1; and the light that stands for what surfaces send to each other (the scene's ambient light, or that
- * of an irradiance cache), which was reflected before: r = b + 2. Each is the difference of the vertex's light after
- * and before, so that the parts of a sample add up to it within the rounding of floats; where the sample is clamped,
- * its parts are reduced by the same factor. Pixels weigh parts as they weigh samples.
+ * is the rest. At the vertex that a ray reaches after b reflections the tracer adds emission (r = b), light of
+ * sampled lights (r = b + 1), and the light that surfaces reflect onto each other, given by the scene's ambient light
+ * or an irradiance cache (r = b + 2, because that light was reflected once before). Each is the difference of the
+ * vertex's light after and before, so that the parts of a sample add up to it within the rounding of floats; where
+ * the sample is clamped, its parts are reduced by the same factor. The filter weights of the samples apply to their
+ * parts as well.
  *
  * `id` is the number of the object (from 1 in the order of `koksma scene check`; 0: none) that most samples of the
- * pixel hit first, the smaller one of equals. `half:even` and `half:odd` are the means of the samples 0, 2, ... and 1, 3, ...
- * of each pixel, two pictures whose difference shows the noise; without such a sample a pixel is 0.
+ * pixel hit first; of equally frequent numbers the smallest. `half:even` and `half:odd` are the means of the samples
+ * 0, 2, ... and 1, 3, ... of each pixel, two pictures whose difference shows the noise; without such a sample a pixel
+ * is 0.
  */
 #include "render/aov.h"
 
@@ -98,7 +100,7 @@ koksma_status koksma__aovs_init(const koksma__frame *frame, koksma_aovs *images,
     *out = (koksma__aovs){.n = (size_t)images->n};
     KOKSMA__FAIL_IF(frame->options->splat, KOKSMA_ARGUMENT,
                     "AOVs are not splatted: render them without splatting, with samples drawn from the filter");
-    KOKSMA__FAIL_IF(images->n < 0 || images->n > KOKSMA_MAX_AOVS, KOKSMA_ARGUMENT, "%d AOVs; aovs has 0 to %d",
+    KOKSMA__FAIL_IF(images->n < 0 || images->n > KOKSMA_MAX_AOVS, KOKSMA_ARGUMENT, "%d AOVs: 0 to %d are possible",
                     images->n, KOKSMA_MAX_AOVS);
     for (int i = 0; i < images->n; i++) {
         koksma__aov *aov = &out->items[i];
@@ -167,7 +169,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The number that occurs most often, the smaller of equals; sorts the numbers. */
+/* Returns the number that occurs most often, and of equally frequent numbers the smallest; sorts the numbers. */
 static float most_common(float *ids, size_t n)
 {
     float best = 0;

@@ -6,7 +6,7 @@
 #include "render/frame.h"
 
 typedef enum koksma__aov_kind {
-    KOKSMA__AOV_LIGHT, /* the light that was reflected `first` to `last` times */
+    KOKSMA__AOV_LIGHT, /* light that was reflected `first` to `last` times */
     KOKSMA__AOV_ID,
     KOKSMA__AOV_HALF /* the samples first, first + 2, ... of each pixel */
 } koksma__aov_kind;
@@ -30,14 +30,15 @@ koksma_status koksma__aovs_init(const koksma__frame *frame, koksma_aovs *images,
 /* Allocates the AOVs' values of a group's samples. Errors: MEMORY. */
 koksma_status koksma__aov_values_init(const koksma__aovs *aovs, size_t capacity, koksma__values *values);
 
-/* Adds what was added to the light of the vertices since `before` to the parts of light with `reflections`. */
+/* Adds the light that the vertices gained since `before` to the AOVs of light that was reflected `reflections`
+   times. */
 void koksma__aov_add(const koksma__frame *frame, const koksma__vertices *v, const koksma__lanes before[3],
                      int reflections, koksma__values *values);
 
 /* Stores the numbers of the objects that the rays hit first. */
 void koksma__aov_note(const koksma__frame *frame, const koksma__vertices *v, koksma__values *values);
 
-/* Reduces the parts of sample i, channel k, by the factor by which the sample was clamped. */
+/* Multiplies the AOVs of light of sample i, channel k, by the factor by which the sample was clamped. */
 void koksma__aov_clamp(const koksma__aovs *aovs, koksma__values *values, size_t i, int k, float factor);
 
 /* Sets the pixel of the AOVs of objects, if there are any, to the one that most of the samples first .. end - 1 hit; sorts

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The names of those options of a render that are enumerations (pairing, scope, selection of lights), for the parsers
- * of plans and of the command line; and the release of an image with its layers.
+ * Defines the names of the render options that are enumerations (pairing, scope, selection of lights), for the
+ * parsers of plans and of the command line, and frees an image with its layers.
  */
 #include <stddef.h>
 

@@ -2,8 +2,8 @@
 /*
  * Builds the description of a scene: the readers of files (src/scene) and the parsers of lights and shapes
  * (src/render/lights and shapes) append to the description by these functions. koksma__scene_finish() derives what
- * depends on all parts: whether pictures have one channel, whether anything moves, and the part of the hash that
- * comes from images in other files.
+ * depends on all parts: whether pictures have one channel, whether anything moves, and the part of the scene's hash
+ * that depends on images in other files.
  */
 #include <stdio.h>
 #include <string.h>
@@ -81,7 +81,8 @@ static uint64_t image_hash(const koksma_image *image)
     return koksma__hash(image->pixels, n * sizeof *image->pixels);
 }
 
-/* Adds the pixels of images in other files to the scene's hash, as other pixels make another scene. */
+/* Adds the pixels of images in other files to the scene's hash, because a scene with other pixels is another
+   scene. */
 static void add_pixels(koksma_scene *scene)
 {
     for (size_t i = 0; i < scene->n_materials; i++) {

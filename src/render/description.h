@@ -32,7 +32,7 @@ typedef struct koksma__shape {
     int light;    /* the light whose surface this is, or -1 */
 } koksma__shape;
 
-enum { KOKSMA__MAX_VALUES = 16 }; /* most numbers of a kind's parameters; a colour takes 3 */
+enum { KOKSMA__MAX_VALUES = 16 }; /* maximum number of numbers in a kind's parameters; a colour counts as 3 */
 
 /* How an image is mapped to a surface with coordinates (u, v): looked up at matrix (u, v, 1), if `moved`. */
 typedef enum koksma__wrap { KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR } koksma__wrap;
@@ -77,13 +77,14 @@ typedef struct koksma__material {
        at least the cutoff */
     bool see_through;
     double alpha, cutoff;
-    /* warnings about a model file's material; "": there is none */
-    char lost[256]; /* why its texture is ignored */
-    char dark[256]; /* why its emission is ignored */
+    /* warnings about a material of a model file; empty if there is none */
+    char lost[256]; /* why the texture is ignored */
+    char dark[256]; /* why the emission is ignored */
 } koksma__material;
 
-/* A homogeneous medium in the box from low to high, which may be infinite. Coefficients are per unit of length; `phase`
-   is the material of its points, whose parameter 0 is g and whose albedo is that of single scattering. */
+/* A homogeneous medium in the box from low to high, which may be infinite. Coefficients are per unit of length;
+   `phase` is the material of the medium's points: its parameter 0 is the mean cosine g, its albedo the
+   single-scattering albedo. */
 typedef struct koksma__medium {
     bool is_there;
     double absorption[3], scattering[3];
@@ -98,7 +99,7 @@ typedef struct koksma__medium {
 typedef struct koksma__light {
     const struct koksma__light_kind *kind;
     double centre[3], axis_u[3], axis_v[3], normal[3];
-    double half[2]; /* half sides; half[0] is the radius of a disk or sphere */
+    double half[2]; /* half the lengths of the sides; half[0] is the radius of a disk or sphere */
     double power;   /* for rectangles and disks */
     /* for a point light the intensity, for parallel light the irradiance of a surface that faces the light */
     double radiance[3];
@@ -114,7 +115,7 @@ typedef struct koksma__light {
 typedef struct koksma__camera {
     double eye[3], forward[3], right[3], down[3]; /* unit vectors */
     double fov_rad;                               /* vertical field of view */
-    double height; /* of an orthographic camera: what the image shows from bottom to top; 0: perspective */
+    double height; /* the height that the image of an orthographic camera shows; 0: the camera is perspective */
     /* lens_radius 0: a pinhole; the plane of focus is perpendicular to forward */
     double lens_radius, focus_distance;
     const koksma_warp *lens_map; /* map from the unit square to the lens */
@@ -137,7 +138,7 @@ typedef struct koksma__scene_cache {
 /* A feature of another renderer's scene that is not supported, and its replacement. */
 typedef struct koksma__unknown {
     char file[64], text[256];
-    unsigned long line; /* of the first occurrence; there are n */
+    unsigned long line; /* place of the first occurrence; there are n occurrences */
     size_t n;
 } koksma__unknown;
 
@@ -163,8 +164,8 @@ struct koksma_scene {
     koksma__unknown *unknown; /* unsupported features of another renderer's scene */
     size_t n_unknown;
     bool glows; /* a placement that has a material is also a light */
-    /* how many of the last lights and shapes were added to a model file's scene; each such shape has one of the last
-       materials */
+    /* numbers of lights and shapes at the ends of the lists that model.c added to the scene of a model file; each of
+       these shapes uses one of the last materials */
     struct {
         size_t lights, shapes;
     } studio;

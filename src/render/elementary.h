@@ -18,15 +18,15 @@
 
 #define KOKSMA__INLINE static inline __attribute__((always_inline))
 
-/* The largest errors: absolute for sine and cosine; absolute for the arc tangent, in turns; relative for powers with
-   a result above 2^-126. */
+/* The largest errors: absolute for sine and cosine; absolute and in turns for the arc tangent; relative for powers
+   whose result is above 2^-126. */
 #define KOKSMA__SINE_ERROR 1.3e-7
 #define KOKSMA__ARC_ERROR 6e-8
 #define KOKSMA__POWER_ERROR 7e-8
 
 /* Constants 3 2^22 and 3 2^51 for rounding: added to a number, they leave the nearest integer in the low bits of the
-   sum. A conversion does this, too, but gcc puts it behind a branch if its result may be unused, and then does not
-   vectorise the loop. */
+   sum. A conversion to an integer also rounds, but gcc puts it behind a branch if its result may be unused, and then
+   does not vectorise the loop. */
 #define KOKSMA__SHIFT 12582912.0f
 #define KOKSMA__SHIFT_2 6755399441055744.0
 

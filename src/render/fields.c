@@ -18,8 +18,8 @@ const char *koksma__package_hint(const char *path)
 {
     static const struct {
         const char *folder, *hint;
-    } hints[] = {{"/usr/share/glmark2/", "; Debian's package glmark2-data has it"},
-                 {"/usr/share/blender/", "; Debian's package blender-data has it"}};
+    } hints[] = {{"/usr/share/glmark2/", "; the Debian package glmark2-data contains it"},
+                 {"/usr/share/blender/", "; the Debian package blender-data contains it"}};
     for (size_t i = 0; i < sizeof hints / sizeof *hints; i++) {
         if (!strncmp(path, hints[i].folder, strlen(hints[i].folder))) {
             return hints[i].hint;

@@ -27,7 +27,7 @@
 typedef koksma__json_node field;
 
 typedef enum koksma__parameter_type {
-    KOKSMA__NUMBER,    /* between low and high; one double */
+    KOKSMA__NUMBER,    /* a number between low and high; one double */
     KOKSMA__COLOUR,    /* one number (grey) or red, green and blue, each 0 to high; 3 doubles */
     KOKSMA__POINT,     /* coordinates within 1e6; 3 doubles */
     KOKSMA__DIRECTION, /* coordinates within 1e6, normalised to a unit vector; 3 doubles */
@@ -39,7 +39,7 @@ typedef enum koksma__parameter_type {
 typedef struct koksma__parameter {
     const char *name;
     koksma__parameter_type type;
-    bool optional; /* the field may be absent; all its numbers are then `fallback` */
+    bool optional; /* the field may be missing; all its numbers are then `fallback` */
     double low, high;
     double fallback;
     size_t at; /* offset of the destination in koksma__material, koksma__light or koksma__shape */
@@ -48,9 +48,9 @@ typedef struct koksma__parameter {
 /* The members that kinds of materials, lights and shapes have in common. */
 typedef struct koksma__kind {
     const char *name;                    /* in scene files */
-    const char *title;                   /* one line for lists */
+    const char *title;                   /* one line of description for lists */
     const char *cite;                    /* keys of docs/references.bib, or "-" */
-    const koksma__parameter *parameters; /* the last has a NULL name; NULL: none */
+    const koksma__parameter *parameters; /* the last entry has a NULL name; NULL: none */
     /* further fields, which the kind's own code reads; ended by NULL, or NULL */
     const char *const *keys;
     const char *example; /* the further fields as JSON, for tests; NULL: none are required */
@@ -58,8 +58,8 @@ typedef struct koksma__kind {
     bool is_implied;
 } koksma__kind;
 
-/* Fails if `object` has fields other than `common` (ended by NULL) and the kind's; then reads the kind's parameters
-   into `to`. Errors: MALFORMED. */
+/* Fails if `object` has fields that are neither in `common` (ended by NULL) nor fields of the kind; otherwise reads
+   the kind's parameters into `to`. Errors: MALFORMED. */
 koksma_status koksma__parse_fields(const field *object, const koksma__kind *kind, const char *const *common,
                                    void *to);
 

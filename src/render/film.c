@@ -3,17 +3,19 @@
  * The value of a pixel is the weighted mean of its samples; the filter gives the weights (filters.h), which are 1 for
  * the box.
  *
- * Drawn from a filter f with negative lobes, samples have the density |f| / c, c = integral of |f|, and weights w = c
- * sign(f) of mean 1. The mean of w y would turn a constant picture into noise, because the w of a few samples have a
- * mean other than 1, and the ratio sum w y / sum w can have a denominator of 0. But E[w y] = E[y] + Cov(w, y), and so
+ * Samples that are drawn from a filter f with negative lobes have the density |f| / c, c = integral of |f|, and the
+ * weights w = c sign(f), whose mean is 1. The mean of w y would turn a constant picture into noise, because the w of
+ * a few samples have a mean other than 1, and the ratio sum w y / sum w can have a denominator of 0. But E[w y] =
+ * E[y] + Cov(w, y), and so
  *
  *     m = mean of y  +  sum (w_i - mean w) (y_i - mean y) / (n - 1)  =  mean of v_i y_i,
  *     v_i = 1 + (w_i - mean w) n / (n - 1),      whose mean is 1
  *
- * preserves constants exactly for any signs drawn, and divides by no random number. For independent samples it has no
- * bias; for stratified ones the mean of w varies less than the factor n - 1 assumes, and the bias is at most Cov(w,
- * y) / (n - 1). A single sample has no covariance: it is drawn from the positive part of f. A deterministic pattern
- * of few samples may have none in a lobe, which is then ignored. If every w is 1, so is every v.
+ * gives a constant picture exactly, whatever signs are drawn, and divides by no random number. For independent
+ * samples it has no bias; for stratified ones the mean of w varies less than the factor n - 1 assumes, and the bias
+ * is at most Cov(w, y) / (n - 1). A single sample gives no estimate of the covariance, and is therefore drawn from
+ * the positive part of f. A deterministic pattern of few samples may have no sample in a negative lobe, which then
+ * has no effect. If every w is 1, so is every v.
  *
  * A splatted sample adds to several pixels. Each task has its own sums, which are added in the order of the tasks, so
  * that the image does not depend on the number of threads; a finished task waits only for the tasks before it. With
@@ -29,7 +31,7 @@
  *
  * where the factor corrects for m being computed from these samples; for any weights the correction is exact if all y
  * have the same variance. For equal weights it is n / (n - 1); for a single sample it is 0 / 0, and the layer is 0.
- * With w = v and W = n this is also the estimate for samples drawn from a filter with negative lobes.
+ * The same formula with w = v and W = n is the estimate for samples drawn from a filter with negative lobes.
  */
 #include "render/film.h"
 
@@ -43,7 +45,7 @@
 /* The sums of a pixel, beside W and the sum of w y, that the variance of splatted samples needs, in this order. */
 enum { SUM_W2, SUM_W3, SUM_W2_Y, SUM_W2_Y2, N_MOMENTS };
 
-/* Numbers for each pixel in the layers beside the image. */
+/* The number of floats per pixel in the layers beside the image. */
 enum { SAMPLES = 1, OTHER_LAYERS = 3 + 3 + 1 + 1 };
 
 size_t koksma__film_numbers(int channels, bool all_layers)
@@ -199,7 +201,8 @@ static double splat_variance(const double *moments, double weight, double mean)
     const double w2 = moments[SUM_W2], ratio = w2 / weight;
     const double off = moments[SUM_W2_Y2] - mean * (2 * moments[SUM_W2_Y] - mean * w2);
     const double left = w2 - 2 * moments[SUM_W3] / weight + ratio * ratio;
-    /* for one sample, samples of negligible weight beside one, or equal values only rounding is left: 0 */
+    /* if there is one sample, if all others have negligible weight, or if all values are equal, the result would only
+       be rounding: return 0 */
     return off > 1e-14 * moments[SUM_W2_Y2] && left > 1e-12 * w2 ? off / (weight * weight) * (w2 / left) : 0;
 }
 
@@ -209,7 +212,7 @@ static double signed_variance(const float *rgb, const float *weights, size_t cha
 {
     double moments[N_MOMENTS] = {0}, mean = 0;
     const double n = (double)(end - first), origin = luminance_of(rgb + channels * first, channels);
-    /* relative to the first sample, so that equal values have variance exactly 0 */
+    /* the first sample's value is subtracted, so that equal values have a variance of exactly 0 */
     for (size_t i = first; i < end; i++) {
         const double y = luminance_of(rgb + channels * i, channels) - origin;
         mean += (double)weights[i] * y / n;
@@ -316,7 +319,7 @@ void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, siz
 }
 
 /* Divides the sums by the weights. After an interruption some tasks are missing: a pixel that was not rendered then
-   has only small contributions, from the tails of its neighbours' filters, and stays 0. */
+   has only small contributions from the tails of its neighbours' filters, and is set to 0. */
 static void finish_splats(const koksma__frame *frame, koksma__film *film, bool whole, float *weights)
 {
     const size_t pixels = (size_t)frame->options->width * (size_t)frame->options->height;

@@ -7,9 +7,9 @@
 
 #include "render/frame.h"
 
-/* With splatting: the rows of a task, and the rows around them that its samples reach. Each pixel has the weighted
-   sums of the channels, the sum of the weights, and, if all layers are wanted, the sums for the variance; all in
-   doubles, because a pixel may get millions of samples. */
+/* For splatting: the sums of the rows of a task and of the rows around them that the task's samples reach. Each pixel
+   has the weighted sums of the channels, the sum of the weights, and, if all layers are wanted, the sums for the
+   variance; all in doubles, because a pixel may get millions of samples. */
 typedef struct koksma__splat {
     int first_row, rows;
     bool done;
@@ -18,8 +18,8 @@ typedef struct koksma__splat {
 
 typedef struct koksma__film {
     koksma_layers *layers;
-    bool all_layers; /* false: only the image */
-    int reach;       /* how many pixels beyond its own a splatted sample reaches; 0: no splatting */
+    bool all_layers; /* whether all layers are made; otherwise only the image */
+    int reach;       /* distance in pixels that a splatted sample reaches beyond its own pixel; 0: no splatting */
     size_t numbers;  /* number of sums for each pixel, with splatting */
     size_t n_splats;
     koksma__splat *splats; /* one for each task; NULL: no splatting */
@@ -40,8 +40,8 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
 void koksma__film_fini(koksma__film *film);
 
 /* Moves the samples of a group, drawn on the unit square of each pixel, to film positions that the filter selects,
-   and sets their weights. all: the group has all samples of its pixels, and the weights are those of the pixels'
-   means (film.c); otherwise they are those of the single draws (filters.h). */
+   and sets their weights. If `all`, the group has all samples of its pixels, and the weights are those of the pixels'
+   means (film.c); otherwise the weights are those of the single draws (filters.h). */
 void koksma__film_place(const koksma__frame *frame, const koksma__group *group, bool all, koksma__values *values);
 
 /* Prepares the splats of a task. */
@@ -58,13 +58,13 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
 /* `koksma__film_add` for samples of one colour, if the film neither splats nor has other layers. */
 void koksma__film_fill(const koksma__film *film, const koksma__group *group, const float *rgb, size_t channels);
 
-/* Called after all tasks have ended: adds the splats in the order of tasks, and, if the image is whole, fills pixels
-   without samples from their neighbours; otherwise they are 0. Errors: MEMORY. */
+/* Called after all tasks have ended: adds the splats in the order of tasks. Pixels without samples are filled from
+   their neighbours if the image is whole, and are 0 otherwise. Errors: MEMORY. */
 koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film, bool whole);
 
-/* Fills pixels without samples from the nearest outwards, each with the mean of its neighbours that are one step
-   nearer. has: each pixel's number of samples, or sum of weights. Every pixel is visited once, however wide the gaps
-   are. */
+/* Fills pixels without samples in the order of their distance from the nearest pixel with samples; each gets the mean
+   of its neighbours that are one step nearer. has: each pixel's number of samples, or sum of weights. Every pixel is
+   visited once, however wide the gaps are. */
 koksma_status koksma__film_fill_gaps(koksma_image *image, const float *has);
 
 #endif

@@ -6,8 +6,8 @@
  *     H(w) = integral f(x) cos(2 pi w x) dx / integral f,        leakage = 1 - integral over |w| < 1/2 of H^2 /
  * integral H^2
  *
- * and by Parseval's theorem integral H^2 = integral f^2 / (integral f)^2. Integrals are by two-point Gauss rules over
- * cells of the half line, whose points avoid the edges of the filter.
+ * and by Parseval's theorem integral H^2 = integral f^2 / (integral f)^2. Integrals are computed by two-point Gauss
+ * rules on cells of the half line; the points of these rules never lie on an edge of the filter.
  */
 #include <math.h>
 
@@ -52,12 +52,13 @@ double koksma_filter_leakage(const koksma_filter *filter)
 {
     KOKSMA__REQUIRE_OR(NAN, filter);
     const sums s = integrate(filter, 0);
-    const double all = s.square / (2 * s.f * s.f); /* for both halves of the line: 2 square / (2 f)^2 */
+    /* the integral of f^2 over both halves of the line divided by the square of that of f: 2 square / (2 f)^2 */
+    const double all = s.square / (2 * s.f * s.f);
     double passed = 0;
     for (int i = 0; i < BANDS; i++) {
         for (int side = -1; side <= 1; side += 2) {
             const double h = koksma_filter_response(filter, 0.5 / BANDS * (i + 0.5 + side * gauss));
-            passed += h * h * (0.5 / BANDS); /* for both halves of the line, two points for each band */
+            passed += h * h * (0.5 / BANDS); /* counts both halves of the line; each band has two points */
         }
     }
     return 1 - passed / all;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Data that all pixels of an image share, computed once: materials and lights in floats, the camera as steps on the
- * film (of the directions; of an orthographic camera, of the origins), the sampler, the filter's table and the
- * geometry. The geometry (for meshes Embree's tree) is shared by all images of a scene: it is stored in the
- * scene (scene_cache), under a lock, until the scene is released.
+ * Data that all pixels of an image share, computed once: materials and lights in floats, the camera (how the
+ * directions of rays, or the origins for an orthographic camera, change per step on the film), the sampler, the
+ * filter's table and the geometry. The geometry (for meshes Embree's tree) is shared by all images of a scene: it is
+ * stored in the scene (scene_cache), under a lock, until the scene is released.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -147,7 +147,7 @@ koksma_light_selection koksma__light_selection(const koksma_scene *scene, const 
 {
     const koksma__integrator_flags *flags = options->integrator->flags;
     const bool many = scene->n_lights > KOKSMA__FEW_LIGHTS && flags->followed & KOKSMA__LOBE_DIFFUSE;
-    if (flags->replace_scene) { /* the lights are those of the integrator's own scene */
+    if (flags->replace_scene) { /* uses the lights of the scene that the integrator made */
         return KOKSMA_LIGHTS_ALL;
     }
     return options->lights != KOKSMA_LIGHTS_AUTO ? options->lights : many ? KOKSMA_LIGHTS_ONE : KOKSMA_LIGHTS_ALL;
@@ -260,19 +260,19 @@ static koksma_status check(const koksma_render_options *o)
     if (o->width < 1 || o->height < 1 || o->width > KOKSMA_MAX_IMAGE_SIDE || o->height > KOKSMA_MAX_IMAGE_SIDE ||
         (size_t)o->width * (size_t)o->height > KOKSMA_MAX_PIXELS) {
         koksma_image none;
-        return koksma_image_init(&none, o->width, o->height, 1); /* fails with the message for the wrong size */
+        return koksma_image_init(&none, o->width, o->height, 1); /* fails, and its message names the wrong size */
     }
-    KOKSMA__FAIL_IF(o->spp < 1 || o->spp > KOKSMA_MAX_SPP, KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d",
-                    o->spp, KOKSMA_MAX_SPP);
+    KOKSMA__FAIL_IF(o->spp < 1 || o->spp > KOKSMA_MAX_SPP, KOKSMA_ARGUMENT,
+                    "spp = %d: the number of samples a pixel must be 1 to %d", o->spp, KOKSMA_MAX_SPP);
     KOKSMA__FAIL_IF(!koksma_pairing_name(o->pairing) || !koksma_scope_name(o->scope) ||
                         !koksma_light_selection_name(o->lights) || !o->integrator || !o->filter,
                     KOKSMA_ARGUMENT, "the options lack a pairing, scope, light selection, integrator or filter");
-    KOKSMA__FAIL_IF(o->depth < -1 || o->depth > KOKSMA_MAX_DEPTH, KOKSMA_ARGUMENT, "depth = %d: bounces are 0 to %d",
-                    o->depth, KOKSMA_MAX_DEPTH);
-    KOKSMA__FAIL_IF(o->scope == KOKSMA_SCOPE_IMAGE && !o->splat && strcmp(o->filter->name, "box") != 0,
-                    KOKSMA_ARGUMENT,
-                    "filter %s with scope image: the samples lie where the pattern has them, so it takes splatting",
-                    o->filter->name);
+    KOKSMA__FAIL_IF(o->depth < -1 || o->depth > KOKSMA_MAX_DEPTH, KOKSMA_ARGUMENT,
+                    "depth = %d: the number of bounces must be 0 to %d", o->depth, KOKSMA_MAX_DEPTH);
+    KOKSMA__FAIL_IF(
+        o->scope == KOKSMA_SCOPE_IMAGE && !o->splat && strcmp(o->filter->name, "box") != 0, KOKSMA_ARGUMENT,
+        "filter %s with scope image needs splatting, because the pattern fixes the positions of the samples",
+        o->filter->name);
     return koksma__check_use_patterns(o);
 }
 

@@ -30,13 +30,14 @@ typedef struct koksma__frame {
     koksma__frustum_cull *frustum_cull; /* NULL: every ray is tested against all shapes */
     koksma__use_list uses;
     koksma__sampler sampler;
-    size_t together; /* the pipeline's number of samples for a group, unless one pixel has more */
+    /* number of samples of a group, as the pipeline prefers; a pixel with more samples makes a larger group */
+    size_t together;
     koksma__batch_camera camera;
-    /* of an orthographic camera: the ray at film position (x, y) starts at eye + origins[0] + x origins[1] + y
+    /* for an orthographic camera: the ray at film position (x, y) starts at eye + origins[0] + x origins[1] + y
        origins[2] */
     float origins[3][3];
     koksma__lights lights;
-    /* those of the scene, then that of the medium, if there is one */
+    /* the materials of the scene, then that of the medium, if there is one */
     koksma__batch_material *materials;
     koksma__shading_material *shading_materials;
     koksma__lane_materials lane_materials;
@@ -58,8 +59,8 @@ typedef struct koksma__group {
 
 /* The values of the samples of a group. Each channel has capacity floats; unused layers are NULL. */
 typedef struct koksma__values {
-    /* positions on the film, in pixels: 2 for each sample. In pixel 2^k they are multiples of 2^(k - 23) of a pixel
-       (at 65,536 of 1/256), no coarser than the directions that are computed from them */
+    /* positions on the film, in pixels: 2 for each sample. As floats they are multiples of 2^(k - 23) of a pixel from
+       pixel 2^k on (of 1/256 at the far edge of the widest image); the directions computed from them are no finer */
     float *film;
     float *weights; /* of the filter; NULL: all weights are 1 */
     float *rgb;     /* channels a sample */
@@ -99,11 +100,11 @@ void koksma__frame_close(koksma__frame *frame);
 enum { KOKSMA__FEW_LIGHTS = 8 };
 koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options);
 
-/* The side of a pixel: at distance 1 from a perspective camera, at any distance from an orthographic one. */
+/* The side length of a pixel: at distance 1 for a perspective camera, at any distance for an orthographic one. */
 double koksma__pixel_size(const koksma__camera *camera, int height);
 
-/* Moves the origins of the camera rays through film positions from the eye to where an orthographic camera has them;
-   those of other cameras stay. */
+/* Moves the origins of camera rays from the eye to the film positions if the camera is orthographic; does nothing for
+   other cameras. */
 void koksma__move_origins(const koksma__frame *frame, const float *film, int n, koksma__rays *rays);
 
 /* The sample dimensions that the render will use. */
@@ -126,8 +127,8 @@ typedef struct koksma__task_scratch {
     koksma__values values;
 } koksma__task_scratch;
 
-/* Allocates for groups of `capacity` samples; all_layers: with albedo, normal and depth. Call fini also after a
-   failure. Errors: MEMORY. */
+/* Allocates for groups of `capacity` samples; all_layers: with albedo, normal and depth. The caller must call fini
+   even after a failure. Errors: MEMORY. */
 koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
                                         bool all_layers, koksma__task_scratch *scratch);
 void koksma__task_scratch_fini(koksma__task_scratch *scratch);
@@ -138,7 +139,7 @@ static inline size_t koksma__whole_lanes(size_t samples)
     return (samples + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
 }
 
-/* The number of samples in the largest group, in whole lanes, if a pixel has at most `most`. */
+/* The number of samples in the largest group, rounded up to whole lanes, if a pixel has at most `most` samples. */
 static inline size_t koksma__group_capacity(const koksma__frame *frame, size_t most)
 {
     return koksma__whole_lanes(most < frame->together ? frame->together : most);

@@ -11,10 +11,10 @@
  *                |e x d|^2 - r^2 d.d > 0, a quadratic form in (x, y), bounded from below by its value, slopes and
  *                curvatures at the middle.
  *
- * Bounds are in double precision, but batch_shapes.c computes hits in floats, so that shapes are widened by more than
- * the rounding there: a position at distance R from the eye is off by about 10 units in the last place of R across
- * the ray, and along a flat shape by this error divided by the sine |n.e| / R. The film's rectangle is widened by the
- * effect of rounding d.
+ * Bounds are in double precision, but batch_shapes.c computes hits in floats, so that shapes are enlarged by more
+ * than the rounding errors there: a position at distance R from the eye has an error of about 10 units in the last
+ * place of R across the ray, and along a flat shape that error divided by the sine |n.e| / R. The film's rectangle is
+ * enlarged by the effect of rounding d.
  */
 #include "render/frustum_cull.h"
 
@@ -25,9 +25,10 @@
 #include "core/status.h"
 #include "render/description.h"
 
-#define UNIT 0x1p-24   /* relative rounding error of a float */
-#define SPARE 64       /* how many such errors are allowed for */
-#define GRAZING 0x1p-7 /* least sine between a plane and the rays whose footprint there is bounded */
+#define UNIT 0x1p-24 /* relative rounding error of a float */
+#define SPARE 64     /* number of such errors that the margins allow for */
+/* smallest sine of the angle between a plane and the rays for which a footprint on the plane is computed */
+#define GRAZING 0x1p-7
 
 /* a + x b + y c */
 typedef struct linear {
@@ -39,14 +40,15 @@ typedef struct bound {
     size_t n;                 /* number of entries in `out`; the shape is outside where one of them is > 0 */
     linear out[5];
     double a, b, c, aa, ab, bb; /* for a sphere: a + b x + c y + aa x^2 + ab x y + bb y^2 */
-    linear towards;             /* for a flat shape: N above, and the distance of the eye from its plane */
+    /* for a flat shape: N as defined at the top of this file, and the distance of the eye from the shape's plane */
+    linear towards;
     double height;
-    double centre[3], radius; /* of a sphere around the shape */
+    double centre[3], radius; /* radius of a sphere around the shape */
 } bound;
 
 struct koksma__frustum_cull {
     koksma__batch_camera camera;
-    double longest; /* bound on the length of d */
+    double longest; /* upper bound of the length of a direction d */
     double widen;   /* margin added to the film's rectangles */
     size_t n;
     bound bounds[];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds the shapes that a part of the film can see through a pinhole; the result may include others, but misses
-   none. */
+/* Finds the shapes that a part of the film can see through a pinhole; the result may include other shapes, but misses
+   none of these. */
 #ifndef KOKSMA_RENDER_FRUSTUM_CULL_H
 #define KOKSMA_RENDER_FRUSTUM_CULL_H
 
@@ -19,8 +19,8 @@ void koksma__frustum_cull_close(koksma__frustum_cull *cull);
 size_t koksma__frustum_cull_shapes(const koksma__frustum_cull *cull, const double x[2], const double y[2],
                                    size_t *seen);
 
-/* Bounds the positions where rays through this part of the film hit shape i. Returns false if they have no bound: some
-   rays graze the shape's plane or miss it. */
+/* Bounds the positions where rays through this part of the film hit shape i. Returns false if the positions have no
+   bound because some rays graze or miss the shape's plane. */
 bool koksma__frustum_cull_footprint(const koksma__frustum_cull *cull, size_t i, const double x[2], const double y[2],
                                     koksma__footprint *out);
 

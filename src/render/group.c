@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Forms groups of pixels that fill the pipeline's lanes, draws their samples, and allocates the scratch of a task. A
- * group is as many whole pixels as fit, at least one; the last pixel's samples are repeated to whole lanes, so that
- * loops over lanes have no remainder.
+ * group is as many whole pixels as fit, at least one. The samples of the last pixel are repeated until the lanes are
+ * full, so that loops over lanes have no remainder.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +17,8 @@ void koksma__group_fill(const koksma__frame *f, size_t first, size_t end, koksma
     group->first = first;
     group->count = 0;
     group->start[0] = 0;
-    /* all uses draw the same pixels in turn: no more pixels than the scratch has slots for, so that their sets stay
-       there */
+    /* at most as many pixels as the scratch has slots: the uses are drawn one after the other for all pixels of the
+       group, and the sets that uses share must remain in their slots until the last use is drawn */
     const size_t kept = f->sampler.kept_dim ? f->sampler.kept_slots : KOKSMA__GROUP_PIXELS;
     const size_t most = kept < KOKSMA__GROUP_PIXELS ? kept : KOKSMA__GROUP_PIXELS;
     while (first + group->count < end && group->count < most) {

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The lens: a disk, to which the camera's warp maps the unit square, or a regular polygon, the shape of an iris with
- * straight blades, to which a second map takes that disk. With the polygon's corners V_k on the rim of the disk and a
- * point at distance r from the centre, (k + t) / n of a turn beyond the angle pi / 4,
+ * straight blades, to which a second map takes that disk. Let V_k be the polygon's n corners on the rim of the disk.
+ * The point at distance r from the centre and (k + t) / n of a turn beyond the angle pi / 4 is mapped to
  *
  *     (r, k, t)  ->  r ((1 - t) V_k + t V_(k+1))
  *
  * The element of area of the disk is (2 pi / n) r dr dt and that of the polygon |V_k x V_(k+1)| r dr dt, so that the
- * map preserves ratios of areas; it is continuous in both directions. Equal strata of the square thus become connected
- * regions of equal area, and neighbours stay neighbours; choosing one of n triangles by a coordinate would cut the
- * square instead. The concentric map has the corners of the square at pi / 4 and so on: for four blades both maps
- * together are a similarity, and strata stay squares.
+ * map preserves ratios of areas; it is continuous in both directions. Equal strata of the square thus become
+ * connected regions of equal area, and neighbours remain neighbours; choosing one of n triangles by a coordinate
+ * would cut the square into pieces. The concentric map takes the corners of the square to the angles pi / 4, 3 pi /
+ * 4, ...; for four blades both maps together are a similarity, so that strata remain squares.
  */
 #include "render/lens.h"
 

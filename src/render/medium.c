@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A homogeneous medium in an axis-parallel box, or everywhere. On the length s a ray loses all but the transmittance
- * T(s) = exp(-(a + b) s) of its light, with the coefficients of absorption a and of scattering b, and gains the light
- * that the medium scatters into it (Pharr, Jakob & Humphreys, chapter 11):
+ * A homogeneous medium in an axis-parallel box, or everywhere. Over the length s a ray keeps the fraction T(s) =
+ * exp(-(a + b) s) of its light, the transmittance, with the coefficients of absorption a and of scattering b, and
+ * gains the light that the medium scatters into it (Pharr, Jakob & Humphreys, chapter 11):
  *
  *     L(o, d) = T(end) L(end)   +   integral of T(s) b (integral of p(d, w) L(o + s d, w) dw) ds
  *
- * One of the two terms is sampled. A channel is chosen in proportion to the weights beta that the path has so far, and a
- * distance s with the density (a + b) T(s) of that channel: beyond the end of the ray the light comes from the end, else
- * from the medium at s. The weight divides by the mean of the channels' densities in the same proportion (the balance
- * heuristic), so that every channel is unbiased, whichever was chosen, and the sum of the weights beta never grows. Where all
- * channels are equal the weights are exactly b / (a + b) and 1. A medium that only absorbs needs no sample.
+ * One of the two terms is sampled. A colour channel is chosen with probability proportional to the path's weights
+ * beta, and a distance s with the density (a + b) T(s) of that channel. If s is beyond the end of the ray, the light
+ * comes from that end, otherwise from the medium at s. The weight is divided by the mean of the channels' densities,
+ * weighted by the same probabilities (the balance heuristic), so that every channel is unbiased, whichever was
+ * chosen, and the sum of the weights beta never grows. If all channels have equal coefficients, the weights are
+ * exactly b / (a + b) and 1. A medium that only absorbs needs no sample.
  *
  * The phase function of Henyey & Greenstein (1941), with the mean cosine g between the directions before and after, is
  *
@@ -52,16 +53,17 @@ koksma_status koksma__medium_check(const koksma_scene *scene)
     }
     KOKSMA__FAIL_IF(endless && (scene->background[0] > 0 || scene->background[1] > 0 || scene->background[2] > 0),
                     KOKSMA_MALFORMED,
-                    "no light of the background passes an endless medium; give it 'low' and 'high'");
+                    "a medium without bounds lets no light of the background through; give it 'low' and 'high'");
     for (size_t i = 0; endless && i < scene->n_lights; i++) {
         KOKSMA__FAIL_IF(scene->lights[i].kind->distance != KOKSMA__LIGHT_NEAR, KOKSMA_MALFORMED,
-                        "no light of the %s light passes an endless medium; give it 'low' and 'high'",
+                        "a medium without bounds lets no light of the %s light through; give it 'low' and 'high'",
                         scene->lights[i].kind->kind.name);
     }
     return KOKSMA_OK;
 }
 
-/* The part of a ray in the medium: from t = first, `length` long; a step of 1 in t is `speed` long. */
+/* The part of a ray o + t d inside the medium: it begins at t = first and has the given length; `speed` is the length
+   of d. */
 typedef struct stretch {
     double first, length, speed;
 } stretch;
@@ -80,7 +82,8 @@ static stretch stretch_of(const koksma__medium *m, const float o[3], const float
         last = fmin(last, (along > 0 ? high : low) / along);
     }
     const double speed = sqrt(square);
-    /* finite, so that a channel with the coefficient 0 has transmittance 1 at any length */
+    /* the length is limited to a finite number, so that a channel with the coefficient 0 has transmittance 1 at any
+       length */
     return (stretch){first, last > first ? fmin((last - first) * speed, DBL_MAX) : 0, speed};
 }
 

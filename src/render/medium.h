@@ -9,15 +9,17 @@
 /* Makes a medium from its coefficients and g; the box is infinite. */
 void koksma__medium_init(koksma__medium *medium, const double absorption[3], const double scattering[3], double g);
 
-/* Fails if a medium without bounds keeps the light of the background or of distant lights away. Errors: MALFORMED. */
+/* Fails if a medium without bounds would let no light of the background or of distant lights through. Errors:
+   MALFORMED. */
 koksma_status koksma__medium_check(const koksma_scene *scene);
 
 /* The part of the light along o + t d, 0 < t < end, that the medium neither absorbs nor scatters; end may be infinite. */
 void koksma__medium_transmittance(const koksma__medium *medium, const float o[3], const float d[3], double end,
                                   float out[3]);
 
-/* Samples by u where light along the ray o + t d, 0 < t < end, comes from, for a path of the weights beta. True:
-   from the medium at *t; false: from the end of the ray. Sets the weight of the light from there. */
+/* For a path with the weights beta, samples by u where the light along the ray o + t d, 0 < t < end, comes from.
+   Returns true if it comes from the medium at *t, and false if it comes from the end of the ray. Sets the weight of
+   that light. */
 bool koksma__medium_sample(const koksma__medium *medium, const float o[3], const float d[3], double end, float u,
                            const float beta[3], float *t, float weight[3]);
 

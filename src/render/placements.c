@@ -43,7 +43,7 @@ koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, 
 {
     koksma__light *light = NULL;
     KOKSMA__FAIL_IF(!has_area(&scene->meshes[p->mesh], p), KOKSMA_MALFORMED,
-                    "a luminous mesh has no area where it stands");
+                    "a mesh that emits light has no area after its placement");
     const koksma_status status = koksma__scene_add_light(scene, &light);
     if (!status) {
         light->kind = &koksma__light_mesh;

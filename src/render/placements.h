@@ -5,12 +5,13 @@
 
 #include "render/description.h"
 
-/* Add a mesh, zeroed; or a placement, zeroed but for material = light = -1. Either may move the existing ones in
-   memory. Errors: MALFORMED (too many), MEMORY. */
+/* Add a mesh, zeroed, or a placement, zeroed except for material = light = -1. Both functions may move the existing
+   items in memory. Errors: MALFORMED (too many), MEMORY. */
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
 
-/* Makes the placement a light; one that has a material reflects as well. Errors: MALFORMED (too many lights, or the placed mesh has no area). */
+/* Makes the placement a light; if it has a material, it reflects as well. Errors: MALFORMED (too many lights, or the
+   placed mesh has no area). */
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *placement, const double radiance[3]);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Renders an image from its options: data that all pixels share are computed once; the image is split into tasks of
- * whole rows, whose number depends only on the sizes; within a task the pipeline renders groups of pixels.
+ * whole rows, whose number depends only on the image size; within a task the pipeline renders groups of pixels.
  */
 #include <pthread.h>
 #include <stdatomic.h>
@@ -54,7 +54,7 @@ static koksma_status render_group(job *j, size_t task, const koksma__group *grou
 
 /* ---- Tasks --------------------------------------------------------------------------------------------- */
 
-/* Calls keep_going also within a task, as a task of one or more rows may take minutes with many samples. */
+/* Calls keep_going within a task, too, because a task of one row may take minutes with many samples. */
 static koksma_status look(job *j)
 {
     if (pthread_equal(pthread_self(), j->caller) &&
@@ -64,8 +64,8 @@ static koksma_status look(job *j)
     return atomic_load(&j->stop) ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* keep_going for patterns, whose sets may take seconds each, and for the threads: what stops one then stops all, also
-   within their tasks. */
+/* The keep_going for patterns, whose sets may take seconds each, and for the threads: it stops all of them, even
+   within their tasks, once one has been stopped. */
 static bool goes_on(void *context, double fraction)
 {
     (void)fraction;
@@ -79,7 +79,7 @@ static koksma_status render_rows(void *context, size_t task)
     const int first_row = j->first_row + (int)task * j->rows_a_task, left = j->end_row - first_row;
     const int rows = left < j->rows_a_task ? left : j->rows_a_task;
     const size_t width = (size_t)f->options->width;
-    size_t samples = 0; /* since keep_going was last called */
+    size_t samples = 0; /* time since keep_going was last called */
     koksma__task_scratch r;
     koksma__group group;
     koksma_status status = koksma__task_scratch_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);
@@ -96,7 +96,7 @@ static koksma_status render_rows(void *context, size_t task)
             }
         }
     }
-    if (!status || status == KOKSMA_INTERRUPTED) { /* an interrupted task's finished part is kept */
+    if (!status || status == KOKSMA_INTERRUPTED) { /* the finished part of an interrupted task is kept */
         koksma__film_close_task(f, &j->film, task);
     }
     atomic_fetch_add(&j->rays, r.values.rays);
@@ -246,7 +246,7 @@ koksma_status koksma__render_rows(const koksma_scene *scene, const koksma_render
 /* ---- Size of a picture --------------------------------------------------------------------------------- */
 
 /*
- * The number of bytes that an image will take: of the film and of an image-wide pattern for all pixels.
+ * The number of bytes that the film of an image, and an image-wide pattern for all pixels, will take.
  */
 
 koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma_render_options *options,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Warnings about a scene that can be rendered, but is odd: materials that are not used, lights that emit nothing,
- * parts of a model file that are not supported. Warnings are not stored: warning i is found by counting down from i
- * through all checks, in a fixed order.
+ * Warnings about a scene that can be rendered but may not be as intended: materials that are not used, lights that
+ * emit nothing, parts of a model file that are not supported. Warnings are not stored: to find warning i, all checks
+ * run in a fixed order and the warnings that they find are counted.
  */
 #include "render/scene_warnings.h"
 
@@ -76,8 +76,9 @@ static bool of_placements(const koksma_scene *scene, asked *a)
         return false;
     }
     const int mesh = scene->placements[first].mesh;
-    snprintf(a->text, a->size, "mesh %d%s%s: its placement by a matrix without an inverse flattens it%s", mesh,
-             *scene->meshes[mesh].name ? " " : "", scene->meshes[mesh].name, n > 1 ? ", and so do others" : "");
+    snprintf(a->text, a->size, "mesh %d%s%s is flattened, because the matrix of its placement has no inverse%s", mesh,
+             *scene->meshes[mesh].name ? " " : "", scene->meshes[mesh].name,
+             n > 1 ? ", and other meshes are, too" : "");
     return true;
 }
 
@@ -85,12 +86,12 @@ static bool of_lights(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_lights; i++) {
         if (is_dark(scene->lights[i].radiance) && here(a)) {
-            snprintf(a->text, a->size, "light %zu gives no light", i);
+            snprintf(a->text, a->size, "light %zu emits no light", i);
             return true;
         }
     }
     if (scene->unread.too_bright && here(a)) {
-        snprintf(a->text, a->size, "lights or glowing materials brighter than 1e6 (%zu) are dimmed to it",
+        snprintf(a->text, a->size, "lights or emissive materials brighter than 1e6 (%zu) are dimmed to 1e6",
                  scene->unread.too_bright);
         return true;
     }
@@ -101,8 +102,8 @@ static bool of_lights(const koksma_scene *scene, asked *a)
     return false;
 }
 
-/* Warns about lights that rays cannot hit in a scene with mirrors or glass, because only paths that hit a light carry
-   its light by way of a mirror or glass. */
+/* Warns about lights that rays cannot hit in a scene with mirrors or glass, because light that a mirror or glass
+   reflects or refracts onto a surface is found only by paths that hit the light source. */
 static bool of_hidden_lights(const koksma_scene *scene, asked *a)
 {
     size_t hidden = 0;
@@ -117,8 +118,8 @@ static bool of_hidden_lights(const koksma_scene *scene, asked *a)
         return false;
     }
     snprintf(a->text, a->size,
-             "no ray meets some lights (%zu): with path, mirrors and glass throw none of their light on other "
-             "surfaces",
+             "rays cannot hit some lights (%zu): with the integrator path, mirrors and glass cast none of their "
+             "light on other surfaces",
              hidden);
     return true;
 }
@@ -128,11 +129,11 @@ static bool of_materials(const koksma_scene *scene, asked *a)
     for (size_t i = 0; i < scene->n_materials; i++) {
         const koksma__material *m = &scene->materials[i];
         if (!scene->is_model && !is_used(scene, (int)i) && here(a)) {
-            snprintf(a->text, a->size, "material '%s' is used by nothing", m->name);
+            snprintf(a->text, a->size, "material '%s' is not used", m->name);
             return true;
         }
         if (*m->lost && here(a)) {
-            snprintf(a->text, a->size, "material %zu is without its texture: %s", i, m->lost);
+            snprintf(a->text, a->size, "the texture of material %zu is ignored: %s", i, m->lost);
             return true;
         }
         if (*m->dark && here(a)) {
@@ -156,12 +157,12 @@ static bool of_unread(const koksma__unread *u, asked *a)
         size_t n;
         const char *what, *so;
     } all[] = {
-        {u->animations, "animations", "everything stays where its node puts it"},
-        {u->skins, "skins", "their meshes stand as they were modelled"},
-        {u->vertex_colours, "meshes' vertex colours", "materials alone say the colour"},
+        {u->animations, "animations", "objects are shown where their nodes place them"},
+        {u->skins, "skins", "their meshes are shown undeformed"},
+        {u->vertex_colours, "meshes' vertex colours", "only materials give the colour"},
         {u->second_uvs, "textures' own texture coordinates", "they use those of their material's first texture"},
-        {u->morphs, "morph targets", "meshes stand as they were modelled"},
-        {u->lines, "points and lines", "triangles alone are shown"},
+        {u->morphs, "morph targets", "meshes are shown undeformed"},
+        {u->lines, "points and lines", "only triangles are shown"},
         {u->see_through, "materials' transparencies", "they are opaque"},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
@@ -207,7 +208,7 @@ static bool of_names(const koksma__unread *u, asked *a)
         size_t n;
         const char *name, *what;
     } all[] = {{u->libraries, u->library, "there is no such material file"},
-               {u->materials, u->material, "no material file makes this material: it is grey"}};
+               {u->materials, u->material, "no material file defines this material: it is grey"}};
     for (size_t i = 0; i < 2; i++) {
         if (all[i].n && here(a)) {
             char more[48] = "";

@@ -4,8 +4,8 @@
 
 #include "render/description.h"
 
-/* Warning i of koksma_scene_warning; without by_paths it leaves out warnings that matter only to integrators that
-   follow all paths. */
+/* Warning i of koksma_scene_warning. If by_paths is false, warnings that concern only path-tracing integrators are
+   left out. */
 bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size);
 
 #endif

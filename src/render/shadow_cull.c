@@ -5,11 +5,13 @@
  *
  *     a.(x - c) > r for all corners x of F and L, for some unit vector a.
  *
- * The vector tried is the one from c to the nearest point of the line from the middle of F to the middle of L.
+ * The only vector a that is tried points from the centre c to the nearest point of the line from the middle of F to
+ * the middle of L.
  *
- * batch_shapes.c decides in floats, so r is widened by 2^-9 of the largest coordinates R. The test of a sphere compares
- * squares that are off by about 10 units in the last place, 10 2^-24 R^2; the margin changes them by more than 2^-18
- * R^2. Hits are off by 10 2^-24 R divided by the sine between ray and surface, which frustum_cull.c bounds.
+ * batch_shapes.c computes in floats, so r is increased by 2^-9 R, where R is the largest coordinate. The test of a
+ * sphere compares squares that are off by about 10 units in the last place, 10 2^-24 R^2; the margin changes them by
+ * more than 2^-18 R^2. Hits are off by 10 2^-24 R divided by the sine between ray and surface, which frustum_cull.c
+ * bounds.
  */
 #include "render/shadow_cull.h"
 
@@ -35,7 +37,7 @@ static void corners_of(const koksma__batch_light *l, double corners[4][3], doubl
     }
 }
 
-/* The vector to the line from f to g from c. */
+/* The vector from c to the nearest point of the line through f and g. */
 static void nearest(const double f[3], const double g[3], const double c[3], double to[3])
 {
     double along[3], from[3];
@@ -49,7 +51,8 @@ static void nearest(const double f[3], const double g[3], const double c[3], dou
     }
 }
 
-/* The least a.(x - c) of n points; *size is raised to their largest sum of coordinates. */
+/* The smallest a.(x - c) over n points x; *size is raised to the largest sum of the absolute coordinates of a
+   point. */
 static double least(const double (*at)[3], int n, const double a[3], const double c[3], double *size)
 {
     double low = (double)INFINITY;

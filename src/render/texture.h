@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Colours of an image at texture coordinates: bilinear between the four nearest pixels, whose centres are at half
- * numbers, or the nearest pixel. Beyond its edge an image is repeated, mirrored, or clamped to the edge. The
- * functions are inline because wavefront.c, the mesh lights and the module that traces meshes, which needs the alpha
- * of triangles, all use them.
+ * Colours of an image at texture coordinates: interpolated bilinearly between the four nearest pixels, whose centres
+ * are at half-integers, or taken from the nearest pixel. Beyond its edge an image is repeated, mirrored, or clamped
+ * to the edge. The functions are inline because wavefront.c, the mesh lights and the module that traces meshes, which
+ * needs the alpha of triangles, all use them.
  */
 #ifndef KOKSMA_RENDER_TEXTURE_H
 #define KOKSMA_RENDER_TEXTURE_H
@@ -13,8 +13,8 @@
 
 #include "render/description.h"
 
-/* Splits a coordinate x of an image, n pixels wide, between the two pixels around it: pair gets their indices,
-   wrapped; the weight of the second is returned. */
+/* Finds the two pixels around the coordinate x in an image n pixels wide: `pair` gets their indices, wrapped, and the
+   weight of the second pixel is returned. */
 static inline float koksma__texture_split(float x, int n, koksma__wrap wrap, size_t pair[2])
 {
     /* mirrored coordinates go from 0 to 1 and back */
@@ -32,7 +32,7 @@ static inline float koksma__texture_split(float x, int n, koksma__wrap wrap, siz
 }
 
 /* An image over the plane: (0, 0) is the lower left corner of its lower left pixel, (1, 1) the upper right corner of
-   the upper right pixel. rgb: the colour, at most `most`, and 0 where a pixel is not a number. */
+   the upper right pixel. rgb gets the colour, clamped to `most`; pixels that are NaN count as 0. */
 static inline void koksma__texture(const koksma_image *image, const koksma__mapping *m, float u, float v, float most,
                                    float rgb[3])
 {

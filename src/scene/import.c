@@ -66,7 +66,7 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
         }
     }
     if (scene->n_unknown == MOST_UNKNOWN) {
-        scene->unknown[MOST_UNKNOWN - 1].n++; /* the list is full: count this in the last entry */
+        scene->unknown[MOST_UNKNOWN - 1].n++; /* the list is full: count this warning in the last entry */
         return KOKSMA_OK;
     }
     koksma__unknown *to = koksma__add_one(&scene->unknown, &scene->n_unknown, sizeof *to);
@@ -254,8 +254,9 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     return KOKSMA_OK;
 }
 
-/* Sets a Phong lobe with a dielectric's reflectance along the normal over a Lambert surface with the rest of the
-   light. With an image as the colour, only the Lambert surface is set. */
+/* Replaces a coated material by a Phong lobe, which has a dielectric's reflectance along the normal, over a Lambert
+   surface, which reflects part of the remaining light. With an image as the colour, only the Lambert surface is
+   set. */
 static koksma_status set_coated(koksma__import *im, koksma__text_place place, const koksma__import_material *from,
                                 koksma__material *m)
 {
@@ -331,7 +332,7 @@ koksma_status koksma__import_light(koksma__import *im, koksma__text_place place,
         if (im->scene->lights[i].kind == light->kind) {
             koksma_image_fini(light->image);
             free(light->image);
-            return koksma__import_unknown(im, place, "a second environment: it is left out");
+            return koksma__import_unknown(im, place, "the scene has a second environment, which is left out");
         }
     }
     const koksma_status status = koksma__scene_add_light(im->scene, &to);
@@ -345,8 +346,8 @@ koksma_status koksma__import_light(koksma__import *im, koksma__text_place place,
     return KOKSMA_OK;
 }
 
-/* The point of the octahedral map, a square [0, 1]^2 with equal areas, for a direction (Clarberg 2008); the pole
-   is z. */
+/* The point in the square [0, 1]^2 of a direction in the equal-area octahedral map (Clarberg 2008), whose pole is
+   z. */
 static void octahedral_square(const double w[3], double uv[2])
 {
     const double x = fabs(w[0]), y = fabs(w[1]), z = fabs(w[2]), r = sqrt(fmax(0, 1 - z));
@@ -432,7 +433,7 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
     if (image && !koksma__import_invert(matrix, inverse)) {
         koksma_image_fini(image);
         free(image);
-        return koksma__import_fail(place, "an environment is flattened by a matrix without an inverse");
+        return koksma__import_fail(place, "the matrix of an environment has no inverse");
     }
     if (image && (size_t)image->width * (size_t)image->height > (size_t)1 << 26) {
         koksma_image_fini(image);
@@ -461,7 +462,7 @@ koksma_status koksma__import_spot(koksma__text_place place, const double directi
         return koksma__import_fail(place, "a spot without a direction");
     }
     if (!(outer_deg > 0 && outer_deg <= 90)) {
-        return koksma__import_fail(place, "a spot's cone takes an angle above 0 and up to 90 degrees");
+        return koksma__import_fail(place, "the angle of a spot's cone must be above 0 and at most 90 degrees");
     }
     inner_deg = fmin(fmax(inner_deg, 0), outer_deg);
     light->values[0] = outer_deg; /* angle_deg and edge */

@@ -80,13 +80,13 @@ extern const double koksma__import_identity[12];
 koksma_status koksma__import_fail(koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(2, 3);
 koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status status);
 
-/* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...". Equal texts give one warning
-   with the number of places. Errors: MEMORY. */
+/* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...". Warnings with equal texts become
+   one, with the number of places. Errors: MEMORY. */
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
     KOKSMA_PRINTF(3, 4);
 
-/* Reads a text that the scene includes. It must be below the scene's folder, and a scene has at most
-   MOST_INCLUDES of them. The caller frees *bytes. */
+/* Reads a file that the scene includes. The file must be below the scene's folder, and a scene can include at most
+   MOST_INCLUDES files. The caller frees *bytes. */
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size);
 
@@ -126,8 +126,8 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
                                  const double scale[3], const double matrix[12]);
 
 /* Sets the camera. The columns of its matrix are the direction to the right (times `right`, 1 or -1), the
-   direction up (whose length scales an orthographic camera's height), the direction ahead and the position; the angle
-   or height and the lens are those of `lens`. */
+   direction up (whose length scales an orthographic camera's height), the direction ahead and the position; `lens`
+   gives the angle or height and the lens. */
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
                                     double right, const koksma__camera *lens);
 

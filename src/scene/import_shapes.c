@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Adds the shapes of other renderers' scenes. Spheres, squares and disks that stay round or rectangular under
- * their matrix become Koksma's own shapes and lights. All others become meshes: read from a file once, passed by
- * the reader, or made from a basic shape (a sphere of 64 x 32 rectangles, a disk or cylinder with 64 sides). A
- * mesh is placed by a matrix as often as the scene contains it. A placement whose matrix mirrors, or whose fronts
- * and backs are swapped, uses a copy of the mesh that is turned inside out, for the reason in glTF 2.0, section
- * 3.7.4. A light whose surface reflects is a mesh, too: Koksma's own lights do not reflect. Round ones stay as they
- * are, with a warning, because flat sides would send less light than they should.
+ * Adds the shapes of other renderers' scenes. Spheres and disks that are still round under their matrix, and squares
+ * that are still rectangular, become Koksma's own shapes and lights. All others become meshes: read from a file once,
+ * passed by the reader, or made from a basic shape (a sphere of 64 x 32 rectangles, a disk or cylinder with 64
+ * sides). A mesh is stored once and placed by a matrix as often as the scene contains it. A placement whose matrix
+ * mirrors, or whose front and back sides are swapped, uses a copy of the mesh that is turned inside out, as glTF 2.0,
+ * section 3.7.4, explains. A light whose surface reflects becomes a mesh, too, because Koksma's own lights do not
+ * reflect. A round light remains one of Koksma's own and loses its reflection, with a warning, because a mesh with
+ * flat sides would emit less light than the round shape.
  */
 #include "scene/import_shapes.h"
 
@@ -25,7 +26,7 @@
 
 enum { SIDES = 64, RINGS = 32 };
 
-/* A mesh that was made before, identified by its file's path or by its basic shape. */
+/* A mesh that was made already, identified by its file's path or by its basic shape. */
 struct koksma__known_mesh {
     char *path; /* path of the mesh's file; NULL: made from a basic shape */
     long part;  /* the number of the mesh in its file, or -1 */
@@ -109,7 +110,7 @@ koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place pl
     KOKSMA__TRY(koksma__import_path(im, place, name, full));
     *out = -1;
     if (!koksma__is_mesh_file(full)) {
-        return koksma__import_unknown(im, place, "%s is no file of a mesh that is read: it is left out", name);
+        return koksma__import_unknown(im, place, "the mesh %s has an unsupported format: it is left out", name);
     }
     for (size_t i = 0; i < im->n_known; i++) {
         if (im->known[i].path && !strcmp(im->known[i].path, full) && im->known[i].part == part &&
@@ -252,7 +253,7 @@ static koksma_status find_form(koksma__import *im, koksma__text_place place, kok
 
 /* ---- Placing shapes ---------------------------------------------------------------------------------------- */
 
-/* Replaces a material by a copy without image and checkerboard, for a mesh without texture coordinates. */
+/* Replaces a material by a copy without its image or checkerboard, for a mesh without texture coordinates. */
 static koksma_status plain(koksma__import *im, koksma__text_place place, int *material)
 {
     koksma_scene *scene = im->scene;
@@ -339,7 +340,8 @@ static const koksma__shape_type *shape_type(const char *name)
     return koksma__shape_types[i];
 }
 
-/* The type of Koksma's own shape for an item; NULL if the matrix, a texture or the emitting side rules it out. */
+/* The type of Koksma's own shape for an item; NULL if the matrix, a texture or the emitting side needs a mesh
+   instead. */
 static const koksma__shape_type *own_shape(const koksma__import *im, const koksma__import_item *item,
                                            const double matrix[12], double length[3])
 {
@@ -369,7 +371,7 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
 {
     const bool sphere = type == shape_type("sphere"), disk = type == shape_type("disk");
     const double side =
-        item->surface.turned ? -1 : 1; /* u is reversed with the normal, so that the axes stay right-handed */
+        item->surface.turned ? -1 : 1; /* u is reversed with the normal, so that the axes remain right-handed */
     koksma__shape shape = {.type = type, .material = item->surface.material, .light = -1}, *added;
     double normal[3];
     for (int k = 0; k < 3; k++) {
@@ -429,7 +431,7 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     if (item->surface.emits && item->surface.material >= 0 &&
         is_black(&im->scene->materials[item->surface.material])) {
         koksma__import_item dark = *item;
-        dark.surface.material = -1; /* a light that reflects nothing is one of Koksma's own */
+        dark.surface.material = -1; /* a light that reflects nothing becomes one of Koksma's own lights */
         return koksma__import_put(im, &dark, outer);
     }
     koksma__matrix_multiply(outer ? outer : koksma__import_identity, item->matrix, matrix);
@@ -441,7 +443,7 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     const koksma__shape_type *own = item->form == KOKSMA__FORM_MESH ? NULL : own_shape(im, item, matrix, length);
     if (own) {
         if (item->surface.emits && item->surface.material >= 0) {
-            KOKSMA__TRY(koksma__import_unknown(im, item->place, "what a round light reflects is left out"));
+            KOKSMA__TRY(koksma__import_unknown(im, item->place, "the reflection of a round light is left out"));
         }
         return put_own(im, item, own, matrix, length);
     }
@@ -450,7 +452,8 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
     }
     if (item->form == KOKSMA__FORM_CYLINDER || item->form == KOKSMA__FORM_SPHERE || item->form == KOKSMA__FORM_DISK) {
         KOKSMA__TRY(koksma__import_unknown(
-            im, item->place, "a cylinder, or a stretched or textured round shape, has %d sides", SIDES));
+            im, item->place, "a cylinder, or a stretched or textured round shape, becomes a mesh with %d sides",
+            SIDES));
     }
     return mesh < 0 ? KOKSMA_OK : put_mesh(im, item, mesh, matrix);
 }

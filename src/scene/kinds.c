@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lists the kinds of materials, lights and shapes that scene files may contain, with their fields, from the
+/* Lists the kinds of materials, lights and shapes that scene files may contain, and the fields of each, from the
    tables in src/render. */
 #include <stdio.h>
 #include <string.h>

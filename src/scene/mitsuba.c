@@ -4,7 +4,7 @@
  * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
  * shape first refers to it. Media, volumes and motion are not read; integrators and samplers
  * are ignored, because the program's own options choose them.
- * Long because one file knows Mitsuba's names.
+ * The file is long so that all of Mitsuba's names are in one place.
  */
 #include "scene/mitsuba.h"
 
@@ -301,7 +301,7 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
     }
     found = resolve(r, found);
     if (depth > MOST_NESTED) {
-        return koksma__import_fail(found->place, "textures within each other more than %d deep", MOST_NESTED);
+        return koksma__import_fail(found->place, "textures are nested more than %d deep", MOST_NESTED);
     }
     return is(found, "texture") ? texture(r, found, out, depth) : value_of(r, found, is(n, "emitter"), out->rgb);
 }
@@ -312,7 +312,7 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
 typedef struct bsdf_kind {
     const char *name;
     int kind;           /* kind of the replacement; -1: light passes through */
-    const char *colour; /* name of the parameter with its diffuse albedo or reflectance */
+    const char *colour; /* name of the BSDF's parameter for the diffuse albedo or the reflectance */
     double otherwise, alpha;
     const char *instead; /* NULL, or the replacement's name in a warning */
 } bsdf_kind;
@@ -332,7 +332,7 @@ static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5,
                                   {"mask", -1, "", 0, 0, "nothing"},
                                   {"null", -1, "", 0, 0, NULL}};
 
-/* BSDFs that contain others; the first one inside is used in place of the whole. */
+/* BSDFs that contain others: each is replaced by the first BSDF inside it. */
 static const struct {
     const char *name;
     bool is_exact;
@@ -405,7 +405,8 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
             if (is(inner, "bsdf") && depth < MOST_NESTED) {
                 KOKSMA__TRY(wrappers[i].is_exact
                                 ? KOKSMA_OK
-                                : koksma__import_unknown(r->im, n->place, "BSDF '%s': the BSDF within it", type));
+                                : koksma__import_unknown(r->im, n->place,
+                                                         "BSDF '%s' is replaced by the BSDF within it", type));
                 return make_bsdf(r, inner, depth + 1, out);
             }
         }
@@ -536,7 +537,7 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
         return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""), (long)part,
                                         !flag(r, n, "face_normals", false), &item->mesh);
     } else if (item->form == KOKSMA__FORM_MESH) {
-        return koksma__import_unknown(r->im, n->place, "shape '%s': it is left out", type);
+        return koksma__import_unknown(r->im, n->place, "shape '%s' is left out", type);
     }
     return KOKSMA_OK;
 }
@@ -548,7 +549,7 @@ static koksma_status instance(reader *r, const node *n, const double outer[12], 
 {
     double m[12], matrix[12];
     if (depth > MOST_NESTED) {
-        return koksma__import_fail(n->place, "instances within each other more than %d deep", MOST_NESTED);
+        return koksma__import_fail(n->place, "instances are nested more than %d deep", MOST_NESTED);
     }
     KOKSMA__TRY(transform(r, n, "to_world", m));
     koksma__matrix_multiply(outer ? outer : koksma__import_identity, m, matrix);
@@ -600,8 +601,9 @@ static koksma_status emitter(reader *r, const node *n)
     if (around || !strcmp(type, "sunsky") || !strcmp(type, "sky") || !strcmp(type, "sun")) {
         light.kind = &koksma__light_environment;
         light.visible = true;
-        KOKSMA__TRY(around ? KOKSMA_OK
-                           : koksma__import_unknown(r->im, n->place, "emitter '%s': a white sky here", type));
+        KOKSMA__TRY(around
+                        ? KOKSMA_OK
+                        : koksma__import_unknown(r->im, n->place, "emitter '%s' is replaced by a white sky", type));
     } else if (far) {
         light.kind = &koksma__light_directional;
         point(r, n, "direction", along);
@@ -627,8 +629,8 @@ static koksma_status emitter(reader *r, const node *n)
             KOKSMA__TRY(koksma__import_spot(n->place, along, number(r, n, "beam_width", outer * 3 / 4), outer,
                                             KOKSMA__FALLOFF_ANGLE, &light));
         } else if (strcmp(type, "point") != 0) {
-            KOKSMA__TRY(koksma__import_unknown(r->im, n->place,
-                                               "emitter '%s': a point light equal in all directions here", type));
+            KOKSMA__TRY(koksma__import_unknown(
+                r->im, n->place, "emitter '%s' is replaced by a point light equal in all directions", type));
         }
     }
     return koksma__import_light(r->im, n->place, &light);
@@ -678,7 +680,7 @@ static koksma_status sensor(reader *r, const node *n)
     const char *type = type_of(n);
     const bool lens = !strcmp(type, "thinlens");
     if (r->has_sensor) {
-        return koksma__import_unknown(r->im, n->place, "a second sensor: it is left out");
+        return koksma__import_unknown(r->im, n->place, "the scene has a second sensor, which is left out");
     }
     const bool parallel = !strcmp(type, "orthographic");
     if (!lens && !parallel && strcmp(type, "perspective") != 0) {
@@ -696,8 +698,8 @@ static koksma_status sensor(reader *r, const node *n)
                      y = sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]);
         camera.height = 2 * height / width;
         if (fabs(x - y) > 1e-4 * y) {
-            KOKSMA__TRY(
-                koksma__import_unknown(r->im, n->place, "the camera's scale along x is taken to be that along y"));
+            KOKSMA__TRY(koksma__import_unknown(r->im, n->place,
+                                               "the camera's scale along x is replaced by the scale along y"));
         }
     } else {
         camera.fov_rad = height_angle(r, n, width, height);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Completes a scene that consists of a mesh file alone: it gets an image size; if it has no camera, a camera; and
- * if it has no lights but emissive meshes, a studio: a key light, a dim sky and, if the camera was added, a
- * ground. Also replaces the sky of any scene by the user's.
+ * Completes a scene that consists of a mesh file alone. The scene gets an image size; a camera if the file has none;
+ * and, if no mesh emits light and the file has no other lights, a studio: a key light, a dim sky and, if the camera
+ * was added, a ground. Also replaces the sky of any scene by the user's.
  */
 #include "scene/model.h"
 #include "render/lights/lights.h"
@@ -21,7 +21,8 @@
 #include "render/shapes/shapes.h"
 #include "scene/parse.h"
 
-/* Part of the hash of scenes from mesh files; raised when the same file gives another image. */
+/* A version number in the hash of scenes from mesh files; it is raised when a change of the code alters their
+   images. */
 #define MODEL_REVISION 2
 
 bool koksma__camera_aim(const double eye[3], const double forward[3], const double up[3], double fov_rad,
@@ -160,7 +161,8 @@ static koksma_status expose(koksma_scene *scene, const double centre[3])
             scene->lights[i].radiance[k] /= sum;
         }
     }
-    snprintf(text, sizeof text, "lights that nodes have are dimmed together, by %llu", (unsigned long long)sum);
+    snprintf(text, sizeof text, "the lights at nodes are too bright: all are divided by %llu",
+             (unsigned long long)sum);
     return koksma__scene_note(scene, text);
 }
 
@@ -200,8 +202,8 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
     KOKSMA__REQUIRE(scene);
     koksma__light *sky = NULL;
     koksma_image *pixels = NULL;
-    KOKSMA__FAIL_IF(!(radiance >= 0 && radiance <= BRIGHT), KOKSMA_ARGUMENT, "a sky of radiance %g: it takes 0 to %g",
-                    radiance, BRIGHT);
+    KOKSMA__FAIL_IF(!(radiance >= 0 && radiance <= BRIGHT), KOKSMA_ARGUMENT,
+                    "a sky of radiance %g: it must be 0 to %g", radiance, BRIGHT);
     KOKSMA__FAIL_IF(scene->cache->made, KOKSMA_ARGUMENT, "the scene was rendered already; set its sky before that");
     if (image) {
         pixels = calloc(1, sizeof *pixels);

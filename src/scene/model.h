@@ -11,8 +11,8 @@
 koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_scene *scene);
 
 /* Reads everything in a file into the empty scene: meshes where its nodes place them, materials, cameras, lights.
-   Members for which the file has nothing stay empty. has_camera: scene->camera has position, axes and angle.
-   Errors: those of koksma__mesh_read. Defined in model_build.c. */
+   Members for which the file has no data stay empty. *has_camera: whether position, axes and angle of scene->camera
+   are set. Errors: those of koksma__mesh_read. Defined in model_build.c. */
 koksma_status koksma__model_read(const char *path, koksma__named by, koksma_scene *scene, bool *has_camera);
 
 /* Sets the camera at `eye` that looks along `forward`; false if `up` is parallel to `forward`. */

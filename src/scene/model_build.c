@@ -26,7 +26,7 @@ typedef struct builder {
     koksma__mesh_file *file;
     int (*meshes)[2];     /* for each mesh of the file: the scene's mesh and its mirrored copy; -1: not made yet */
     double (*glows)[3];   /* emitted radiance of each material */
-    size_t n_dark;        /* number of emissive meshes that stay dark */
+    size_t n_dark;        /* number of emissive meshes that remain dark because the list of lights is full */
     koksma_status status; /* first error among the materials */
 } builder;
 
@@ -61,7 +61,7 @@ static koksma_status read_texture(const builder *build, const koksma__file_textu
     return status || !image->pixels ? status : koksma__image_check(image, from->name);
 }
 
-/* Scales radiance down to what scenes allow and keeps its colour. */
+/* Scales radiance down to the maximum that scenes allow, and keeps its colour. */
 static void dim(builder *build, double rgb[3])
 {
     const double largest = fmax(fmax(rgb[0], rgb[1]), rgb[2]);
@@ -104,8 +104,8 @@ static koksma_status tint(koksma_image *image, const double colour[3])
     return KOKSMA_OK;
 }
 
-/* Reads a texture into *out. *out stays NULL if the texture has no such part, or can't be read, for the reason in
-   `text`. */
+/* Reads a part of a texture into *out. *out stays NULL if the texture has no such part or can't be read; `text` then
+   has the reason. */
 static void take_map(builder *build, const koksma__file_texture *from, koksma__image_part part, koksma_image **out,
                      koksma__mapping *mapping, char text[256])
 {
@@ -154,8 +154,8 @@ static void take_colour_map(builder *build, const koksma__file_texture *from, ko
     }
 }
 
-/* Reads the emission texture. If it is missing, the surface emits nothing, because most of such a texture is
-   dark. */
+/* Reads the emission texture. If it is missing, the surface emits nothing, because most of an emission texture is
+   usually dark. */
 static void take_glow_map(builder *build, const koksma__file_texture *from, double glow[3], koksma__material *m)
 {
     koksma__map *map = &m->maps[KOKSMA__MAP_EMISSION];
@@ -170,7 +170,7 @@ static void take_glow_map(builder *build, const koksma__file_texture *from, doub
     }
 }
 
-/* Sets what only glTF's materials have: metallic and roughness textures, normals, alpha. */
+/* Sets the properties that only glTF's materials have: metallic and roughness textures, normals, alpha. */
 static void take_principled(builder *build, const koksma__file_material *from, koksma__material *m)
 {
     const struct {
@@ -190,7 +190,7 @@ static void take_principled(builder *build, const koksma__file_material *from, k
         map->scale = all[i].from->scale;
         if (*text && all[i].part == KOKSMA__IMAGE_NUMBERS && !build->status) {
             char note_text[256];
-            snprintf(note_text, sizeof note_text, "material %.8s is without its texture of %s: %.150s", m->name,
+            snprintf(note_text, sizeof note_text, "material %.8s loses its texture of %s: %.150s", m->name,
                      all[i].what, text);
             build->status = koksma__scene_note(build->scene, note_text);
         }
@@ -286,7 +286,7 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
     if (known[!mirrored] >= 0) {
         status = copy(&scene->meshes[known[!mirrored]], to);
     } else {
-        *to = *from; /* move the file's mesh, which is not needed again */
+        *to = *from; /* move the mesh out of the file's data, which does not need it again */
         *from = (koksma__mesh){0};
     }
     if (!status && (mirrored || known[!mirrored] >= 0)) {
@@ -296,15 +296,15 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
     return status ? status : koksma__mesh_check(to);
 }
 
-/* Makes a placed mesh a light that also reflects. Keeps room in the list of lights for the file's own and two
-   more. */
+/* Makes a placed mesh a light that also reflects. Leaves space in the list of lights for the file's other lights and
+   two more. */
 static koksma_status add_glow(builder *build, koksma__placement *p, const double glow[3])
 {
     koksma_scene *scene = build->scene;
     if (scene->n_lights + build->file->lights.n + 2 >= KOKSMA__MAX_LIGHTS) {
         return build->n_dark++
                    ? KOKSMA_OK
-                   : koksma__scene_note(scene, "more meshes emit light than there is room for lights: some are dark");
+                   : koksma__scene_note(scene, "more meshes emit light than a scene can have lights: some are dark");
     }
     return koksma__scene_add_glow(scene, p, glow);
 }

@@ -110,7 +110,7 @@ static koksma_status parse_camera(const field *root, koksma__camera *camera)
 
 /*
  * Reads shapes. The kinds of shapes, their fields and the allowed values come from the table in render/shapes.
- * Read here is the field that all shapes have: "material", or "emission" in its place for some kinds.
+ * This file reads the field that all shapes have: "material", or "emission" in its place for some kinds.
  */
 
 static koksma_status refuse_image(const field *f)
@@ -122,7 +122,7 @@ static koksma_status refuse_image(const field *f)
             snprintf(known + used, sizeof known - used, " %s", koksma__shape_types[i]->kind.name);
         }
     }
-    return koksma__json_fail(f, "it takes no material with an image; these do:%s", known);
+    return koksma__json_fail(f, "this kind takes no material with an image; these do:%s", known);
 }
 
 /* Finds the index of the shape's material; it stays -1 for a shape with "emission". */
@@ -216,7 +216,8 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
 {
     field list, item;
     size_t n = 0;
-    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights); /* meshes may add lights, too */
+    /* allocated in full, because meshes may add lights */
+    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
     KOKSMA__REQUIRE_MEMORY(scene->lights, KOKSMA__MAX_LIGHTS * sizeof *scene->lights);
     koksma_status status =
         open_list(root, "materials", KOKSMA__MAX_MATERIALS, sizeof *scene->materials, &scene->materials, &list, &n);

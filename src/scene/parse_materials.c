@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads the materials of a scene file. The kinds of materials, their parameters and the allowed values come from
- * the table in render/materials. Read here are the fields that several kinds share: the name, and the diffuse
+ * the table in render/materials. This file reads the fields that several kinds share: the name, and the diffuse
  * albedo, which is one colour, two colours in the squares of a checkerboard, or an image.
  */
 #include <string.h>

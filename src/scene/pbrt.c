@@ -2,11 +2,10 @@
 /*
  * Reads scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4). A scene is a list of
  * directives, each with a text and parameters, that change a graphics state or use it to add a shape or light.
- * pbrt_values.c converts parameters to colours, materials and meshes. Motion and curves are not read, and
- * of media only the homogeneous one in which the camera stands;
- * directives that do not describe the scene (Sampler, Integrator, ...) are ignored, because the program's own
- * options choose them.
- * Long because one file knows pbrt's directives.
+ * pbrt_values.c converts parameters to colours, materials and meshes. Motion and curves are not read; the only medium
+ * read is a homogeneous one that contains the camera. Directives that do not describe the scene (Sampler, Integrator,
+ * ...) are ignored, because the program's own options choose them.
+ * The file is long so that all of pbrt's directives are in one place.
  */
 #include "scene/pbrt.h"
 
@@ -28,7 +27,7 @@ enum { MOST_INCLUDED = 16, MOST_STATES = 1024 };
 typedef struct graphics {
     double matrix[12];
     koksma__import_surface surface;
-    char outside[256]; /* the medium outside shapes */
+    char outside[256]; /* name of the medium outside the shapes that follow */
 } graphics;
 
 typedef struct named_space {
@@ -58,9 +57,9 @@ typedef struct reader {
     named_medium *media;
     size_t n_spaces, n_objects, n_media;
     object *open; /* the object to which shapes are added, or NULL */
-    bool fixed;   /* only transforms of the end time are being given, which are ignored */
+    bool fixed;   /* the directives that follow give transforms for the end time only, which are ignored */
     koksma__pbrt_parameters *parameters;
-    /* The camera, which is completed when the aspect ratio of the film is known. */
+    /* The camera, completed when the aspect ratio of the film is known. */
     bool has_camera;
     koksma__text_place camera_place;
     char camera_medium[256];
@@ -219,12 +218,12 @@ static koksma_status push(reader *r, source *s)
     return KOKSMA_OK;
 }
 
-/* Restores the state or matrix on top of the stack. The stack keeps its memory, because koksma__add_one() derives
-   the capacity from the number of items alone. */
+/* Restores the state or matrix on top of the stack. The stack keeps its memory, because koksma__add_one() computes
+   the capacity from nothing but the number of items. */
 static koksma_status pop(reader *r, source *s, bool matrix_alone)
 {
     if (!r->n_stack) {
-        return koksma__import_fail(s->place, "an end without its begin");
+        return koksma__import_fail(s->place, "an AttributeEnd, ObjectEnd or TransformEnd without its begin");
     }
     const graphics *from = &r->stack[--r->n_stack];
     if (matrix_alone) {
@@ -552,7 +551,7 @@ static koksma_status take_include(reader *r, source *s)
     KOKSMA__TRY(koksma__import_text(r->im, s->place, path, &bytes, &size));
     char **kept = koksma__add_one(&r->values.texts, &r->values.n_texts, sizeof *kept);
     char *name = kept ? strdup(path) : NULL;
-    if (!name) { /* positions in messages refer to the name, which must outlive the file */
+    if (!name) { /* places in messages point to the name, which must therefore be kept after the file is closed */
         free(bytes);
         return kept ? koksma__fail_memory(sizeof path) : KOKSMA_MEMORY;
     }
@@ -623,7 +622,7 @@ static koksma_status read_source(reader *r, source *s)
             i++;
         }
         if (t.kind != KOKSMA__PBRT_WORD || i == n) {
-            return koksma__import_fail(s->place, "'%.*s' is no directive of pbrt-v4",
+            return koksma__import_fail(s->place, "'%.*s' is not a directive of pbrt-v4",
                                        t.length < 40 ? (int)t.length : 40, t.at);
         }
         const koksma_status status = directives[i].take(r, s);
@@ -680,7 +679,7 @@ static koksma_status set_camera(reader *r)
     return koksma__import_camera(r->im, r->camera_place, r->camera, 1, &camera);
 }
 
-/* Fills the scene with the medium in which the camera stands. */
+/* Fills the scene with the medium that contains the camera. */
 static koksma_status set_medium(reader *r)
 {
     koksma__medium *to = &r->im->scene->medium;
@@ -693,8 +692,9 @@ static koksma_status set_medium(reader *r)
     }
     if (koksma__medium_check(r->im->scene)) {
         to->is_there = false;
-        return koksma__import_unknown(r->im, r->camera_place,
-                                      "the camera's medium is ignored: no light of distant lights would pass it");
+        return koksma__import_unknown(
+            r->im, r->camera_place,
+            "the camera's medium is ignored, because it would absorb all light of distant lights");
     }
     return KOKSMA_OK;
 }

@@ -39,7 +39,7 @@ koksma_status koksma__pbrt_token_next(koksma__pbrt_source *s, koksma__pbrt_token
     if (*s->at == '"') {
         const char *stop = memchr(s->at + 1, '"', (size_t)(s->end - s->at - 1));
         if (!stop || memchr(s->at, '\n', (size_t)(stop - s->at))) {
-            return koksma__import_fail(s->place, "a text without its closing quotation mark");
+            return koksma__import_fail(s->place, "a text has no closing quotation mark");
         }
         *out = (koksma__pbrt_token){KOKSMA__PBRT_TEXT, s->at + 1, (size_t)(stop - s->at - 1)};
         s->at = stop + 1;
@@ -68,8 +68,7 @@ koksma_status koksma__pbrt_text(koksma__pbrt_source *s, char *out, size_t size)
     koksma__pbrt_token t;
     KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
     if (t.kind != KOKSMA__PBRT_TEXT || t.length >= size) {
-        return koksma__import_fail(s->place, "a text in quotation marks is needed here, of less than %zu letters",
-                                   size);
+        return koksma__import_fail(s->place, "expected a text in quotation marks, shorter than %zu characters", size);
     }
     memcpy(out, t.at, t.length);
     out[t.length] = 0;
@@ -94,7 +93,7 @@ static koksma_status number_of(const koksma__pbrt_source *s, const koksma__pbrt_
         *out = (double)value;
     }
     return t->kind == KOKSMA__PBRT_WORD && read ? KOKSMA_OK
-                                                : koksma__import_fail(s->place, "'%.*s': a number is needed here",
+                                                : koksma__import_fail(s->place, "'%.*s': expected a number",
                                                                       t->length < 40 ? (int)t->length : 40, t->at);
 }
 
@@ -110,7 +109,7 @@ koksma_status koksma__pbrt_numbers(koksma__pbrt_source *s, size_t n, double *out
         }
     }
     return bracket && (t.kind != KOKSMA__PBRT_BRACKET || *t.at != ']')
-               ? koksma__import_fail(s->place, "%zu numbers are needed here", n)
+               ? koksma__import_fail(s->place, "expected %zu numbers", n)
                : KOKSMA_OK;
 }
 
@@ -137,7 +136,8 @@ static koksma_status take_value(koksma__pbrt_source *s, const koksma__pbrt_token
     const bool flag = !strcmp(p->type, "bool");
     if (t->kind == KOKSMA__PBRT_TEXT || (flag && t->kind == KOKSMA__PBRT_WORD)) {
         if (t->length >= sizeof p->text) {
-            return koksma__import_fail(s->place, "%s: a text of more than %zu letters", p->name, sizeof p->text - 1);
+            return koksma__import_fail(s->place, "%s: the text is longer than %zu characters", p->name,
+                                       sizeof p->text - 1);
         }
         if (!p->n_texts++) {
             memcpy(p->text, t->at, t->length);
@@ -162,7 +162,7 @@ static koksma_status take_values(koksma__pbrt_source *s, koksma__pbrt_parameter 
             return KOKSMA_OK;
         }
         if (t.kind == KOKSMA__PBRT_END) {
-            return koksma__import_fail(s->place, "%s: a list without its closing bracket", p->name);
+            return koksma__import_fail(s->place, "%s: the list has no closing bracket", p->name);
         }
         KOKSMA__TRY(take_value(s, &t, p));
     }

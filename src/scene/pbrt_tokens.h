@@ -53,8 +53,8 @@ koksma_status koksma__pbrt_numbers(koksma__pbrt_source *source, size_t n, double
 koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *source, koksma__pbrt_parameters *out);
 void koksma__pbrt_parameters_fini(koksma__pbrt_parameters *parameters);
 
-/* Find a parameter by its name; return the parameter itself, or its number, text or flag. If it is missing,
-   return NULL or `otherwise`. */
+/* Find a parameter by its name; return the parameter itself, or its number, text or flag. If the parameter is
+   missing, return NULL or `otherwise`. */
 const koksma__pbrt_parameter *koksma__pbrt_find(const koksma__pbrt_parameters *p, const char *name);
 double koksma__pbrt_number(const koksma__pbrt_parameters *p, const char *name, double otherwise);
 const char *koksma__pbrt_word(const koksma__pbrt_parameters *p, const char *name, const char *otherwise);

@@ -164,7 +164,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
     koksma__import_colour first, second;
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     snprintf(to->name, sizeof to->name, "%s", name);
-    scene->n_textures--; /* a texture's own parameters must not find it yet */
+    /* the texture is hidden until it is complete, so that its own parameters can't refer to it */
+    scene->n_textures--;
     koksma__import_colour *c = &to->colour;
     koksma_status status = KOKSMA_OK;
     c->period = 1;
@@ -266,7 +267,7 @@ static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_par
 typedef struct material_kind {
     const char *name;
     int kind;            /* kind of the replacement; -1: light passes through */
-    const char *colour;  /* name of the parameter with its diffuse albedo */
+    const char *colour;  /* name of the parameter for the diffuse albedo */
     const char *prefix;  /* prefix of the names of a metal's parameters and roughness */
     const char *instead; /* NULL, or the replacement's name in a warning */
 } material_kind;
@@ -275,7 +276,7 @@ static const material_kind kinds[] = {
     {"diffuse", KOKSMA__MATTE, "reflectance", "", NULL},
     {"coateddiffuse", KOKSMA__COATED, "reflectance", "", NULL},
     {"conductor", KOKSMA__METAL, NULL, "", NULL},
-    {"coatedconductor", KOKSMA__METAL, NULL, "conductor.", "a metal without its coat"},
+    {"coatedconductor", KOKSMA__METAL, NULL, "conductor.", "a metal without a coat"},
     {"dielectric", KOKSMA__GLASS, NULL, "", NULL},
     {"thindielectric", -1, NULL, "", "nothing"},
     {"diffusetransmission", KOKSMA__MATTE, "reflectance", "", "matte and opaque"},
@@ -342,7 +343,7 @@ koksma_status koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text
             return KOKSMA_OK;
         }
     }
-    return koksma__import_fail(place, "no material '%s' before here", name);
+    return koksma__import_fail(place, "material '%s' is not defined before this use", name);
 }
 
 /* ---- Shapes ---------------------------------------------------------------------------------------------------- */
@@ -370,7 +371,8 @@ static koksma_status take_indices(const koksma__pbrt_parameters *p, const koksma
         const size_t at = quads ? i / 6 * 4 + corners[i % 6] : i;
         const double index = indices ? indices->numbers[at] : (double)at;
         if (!(index >= 0 && index < (double)mesh->n_vertices)) {
-            return koksma__import_fail(p->place, "indices: %g: there are %zu vertices", index, mesh->n_vertices);
+            return koksma__import_fail(p->place, "indices: there is no vertex %g; the mesh has %zu", index,
+                                       mesh->n_vertices);
         }
         mesh->indices[i] = (uint32_t)index;
     }
@@ -382,7 +384,7 @@ static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv,
     const koksma__pbrt_parameter *points = koksma__pbrt_find(p, "P"), *indices = koksma__pbrt_find(p, "indices");
     const size_t n = points ? points->n / 3 : 0, each = quads ? 4 : 3;
     if (!n || (!indices && n != each)) {
-        return koksma__import_fail(p->place, "a mesh needs 'P', and 'indices' but for one face");
+        return koksma__import_fail(p->place, "a mesh needs 'P', and 'indices' if it has more than one face");
     }
     const size_t faces = indices ? indices->n / each : 1;
     const bool normals = koksma__pbrt_find(p, "N");
@@ -485,7 +487,7 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
                    matrix);
         if (koksma__pbrt_number(p, "phimax", 360) < 360 || koksma__pbrt_number(p, "innerradius", 0) > 0 ||
             (!cylinder && !disk && (koksma__pbrt_find(p, "zmin") || koksma__pbrt_find(p, "zmax")))) {
-            status = koksma__import_unknown(im, p->place, "a part of a %s is replaced by the whole", type);
+            status = koksma__import_unknown(im, p->place, "a partial %s is replaced by a whole one", type);
         }
         return status;
     }
@@ -496,7 +498,7 @@ koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, co
     } else if (!strcmp(type, "loopsubdiv")) {
         status = triangles(scene, p, false, true, &item->mesh);
     } else {
-        status = koksma__import_unknown(im, p->place, "shape '%s': it is left out", type);
+        status = koksma__import_unknown(im, p->place, "shape '%s' is left out", type);
     }
     *is_there = item->mesh >= 0;
     return status;

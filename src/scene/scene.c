@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Opens and closes scenes. A scene is opened by the name of one that ships with the library, where it is embedded
- * as a text, from a JSON file, from another renderer's file, or from a mesh file.
+ * Opens and closes scenes. A scene is opened by the name of a scene that is embedded in the library, from a JSON
+ * file, from another renderer's file, or from a mesh file.
  */
 #include "scene/scene.h"
 
@@ -83,7 +83,8 @@ static koksma_status open_import(const char *path, koksma__named by, koksma_scen
     if (refuses_unknown && (*out)->n_unknown) {
         char text[512];
         koksma_scene_unknown(*out, 0, text, sizeof text);
-        return close_failed(koksma__fail(KOKSMA_MALFORMED, "%s, and such parts of a scene are refused", text), out);
+        return close_failed(
+            koksma__fail(KOKSMA_MALFORMED, "%s; the options refuse scenes with unsupported parts", text), out);
     }
     return KOKSMA_OK;
 }
@@ -99,7 +100,7 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
 {
     KOKSMA__REQUIRE(name_or_path, out);
     *out = NULL;
-    KOKSMA__FAIL_IF(!name_or_path, KOKSMA_ARGUMENT, "there is no name of a scene");
+    KOKSMA__FAIL_IF(!name_or_path, KOKSMA_ARGUMENT, "the name of the scene is missing");
     for (size_t i = 0; i < N_SHIPPED; i++) {
         if (!strcmp(embedded_texts[i].name, name_or_path)) {
             return koksma__scene_open_text(name_or_path, embedded_texts[i].text, embedded_texts[i].size, out);

@@ -73,7 +73,7 @@ typedef struct reading {
     XML_Parser parser;
     const char *file;
     koksma_status status;
-    /* the node to which children at each depth belong; -1: none, at the root of the scene's own file */
+    /* for each depth, the node to which children are added; -1: no node, at the root of the scene's own file */
     int open[MOST_DEPTH + 1];
     int depth, included;
 } reading;
@@ -114,7 +114,7 @@ static char *replaced(reading *r, const char *value)
             length = from ? strlen(from) : 0;
         }
         if (!from || used + length > MOST_VALUE) {
-            stop(r, from ? koksma__import_fail(here(r), "a value of more than %d letters", MOST_VALUE)
+            stop(r, from ? koksma__import_fail(here(r), "a value is longer than %d characters", MOST_VALUE)
                          : koksma__import_fail(here(r), "no default for '%.*s'", (int)taken, value));
             free(out);
             return NULL;
@@ -223,7 +223,7 @@ static void start_element(void *data, const char *tag, const char **attributes)
         return;
     }
     if (r->depth == MOST_DEPTH) {
-        stop(r, koksma__import_fail(here(r), "elements within each other more than %d deep", MOST_DEPTH));
+        stop(r, koksma__import_fail(here(r), "elements are nested more than %d deep", MOST_DEPTH));
         return;
     }
     const int parent = r->open[r->depth];

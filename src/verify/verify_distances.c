@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The properties distinct, distance-square and distance-torus, and the public koksma_smallest_distance. In the plane
- * divide and conquer finds the closest pair (core/closest_pair.c) in O(n log n). In other dimensions d a sweep over
+ * The properties distinct, distance-square and distance-torus, and the public koksma_smallest_distance. In the plane,
+ * divide and conquer finds the closest pair in O(n log n) (core/closest_pair.c). In other dimensions d a sweep over
  * the points sorted by their first coordinate compares only pairs whose first coordinates differ by less than the
  * smallest distance found so far: O(n^2 d) at worst, about n^(2 - 1/d) for evenly distributed points. Findings also
- * give the distance as a fraction of that of the densest packing (patterns/shared/packing.h), which is exact for 30
+ * give the distance divided by the distance of the densest packing (patterns/shared/packing.h), which is exact for 30
  * points or fewer in the square, else an upper bound.
  */
 #include <math.h>

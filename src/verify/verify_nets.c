@@ -12,7 +12,7 @@
 
 enum { MAX_NET_DIM = 8 };
 
-#define WORK 4e8 /* most point visits to compute one t */
+#define WORK 4e8 /* maximum number of point visits to compute one t */
 
 typedef struct search {
     const koksma__net *net;

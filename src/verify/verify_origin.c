@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * origin-unique and origin-present: how many points are at the origin. A digital sequence has one there, its first
- * point; a generator that skips it destroys the net property of the sequence's prefixes. origin-present fails where
+ * origin-unique and origin-present: how many points are at the origin. The first point of a digital sequence is the
+ * origin; a generator that skips it destroys the net property of the sequence's prefixes. origin-present fails where
  * the points look like points 1 to n of such a sequence: each coordinate takes different multiples of 2^-m, 2^m > n,
  * of which none is 0 and not all are odd multiples. O(n dim).
  */

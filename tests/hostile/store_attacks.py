@@ -200,13 +200,13 @@ def found(name, folder, in_words=""):
 def rows():
     first = "(SELECT min(id) FROM result)"
     edits = {
-        "value": (f"UPDATE result SET v0 = v0 * (1 + 2.3e-16) WHERE id = {first}", "is stored, and"),
+        "value": (f"UPDATE result SET v0 = v0 * (1 + 2.3e-16) WHERE id = {first}", "the stored value is"),
         "seed": (f"UPDATE result SET seed = seed + 1 WHERE id = {first}", "seed"),
-        "a row of another": ("UPDATE result SET v0 = (SELECT v0 FROM result ORDER BY id LIMIT 1 OFFSET 1)", "is stored, and"),
+        "a row of another": ("UPDATE result SET v0 = (SELECT v0 FROM result ORDER BY id LIMIT 1 OFFSET 1)", "the stored value is"),
         "added": ("INSERT INTO result SELECT id + (100 << 32), seed, v0, v1, v2, v3 FROM result LIMIT 1", "seed"),
         "pattern": ("UPDATE series SET pattern = 'jittered', made_by = 'jittered 0' WHERE pattern = 'random' AND kind = 'discrepancy'", "seed"),
-        "measure": ("UPDATE series SET what = 'extreme', measured_by = 'extreme 0' WHERE what = 'star'", "is stored, and"),
-        "no pattern": ("UPDATE series SET pattern = 'none' WHERE pattern = 'random'", "can't be made again"),
+        "measure": ("UPDATE series SET what = 'extreme', measured_by = 'extreme 0' WHERE what = 'star'", "the stored value is"),
+        "no pattern": ("UPDATE series SET pattern = 'none' WHERE pattern = 'random'", "can't be computed again"),
         "n": ("UPDATE series SET n = 16 WHERE n = 9", "seed"),
         "scene": ("UPDATE series SET scene_hash = '00' WHERE kind = 'image'", "has changed since"),
         "size": ("UPDATE series SET width = 9 WHERE kind <> 'discrepancy'", "seed"),
@@ -243,7 +243,7 @@ def references():
     name = "references/" + os.listdir("sound/references")[0]
     copy("x")
     koksma("render", "checker", "--size", "8x6", "-n", "1", "-q", "-o", "other.exr")
-    for content, words in ((open("other.exr", "rb").read(), "other pixels"), (b"no image", "")):
+    for content, words in ((open("other.exr", "rb").read(), "the pixels of the file"), (b"no image", "")):
         with open("x/" + name, "wb") as file:
             file.write(content)
         before = bytes_of("x")
@@ -271,12 +271,12 @@ def programs():
         quoted = spec.replace("'", "''")
         change("p", f"UPDATE series SET pattern = '{quoted}', made_by = 'file 0' WHERE pattern = 'random' AND kind = 'discrepancy'",
                f"UPDATE series SET what = '{quoted}' WHERE what = 'star'", sealed=True)
-        found(spec, "p", "can't be made again")
+        found(spec, "p", "can't be computed again")
         for verb in "export", "report":
             check(study(verb, "p").returncode in (0, 3), f"{spec}: {verb}")
     copy("p")
     change("p", "UPDATE series SET scene = '/dev/zero' WHERE scene = 'checker'", sealed=True)
-    found("a device for a scene", "p", "can't be made again")
+    found("a device for a scene", "p", "can't be computed again")
     check(not os.path.exists("started"), "a stored spec has started a program")
 
 

@@ -306,9 +306,9 @@ static void what_is_not_read_is_said(void **state)
     unlink("texture.pfm");
     expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0, \"metallicRoughnessTexture\": {\"index\": 0}}", NULL,
            NULL, 1, 1, 1,
-           "material 0 is without its texture of metal and roughness: texture.pfm: there is no such file");
+           "material 0 loses its texture of metal and roughness: texture.pfm: there is no such file");
     expect(TEXTURED("[1, 1, 1, 1]", "") ", \"normalTexture\": {\"index\": 0}", NULL, NULL, 1, 1, 1,
-           "material 0 is without its texture of normals: texture.pfm: there is no such file");
+           "material 0 loses its texture of normals: texture.pfm: there is no such file");
 }
 
 /* What is seen of the square lit by these nodes, times pi: the irradiance, or of a glowing one the radiance. */
@@ -370,7 +370,7 @@ static void every_node_with_a_light_has_one(void **state)
     koksma_scene *scene;
     write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("1", "3"), .roots = "0, 1, 2", .material = plain});
     assert_int_equal(koksma_scene_open("lit.gltf", &scene), KOKSMA_MALFORMED);
-    assert_non_null(strstr(koksma_error_text(), "light is 1 of 1"));
+    assert_non_null(strstr(koksma_error_text(), "light 1 of 1 lights does not exist"));
     unlink("lit.gltf");
     unlink("my square.bin");
 }
@@ -388,7 +388,7 @@ static void bright_lights_are_exposed(void **state)
                                      .lights = "{\"type\": \"point\", \"intensity\": 90000}"});
     look("lit.gltf", rgb, warnings, sizeof warnings);
     assert_near(rgb[0], seen(1, 1), 1e-4);
-    assert_string_equal(warnings, "lights that nodes have are dimmed together, by 3183\n");
+    assert_string_equal(warnings, "the lights at nodes are too bright: all are divided by 3183\n");
     unlink("lit.gltf");
     unlink("my square.bin");
 }

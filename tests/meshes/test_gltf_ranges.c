@@ -205,11 +205,11 @@ static void numbers_out_of_range_are_refused(void **state)
         {"\"count\": 6", "\"count\": 7", "accessors[2]: 7 elements of 1 bytes lie beyond a view of 6 bytes"},
         {"\"byteOffset\": 12", "\"byteOffset\": 16",
          "accessors[4]: 6 elements of 4 bytes lie beyond a view of 36 bytes"},
-        {"\"count\": 4", "\"count\": 3", "TEXCOORD_0: accessor 1 has 4 elements, and accessor 0 3 positions"},
+        {"\"count\": 4", "\"count\": 3", "TEXCOORD_0: accessor 1 has 4 elements, but accessor 0 has 3 positions"},
         {"\"byteOffset\": 88", "\"byteOffset\": 89",
          "bufferViews[3]: 36 bytes from 89 on lie beyond a buffer of 124"},
         {"{\"buffer\": 0", "{\"buffer\": 1", "bufferViews[0]: buffer: there is no buffer 1; the file has 1"},
-        {"\"byteLength\": 124", "\"byteLength\": 128", "buffers[0]: byteLength is 128, and there are 124 bytes"},
+        {"\"byteLength\": 124", "\"byteLength\": 128", "buffers[0]: byteLength is 128, but there are only 124 bytes"},
     };
     unsigned char bytes[BYTES];
     fill(bytes);
@@ -231,7 +231,7 @@ static void buffers_cut_short_are_refused(void **state)
     for (int how = 0; how < N_CONTAINERS; how++) {
         for (size_t size = 0; size < BYTES; size += 31) {
             char reason[64];
-            snprintf(reason, sizeof reason, "buffers[0]: byteLength is 124, and there are %zu bytes", size);
+            snprintf(reason, sizeof reason, "buffers[0]: byteLength is 124, but there are only %zu bytes", size);
             put_model((container)how, bytes, size, "", "");
             expect_refusal((container)how, "cut short", reason);
         }
@@ -239,7 +239,7 @@ static void buffers_cut_short_are_refused(void **state)
     put_model(WITHIN, bytes, BYTES, "base64,", "base64,*");
     expect_refusal(WITHIN, "no base64", "buffers[0]: uri: character 0 of the data is not base64");
     put_model(WITHIN, bytes, BYTES, ";base64,", ",");
-    expect_refusal(WITHIN, "no base64", "buffers[0]: uri: data that is not base64 is not read");
+    expect_refusal(WITHIN, "no base64", "buffers[0]: uri: only data in base64 can be read");
 }
 
 int main(void)

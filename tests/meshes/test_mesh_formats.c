@@ -259,7 +259,8 @@ static void many_faces_of_binary_ply(void **state)
         assert_non_null(strstr(koksma_error_text(), "the file ends within element 'face' number 8999 of 9000"));
         write_bytes("many.ply", file, write_many(form & 1, "int", 18000, file, corners, &n_corners));
         assert_int_equal(koksma__mesh_read("many.ply", KOKSMA__BY_FILE, &mesh), KOKSMA_MALFORMED);
-        assert_non_null(strstr(koksma_error_text(), "face 6000 names vertex 1300; there are 1300, from 0 on"));
+        assert_non_null(
+            strstr(koksma_error_text(), "face 6000 names vertex 1300, but there are 1300, numbered from 0"));
     }
     unlink("many.ply");
 }
@@ -528,7 +529,8 @@ static void meshes_of_a_file_are_limited_together(void **state)
     assert_ok(koksma__file_take_mesh(&file, &mesh, 0));
     assert_ok(koksma__mesh_init(1, 1, false, false, &mesh));
     assert_int_equal(koksma__file_take_mesh(&file, &mesh, 0), KOKSMA_MALFORMED);
-    assert_non_null(strstr(koksma_error_text(), "large.gltf: over 67108864 vertices or triangles in all its meshes"));
+    assert_non_null(strstr(koksma_error_text(),
+                           "large.gltf: all its meshes together have more than 67108864 vertices or triangles"));
     koksma__mesh_file_fini(&file);
 }
 

@@ -58,7 +58,7 @@ class Renderers(unittest.TestCase):
             koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)))
         with self.assertRaisesRegex(ValueError, "reference takes renderer"):
             koksma.rank("ball", ["random"], 4, reference="random")
-        with self.assertRaisesRegex(ValueError, "asked for were 8 x 8"):
+        with self.assertRaisesRegex(ValueError, "instead of 8 x 8"):
             koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)), size=(8, 8))
 
 

@@ -381,7 +381,7 @@ static void texts_that_are_wrong_say_so(void **state)
         koksma_status status;
         const char *said;
     } cases[] = {
-        {"pixel+tme=random", KOKSMA_UNKNOWN, "pixel+tme=random: no such use; a sample is spent on pixel, lens"},
+        {"pixel+tme=random", KOKSMA_UNKNOWN, "pixel+tme=random: no such use; the uses are pixel, lens"},
         {"pixel+=random", KOKSMA_UNKNOWN, "no such use"},
         {"+pixel=random", KOKSMA_UNKNOWN, "no such use"},
         {"pixel+time=rendom", KOKSMA_UNKNOWN, "no pattern 'rendom'"},
@@ -389,14 +389,14 @@ static void texts_that_are_wrong_say_so(void **state)
         {"", KOKSMA_ARGUMENT, "not of the form"},
         {"random;", KOKSMA_UNKNOWN, "no pattern 'random;'"},
         {"random;jittered", KOKSMA_UNKNOWN, "no pattern 'random;jittered'"},
-        {"pixel+time+pixel=random", KOKSMA_ARGUMENT, "use pixel is there twice; a group takes each once"},
-        {"pixel+time=random;time+lens=random", KOKSMA_ARGUMENT, "use time has a pattern already"},
-        {"pixel=random;pixel+lens=random", KOKSMA_ARGUMENT, "use pixel has a pattern already"},
-        {"pixel+lens=random;lens=random", KOKSMA_ARGUMENT, "use lens has a pattern already"},
-        {"pixel=random;pixel=jittered", KOKSMA_ARGUMENT, "it takes one, alone or in one group"},
+        {"pixel+time+pixel=random", KOKSMA_ARGUMENT, "use pixel occurs twice; a group takes each use once"},
+        {"pixel+time=random;time+lens=random", KOKSMA_ARGUMENT, "use time already has a pattern"},
+        {"pixel=random;pixel+lens=random", KOKSMA_ARGUMENT, "use pixel already has a pattern"},
+        {"pixel+lens=random;lens=random", KOKSMA_ARGUMENT, "use lens already has a pattern"},
+        {"pixel=random;pixel=jittered", KOKSMA_ARGUMENT, "a use takes one, alone or in one group"},
         {"pixel+lens=scan-time", KOKSMA_DIM,
-         "these uses have 4 dimensions together (pixel 2, lens 2), the pattern has 3"},
-        {"pixel+time=pmj02", KOKSMA_DIM, "have 3 dimensions together (pixel 2, time 1), the pattern has 2"},
+         "these uses have 4 dimensions together (pixel 2, lens 2), but the pattern has 3"},
+        {"pixel+time=pmj02", KOKSMA_DIM, "have 3 dimensions together (pixel 2, time 1), but the pattern has 2"},
         {"pixel=scan-time", KOKSMA_DIM, "such as pixel+time=PATTERN"},
     };
     koksma_render_options options = options_for("jittered", N);
@@ -431,21 +431,21 @@ static void groups_that_cannot_be_are_refused(void **state)
     REFUSED(KOKSMA_ARGUMENT, bad.pairing = KOKSMA_PAIRING_NATIVE, "'pixel+time' has another");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 1, "a group of 1 uses");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 99, "a group of 99 uses");
-    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = KOKSMA_N_USES, "use number 9 of a group");
-    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = -1, "use number -1 of a group");
+    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = KOKSMA_N_USES, "use number 9 in a group");
+    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = -1, "use number -1 in a group");
     REFUSED(KOKSMA_DIM, bad.groups[0].uses[1] = 1, "4 dimensions");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[3] = bad.groups[0], "use pixel has two patterns");
     REFUSED(KOKSMA_ARGUMENT, bad.patterns[2] = bad.pattern, "use time has two patterns");
     REFUSED(KOKSMA_ARGUMENT, memset(&bad.groups[0].pattern, 0, sizeof bad.pattern), "'pixel+time' is not the spec");
     REFUSED(KOKSMA_N, bad.spp = 17, "scan-time");
     REFUSED(KOKSMA_DIM, (bad.pattern = bad.groups[0].pattern, memset(bad.groups, 0, sizeof bad.groups)),
-            "takes a group of uses");
+            "give it to a group of uses");
     REFUSED(KOKSMA_ARGUMENT, (bad.pairing = KOKSMA_PAIRING_NATIVE, bad.scope = KOKSMA_SCOPE_IMAGE), "native pairing");
     for (int k = 0; k < 2; k++) {
         assert_ok(koksma_adaptive_parse(k ? "selective" : "hierarchical", &adaptive));
         adaptive.budget = 64;
         assert_int_equal(koksma_render_adaptive(scene, &good, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
-        assert_non_null(strstr(koksma_error_text(), "without a pattern for pixel+time"));
+        assert_non_null(strstr(koksma_error_text(), "takes no pattern for pixel+time"));
     }
     assert_ok(koksma_adaptive_parse("two-stage", &adaptive));
     adaptive.budget = 128;

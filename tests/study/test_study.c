@@ -66,7 +66,7 @@ static void wrong_plans(void **state)
 {
     (void)state;
     wrong_plan("{\"name\": \"a\", \"title\": \"b\"}",
-               "plan 'p': line 1: the plan has neither 'discrepancies' nor 'images': nothing to do");
+               "plan 'p': line 1: the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
     wrong_plan("{\n\"name\": \"a\",\n\"nome\": 1}", "plan 'p': line 3: nome: unknown field; did you mean 'name'?");
     wrong_plan(
         "{\"name\": \"a\",\n \"title\": \"b\",\n \"discrepancies\": [\n {\"patterns\": [\"random\",\n \"rendom\"]}]}",

@@ -163,8 +163,9 @@ static void gaussian(filter *f, int radius, double step, double s, int derivativ
     }
 }
 
-/* out = in filtered along x by f and along y by g. It takes a line or a column at a time, tap by tap, so that the
-   inner loops run over adjacent numbers. scratch: the size of the image, and a line with the radius at both ends. */
+/* out = in filtered along x by f and along y by g. The outer loops run over lines and over the filter's weights, the
+   inner ones over adjacent numbers. scratch: as many numbers as the image has, and one line extended by the radius at
+   both ends. */
 static void filter_image(const filter *f, const filter *g, const double *in, int width, int height, double *scratch,
                          double *out)
 {
@@ -198,13 +199,14 @@ static void filter_image(const filter *f, const filter *g, const double *in, int
 typedef struct flip {
     colours colours;
     filter sensitivity[4]; /* filters of Yy, Cx, and the two Gaussians of Cz */
-    double share;          /* share of Cz's first Gaussian in the sum of its weights in two dimensions */
+    double share;          /* share of the first Gaussian in the sum of all weights of Cz's filter in two
+                              dimensions */
     filter smooth, edge, point;
     int width, height;
     size_t n;
-    double largest;                            /* HyAB of green and blue, to the power 0.7 */
+    double largest;                            /* the distance HyAB of green and blue, to the power 0.7 */
     double *planes, *scratch, *filtered, *sum; /* planes: 3 n; the others n */
-    double *lab[2], *edges[2], *points[2];     /* of image and reference: 3 n, n and n numbers */
+    double *lab[2], *edges[2], *points[2];     /* for the image and for the reference: 3 n, n and n numbers */
     double *memory;
 } flip;
 
@@ -282,7 +284,7 @@ static void analyse(flip *f, const double *rgb, int which)
         cx[p] = c[1];
         cz[p] = c[2];
     }
-    for (int i = 0; i < 4; i++) { /* until the next loop lab holds the filtered Yy, Cx and Cz */
+    for (int i = 0; i < 4; i++) { /* until the next loop `lab` holds the filtered Yy, Cx and Cz */
         const double *const in = f->planes + (size_t)(i < 3 ? i : 2) * f->n;
         const filter *s = &f->sensitivity[i];
         filter_image(s, s, in, f->width, f->height, f->scratch, f->filtered);
@@ -302,7 +304,7 @@ static void analyse(flip *f, const double *rgb, int which)
     find_features(f, &f->point, y, f->points[which]);
 }
 
-/* The error of pixel p between the two images analysed. */
+/* The error of pixel p between the image and the reference. */
 static double pixel_error(const flip *f, size_t p)
 {
     const double distance = hyab(f->lab[0] + 3 * p, f->lab[1] + 3 * p), knee = 0.4 * f->largest;
@@ -362,7 +364,7 @@ static double map_tone(const curve *t, double x)
     return ((t->a * x + t->b) * x + t->c) / ((t->d * x + t->e) * x + t->g);
 }
 
-/* The light that the tone curve maps to y. */
+/* The linear value that the tone curve maps to y. */
 static double invert_tone(const curve *t, double y)
 {
     const double a = t->a - y * t->d, b = t->b - y * t->e, c = t->c - y * t->g;
@@ -436,13 +438,13 @@ static const koksma_param params[] = {
 
 static const koksma_param hdr_params[] = {
     {"ppd", "pixels per degree of the viewer's field of view", PPD, 1, 1000, NULL, false},
-    {"tone-mapper", "the curve from light to a monitor", ACES, 0, 2, tone_mappers, true},
+    {"tone-mapper", "the tone-mapping curve from linear light to the monitor", ACES, 0, 2, tone_mappers, true},
     {0},
 };
 
 const koksma_metric koksma__metric_ldr_flip = {
     .name = "ldr-flip",
-    .title = "LDR-FLIP, the difference that is seen, 0 to 1, of RGB clamped to 0..1",
+    .title = "LDR-FLIP: the visible difference of RGB images clamped to 0..1; from 0 to 1",
     .cite = "andersson2020",
     .params = params,
     .channels = 3,
@@ -451,7 +453,7 @@ const koksma_metric koksma__metric_ldr_flip = {
 
 const koksma_metric koksma__metric_hdr_flip = {
     .name = "hdr-flip",
-    .title = "HDR-FLIP, the largest LDR-FLIP over a range of exposures, 0 to 1",
+    .title = "HDR-FLIP: the largest LDR-FLIP over a range of exposures; from 0 to 1",
     .cite = "andersson2021",
     .params = hdr_params,
     .channels = 3,

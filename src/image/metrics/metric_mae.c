@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* mae: the mean absolute error in luminance, sum |Y - Y_ref| / n (Shirley 1991, section 5.5.6). Each error counts in
-   proportion to its size, so that bright parts of an image, whose errors are usually larger, count more than dark
-   parts. */
+/* mae: the mean absolute error in luminance, sum |Y - Y_ref| / n (Shirley 1991, section 5.5.6). Bright parts of an
+   image usually have larger errors, and so contribute more than dark parts. */
 #include <math.h>
 
 #include "image/metrics/metrics.h"

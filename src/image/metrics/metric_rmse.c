@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* rmse: the root mean square error in luminance, sqrt(sum (Y - Y_ref)^2 / n). A pixel counts by the square of its
-   error, so that a few fireflies can make most of the value. */
+/* rmse: the root mean square error in luminance, sqrt(sum (Y - Y_ref)^2 / n). Errors are squared, so that a few
+   fireflies can contribute most of the value. */
 #include "image/metrics/metrics.h"
 
 static koksma_status errors(const koksma_metric_input *in, double *out)

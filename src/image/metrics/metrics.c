@@ -9,7 +9,7 @@
  *     robust     the value without these pixels: a mean trimmed at one side
  *
  * Where top_share is large, the value says more about a few pixels (fireflies) than about the image, and ranking
- * images by it is unreliable. The largest errors are found by quickselect (Hoare 1961) in O(n).
+ * images by it is unreliable. Quickselect (Hoare 1961) finds the largest errors in O(n).
  */
 #include <math.h>
 #include <stdio.h>
@@ -81,7 +81,8 @@ void koksma__metric_values(const koksma_metric *metric, const koksma_image *imag
 double koksma__metric_mean(const koksma_metric *metric, const double *errors, size_t n)
 {
     koksma__sum sum = {0};
-    for (size_t first = 0; first < n; first += BLOCK) { /* adds eight partial sums side by side in each block */
+    for (size_t first = 0; first < n; first += BLOCK) { /* in each block, eight partial sums are added side by side
+                                                           (SIMD) */
         const size_t end = n - first < BLOCK ? n : first + BLOCK;
         double part[8] = {0};
         for (size_t p = first; p < end; p++) {
@@ -103,7 +104,7 @@ static void select_largest(double *x, size_t n, size_t k)
     while (end - first > 1) {
         const double pivot = x[first + (end - first) / 2];
         size_t less = first, same = first, more = end;
-        /* partition into less, equal and more, because many errors are equal, such as zeros */
+        /* partition into smaller, equal and larger numbers, because many errors are equal, for example 0 */
         while (same < more) {
             const double v = x[same];
             if (v < pivot) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Metrics for callers with pixels in doubles, and with many references for one image (the jackknife of `rank`). */
+/* Metrics for callers that have pixels as doubles, and that compare one image with many references (the jackknife of
+   `koksma rank`). */
 #ifndef KOKSMA_IMAGE_METRICS_METRICS_H
 #define KOKSMA_IMAGE_METRICS_METRICS_H
 
@@ -16,10 +17,10 @@ koksma_status koksma__metric_spec_check(const koksma_metric_spec *spec);
 /* The pixels as the metric needs them: metric->channels doubles for each pixel. */
 void koksma__metric_values(const koksma_metric *metric, const koksma_image *image, double *out);
 
-/* The metric's value from the errors of n pixels, whose order it changes. */
+/* Computes the metric's value from the errors of n pixels, and changes the order of the errors. */
 koksma_metric_value koksma__metric_pool(const koksma_metric *metric, double *errors, size_t n);
 
-/* Only the value that koksma__metric_pool computes, with the sum in the order of the pixels. */
+/* Computes the same value as koksma__metric_pool and nothing else; adds the errors in the order of the pixels. */
 double koksma__metric_mean(const koksma_metric *metric, const double *errors, size_t n);
 
 #define METRIC(name) extern const koksma_metric koksma__metric_##name;

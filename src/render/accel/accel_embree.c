@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The module koksma-embree.so: it intersects triangle meshes by Embree 3 or 4 (Wald et al. 2014) and analytic shapes
- * by their own loops, and combines the closest hits and the shadows of both. Rays are traced in packets of 16 if the
- * machine supports them, otherwise of 8; a hit's position and normal are computed from its triangle, not from the
- * ray, so that they are as exact as the vertices.
+ * The module koksma-embree.so intersects rays with triangle meshes by Embree 3 or 4 (Wald et al. 2014) and with
+ * analytic shapes by the loops of src/render/shapes, and combines the closest hits and the shadows of both. Rays are
+ * traced in packets of 16 if the machine supports them, otherwise of 8; a hit's position and normal are computed from
+ * its triangle, not from the ray, so that they are as exact as the vertices.
  *
  * Triangles that are transparent to some rays (glTF's alpha) are skipped by a filter function, which Embree calls at
- * each hit. Long because one file includes Embree.
+ * each hit. The file is long because only one file may include Embree's header.
  *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
  * threads, but not between versions of Embree or the instruction sets that Embree selects. The floating-point mode is
@@ -31,7 +31,7 @@
 #define HOST ((const koksma__mesh_host *)koksma__own_host->functions)
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
-#define SHADOW_END (1 - 0x1p-16f) /* equal to KOKSMA__SHADOW_END of the analytic shapes */
+#define SHADOW_END (1 - 0x1p-16f) /* the same value as KOKSMA__SHADOW_END, which the analytic shapes use */
 
 /* ---- Triangles of placed meshes ----------------------------------------------------------------------------- */
 
@@ -43,10 +43,11 @@ typedef struct part {
     bool is_instance, smooth, moves;
     float matrix[12], normal_matrix[9], motion[3];
     int steps;         /* number of steps of time between keys, or 0 */
-    float (*keys)[12]; /* matrices at the times i / steps, linear between them; the part is an instance */
+    float (*keys)[12]; /* the matrices of an instance at the times i / steps; they are linear between these times */
     int32_t material, light;
-    int32_t first;                       /* index of its first triangle among all primitives */
-    const koksma__material *see_through; /* its material, if some rays may pass through its triangles; else NULL */
+    int32_t first; /* index of its first triangle among all primitives */
+    /* its material, if some rays may pass through its triangles; otherwise NULL */
+    const koksma__material *see_through;
 } part;
 
 static void place(const float matrix[12], const float v[3], float out[3])
@@ -57,7 +58,7 @@ static void place(const float matrix[12], const float v[3], float out[3])
     }
 }
 
-/* The part's matrix at this time: its own, or one that is computed in `room`. */
+/* The matrix of a part at this time: the stored one, or one that is computed in `room`. */
 static const float *matrix_at(const part *p, float time, float room[12])
 {
     if (!p->steps) {
@@ -123,7 +124,7 @@ static void set_lane(const part *p, uint32_t triangle, float time, int i, koksma
     l->material[i] = p->material;
 }
 
-/* The part's matrix for normals at this time. */
+/* The matrix that transforms the part's normals at this time. */
 static const float *normals_at(const part *p, float time, float out[9])
 {
     float room[12];
@@ -142,10 +143,10 @@ static const float *normals_at(const part *p, float time, float out[9])
     return out;
 }
 
-/* Interpolates the vertices' normals, on the same side as the triangle's normal. Returns false if there is no such
-   normal, or if it points away from the eye although the triangle faces the eye. A ray that a mirror or glass
-   reflects or refracts by this normal may run into the triangle's own mesh, and its light is lost: of a white
-   octahedron .014 in mirror, .021 in glass (docs/scenes.md). */
+/* Interpolates the normals of the vertices; the result is on the same side as the triangle's normal. Returns false if
+   the vertices have no normals, or if the result points away from the eye although the triangle faces the eye. A ray
+   that a mirror or glass reflects or refracts by an interpolated normal may hit the triangle's own mesh, so that its
+   light is lost: a white octahedron loses .014 of the light as a mirror and .021 as glass (docs/scenes.md). */
 static bool smooth_normal(const part *p, const uint32_t *index, float time, const float w[3],
                           const float geometric[3], const float d[3], float out[3])
 {
@@ -193,7 +194,7 @@ static void refine(const part *p, const koksma__landings *l, const koksma__rays 
 
 typedef struct embree {
     RTCDevice device;
-    RTCScene scene, *shared; /* shared[m]: the tree of mesh m, if it has instances */
+    RTCScene scene, *shared; /* shared[m] is the tree of mesh m, if the mesh has instances */
     koksma__geometry shapes;
     const koksma__batch_table *batch;
     size_t n_parts, n_meshes;
@@ -280,9 +281,9 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
 #define OCCLUDED(width, valid, e, packet) PASTE(rtcOccluded, width)(valid, (e)->scene, packet, &occluded_how)
 #endif
 
-/* Defines intersect_8, intersect_16, shade_8 and shade_16, for either width of packets. intersect_N traces rays start
-   .. start + N - 1 of the block: `on` gets the parts (as primitives) and triangles of hits that are closer than those
-   in `hits`, and their number is returned. shade_N sets the light of the shadow rays that are blocked to 0. */
+/* Defines intersect_8, shade_8, intersect_16 and shade_16, for packets of 8 and of 16 rays. intersect_N traces rays
+   start .. start + N - 1 of the block: `on` gets the parts (as primitives) and triangles of hits that are closer than
+   those in `hits`, and their number is returned. shade_N sets the light of the shadow rays that are blocked to 0. */
 #define PACKETS(WIDTH)                                                                                               \
     static int intersect_##WIDTH(const embree *e, const starts *s, const koksma__rays *rays, int start,              \
                                  bool coherent, const koksma__hits *hits, koksma__landings *on)                      \
@@ -426,8 +427,8 @@ static int object_of(const koksma__geometry *geometry, int32_t primitive)
 
 /* ---- Texture coordinates of triangles ------------------------------------------------------------------------ */
 
-/* The barycentric coordinates of a position in triangle t, from the areas of the parts into which it divides the
-   triangle. */
+/* The barycentric coordinates of a position in triangle t, computed from the areas of the three parts into which the
+   position divides the triangle. */
 static void weights_at(const koksma__landings *l, const float edges[2][3], const float p[3], float w[3])
 {
     float d[3];

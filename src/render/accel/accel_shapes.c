@@ -51,8 +51,8 @@ static void release(koksma__geometry *geometry)
     *geometry = (koksma__geometry){0};
 }
 
-/* How far the shape or rectangle reaches below the plane of `flat`, seen from the side that `sign` selects; positive
-   if it does reach below. */
+/* How far the shape or rectangle reaches below the plane of `flat`, where `sign` says which side is above; negative
+   if it lies above the plane. */
 static double depth(const koksma__shape *flat, double sign, const double centre[3], const double reach_u[3],
                     const double reach_v[3], double radius)
 {

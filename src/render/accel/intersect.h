@@ -20,7 +20,8 @@ typedef struct koksma__triangle {
 
 typedef struct koksma__geometry {
     void *made;
-    /* the analytic shapes, and those of them that can block shadow rays, if the scene has no meshes; else NULL */
+    /* if the scene has no meshes: the analytic shapes, and those among them that can block shadow rays; otherwise
+       NULL */
     const koksma__batch_shapes *shapes, *occluders;
     /* Finds the closest hits of n rays and returns the number of lanes with a hit. from: the primitive on which each
        ray starts (-1: none), or NULL if no ray starts on a primitive. */

@@ -11,7 +11,7 @@ static double value(double x)
 
 const koksma_filter koksma__filter_box = {
     .name = "box",
-    .title = "the mean over the pixel",
+    .title = "the mean over the area of the pixel",
     .cite = "shirley1991",
     .radius = 0.5,
     .value = value,

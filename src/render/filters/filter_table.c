@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of filters, and how positions are sampled from one filter f. |f| is tabulated in 1024 cells of equal
- * width as cumulative sums, which are inverted by binary search. All positions in a cell have one weight, the mean of
- * f over the cell divided by that of |f|, so that the samples integrate f exactly cell by cell.
+ * The table of filters, and the sampling of positions from a filter f: |f| is tabulated in 1024 cells of equal width
+ * as cumulative sums, which are inverted by binary search. All positions in a cell have the same weight, the mean of
+ * f over the cell divided by the mean of |f|, so that the expected weight in each cell is exactly the integral of f.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -27,10 +27,11 @@ struct koksma__filter_table {
     double scale;               /* 1 / integral of f */
     double cdf[CELLS + 1];      /* cumulative distribution of |f| at the left edge of each cell */
     double positive[CELLS + 1]; /* cumulative distribution of max(f, 0) */
-    float weights[CELLS];       /* weight of a position that is drawn from |f| and lies in the cell */
+    float weights[CELLS];       /* the weight of a position in the cell when positions are drawn from |f| */
 };
 
-/* Divides the sums over the cells before each cell by the sum over all cells. */
+/* Makes the sums over the cells before each cell a cumulative distribution: divides them by the sum over all
+   cells. */
 static void normalise(double *cdf, double sum)
 {
     for (int i = 0; i < CELLS; i++) {

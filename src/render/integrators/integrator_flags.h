@@ -13,12 +13,13 @@ typedef struct koksma__integrator_flags {
     unsigned followed; /* lobes from which paths continue; the other lobes reflect only sampled lights */
     bool areas;        /* true: positions on lights are sampled; false: lights count as points at their centres */
     bool shadows;
-    bool ambient;                /* the scene's ambient light replaces light between diffuse surfaces */
+    /* the scene's ambient light replaces light that diffuse surfaces reflect onto each other */
+    bool ambient;
     bool branches;               /* glass sends both a reflected and a refracted ray */
     bool media;                  /* rays are absorbed and scattered by the scene's medium */
     bool roulette;               /* paths of low weight end by Russian roulette */
-    koksma__light_weight weight; /* the weight of light that both light sampling and a followed lobe can find */
-    /* true if the integrator converges to a value that differs from its formula, even without a depth limit */
+    koksma__light_weight weight; /* how to weight light that both light sampling and a followed lobe can find */
+    /* true if the integrator is biased even without a depth limit: its result does not converge to its formula */
     bool is_biased;
     /* NULL, or three hooks: `open` computes what is needed before the image and stores it in frame->cache; `close`
        frees that; `indirect` adds to `out` the light from other diffuse surfaces at surface s and the given time,

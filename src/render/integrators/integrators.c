@@ -21,7 +21,8 @@
  * An environment has no centre: rays that hit nothing see it, but it does not illuminate surfaces; the ambient light
  * replaces it.
  *
- * Source: Phong 1975; Shirley 1991. Only the positions in the pixel, on the lens and in time are random.
+ * Source: Phong 1975; Shirley 1991. Random numbers are used only for the position in the pixel, the position on the
+ * lens and the time.
  */
 static const koksma__integrator_flags utah = {.ambient = true};
 
@@ -29,8 +30,8 @@ static const koksma__integrator_flags utah = {.ambient = true};
  * The integrator `whitted` is recursive ray tracing. Each vertex sends a shadow ray to the centre of each light;
  * mirrors reflect rays, and glass both reflects and refracts them, so that the rays of a sample form a tree. A branch
  * whose weight is below 1/1000 is cut (Hall's depth control), which loses its light. Many branches may be cut: a
- * glass slab in a white furnace, which reflects 2 R / (1 + R) in all, loses .08 % of that at 0.5 degrees, .25 % at 56
- * and .52 % at 89 (depth 40); the integrator `path` cuts no branch.
+ * glass slab in a white furnace should reflect 2 R / (1 + R) in all, and loses .08 % of that at 0.5 degrees, .25 % at
+ * 56 and .52 % at 89 (depth 40); the integrator `path` cuts no branch.
  *
  *     L(x, out) = local light as in utah, with V   +   R L(y, mirrored)   +   (1 - R) L(z, refracted)
  *
@@ -70,8 +71,8 @@ static const koksma__integrator_flags direct = {.followed = KOKSMA__LOBE_SPECULA
  *
  *     A(x) = 1 / pi  integral over the hemisphere of V(x, w) cos(w) dw,   and 1 where the eye sees no surface.
  *
- * Here V is 1 if the ray hits nothing at any distance. A(x) is a two-dimensional integral that depends on shapes
- * alone: all surfaces are white and diffuse, and the shapes of lights are black. With more than one bounce (--depth)
+ * Here V is 1 if the ray hits nothing at any distance. A(x) is a two-dimensional integral that depends only on
+ * shapes: all surfaces are white and diffuse, and the shapes of lights are black. With more than one bounce (--depth)
  * light reflected by white surfaces is added. Source: Zhukov, Iones & Kronin 1998.
  */
 static const koksma__integrator_flags ambient_occlusion = {.followed = KOKSMA__LOBE_DIFFUSE,
@@ -94,16 +95,16 @@ static const koksma__integrator_flags path = {PATH};
 /*
  * The integrators `path-balance`, `path-light` and `path-bsdf` are `path` with other weights, to study the sampling
  * strategies (Veach 1997, section 9.2). The integrator `path-balance` uses the balance heuristic p / (p + q). The
- * integrator `path-light` finds lights that rays can hit by light sampling alone, except in mirrors and glass;
- * `path-bsdf` finds them by reflected rays alone. All three integrators sample lights that rays cannot hit. All three
+ * integrator `path-light` finds lights that rays can hit only by light sampling, except in mirrors and glass;
+ * `path-bsdf` finds them only by reflected rays. All three integrators sample lights that rays cannot hit. All three
  * have the same mean as `path` at any depth.
  */
 static const koksma__integrator_flags path_balance = {PATH, .weight = KOKSMA__WEIGHT_BALANCE};
 static const koksma__integrator_flags path_light = {PATH, .weight = KOKSMA__WEIGHT_ONE};
 static const koksma__integrator_flags path_bsdf = {PATH, .weight = KOKSMA__WEIGHT_ZERO};
 
-/* The integrator `irradiance-cache` is `distribution` with interpolated light between diffuse surfaces
-   (irradiance_cache.c) instead of ambient light. */
+/* The integrator `irradiance-cache` is `distribution` that interpolates the light between diffuse surfaces from
+   cached records (irradiance_cache.c) instead of using ambient light. */
 static const koksma__integrator_flags irradiance_cache = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY,
                                                           .areas = true,
                                                           .shadows = true,
@@ -120,10 +121,11 @@ static const koksma_integrator rows[] = {
      &path},
     {"path-balance", "path tracing with the balance heuristic in place of the power heuristic",
      "kajiya1986 veach1997", 16, &path_balance},
-    {"path-light", "path tracing that finds lights by light sampling alone", "kajiya1986 veach1997", 16, &path_light},
-    {"path-bsdf", "path tracing that finds lights by reflected rays alone", "kajiya1986 veach1997", 16, &path_bsdf},
+    {"path-light", "path tracing that finds lights only by light sampling", "kajiya1986 veach1997", 16, &path_light},
+    {"path-bsdf", "path tracing that finds lights only by reflected rays", "kajiya1986 veach1997", 16, &path_bsdf},
     {"direct", "soft shadows, mirrors and glass; no ambient light", "shirley1996", 6, &direct},
-    {"ambient-occlusion", "how much of a white sky surfaces see; shapes only", "zhukov1998", 1, &ambient_occlusion},
+    {"ambient-occlusion", "the fraction of a white sky that each surface point sees; depends on shapes only",
+     "zhukov1998", 1, &ambient_occlusion},
     {"irradiance-cache", "diffuse light between surfaces, interpolated", "ward1988", 6, &irradiance_cache},
 };
 

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The integrator `irradiance-cache` is distribution ray tracing that interpolates the light between diffuse surfaces
- * from cached positions (Ward, Rubinstein & Clear 1988) instead of using the scene's ambient light. A record has the
- * irradiance E at a position p_i, computed from RAYS paths over the hemisphere, and R_i, the harmonic mean of the
- * lengths of their first rays. A record may be used at p with normal n if 1/w = |p - p_i| / R_i + sqrt(1 - n.n_i) <
- * ACCURACY, and E(p) is the mean of these records weighted by w. R_i is clamped so that the record reaches between
- * LEAST and MOST pixels.
+ * from cached positions (Ward, Rubinstein & Clear 1988) instead of using the scene's ambient light. A record has a
+ * position p_i, the irradiance E there, computed from RAYS paths over the hemisphere, and R_i, the harmonic mean of
+ * the lengths of the paths' first rays. A record may be used at p with normal n if 1/w = |p - p_i| / R_i + sqrt(1 -
+ * n.n_i) < ACCURACY, and E(p) is the mean of these records weighted by w. R_i is clamped so that the record can be
+ * used up to a distance of LEAST to MOST pixels.
  *
  * Records are made before the image, on successively finer grids of pixels. All threads compute the positions of a
  * grid that no record covers; the new records are then inserted one after the other, so that the result does not
- * depend on the threads. While the image is rendered, a position that no record covers (in a mirror, say) gets a
- * temporary record. The interpolation is biased, in open scenes by as much as a third of the indirect light (at 192 x
- * 144 pixels). Light that mirrors or glass cast from a light on a diffuse surface is left out: the few rays of a
- * record that find it would make one position far too bright and others dark. At depth 0 there are no records,
- * because there is no light between surfaces.
+ * depend on the threads. While the image is rendered, a position that no record covers (for example one seen in a
+ * mirror) gets a temporary record. The interpolation is biased: in open scenes at 192 x 144 pixels by up to a third
+ * of the indirect light. Light that mirrors or glass cast from a light on a diffuse surface is left out: only few
+ * rays of a record find that light, so that some records would be far too bright and the others too dark. At depth 0
+ * there are no records, because there is no light between surfaces.
  */
 #include "render/integrators/irradiance_cache.h"
 
@@ -34,7 +34,7 @@ enum { RAYS = 256, COARSEST = 16, FINEST = 2, LEVELS = 64, BUCKETS = 1 << 16, MA
 #define MOST 150.0f
 
 typedef struct record {
-    float p[3], n[3], light[3], reach; /* light is irradiance / pi, and reach is R_i */
+    float p[3], n[3], light[3], reach; /* `light` is the irradiance divided by pi, `reach` is R_i */
     /* level: the level of the cell that holds the record; next: the next record in the same bucket, or -1 */
     int32_t level, next;
 } record;
@@ -47,7 +47,7 @@ typedef struct cache {
     float smallest; /* the size of a cell at level 0; a cell at level k is 2^k times as large */
     bool used[LEVELS];
     int32_t buckets[BUCKETS]; /* the last record of each bucket, or -1 */
-    float pixel;              /* the size of a pixel, at distance 1 or of an orthographic camera */
+    float pixel;              /* the side of a pixel, at distance 1 for a perspective camera */
 } cache;
 
 static const koksma__integrator_flags path_rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY |
@@ -85,7 +85,7 @@ static float distance(const record *r, const float p[3], const float n[3])
 {
     const float d[3] = {p[0] - r->p[0], p[1] - r->p[1], p[2] - r->p[2]};
     const float cosine = koksma__dot3(n, r->n);
-    /* Reject a record in front of the position: it has different surroundings (test of Ward et al.). */
+    /* Rejects a record that lies in front of the position, because its surroundings differ (test of Ward et al.). */
     const float mean[3] = {n[0] + r->n[0], n[1] + r->n[1], n[2] + r->n[2]};
     if (koksma__dot3(d, mean) < -0.1f * r->reach) {
         return INFINITY;
@@ -265,7 +265,9 @@ koksma_status koksma__irradiance_cache_indirect(const koksma__frame *frame, cons
 typedef struct grid {
     cache *cache;
     int step, columns, rows;
-    record *found; /* one record for each grid position, with one row per parallel task; reach 0: no new record */
+    /* one record for each position of the grid, whose rows are parallel tasks; reach 0 means that no new record is
+       needed */
+    record *found;
     float time;
 } grid;
 

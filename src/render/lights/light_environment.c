@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * environment: light from far away, constant or given by an image in latitude and longitude. Row 0 is straight up;
- * columns go round from +z over -x to -z in the middle of the image, and on over +x, so that a viewer who looks along
- * -z sees the image unmirrored. Directions are chosen with a density that is constant on each pixel and in proportion
- * to its luminance times the sine of its row (Pharr, Jakob & Humphreys 2016, section 14.2.4), by two binary searches;
- * a hundredth of the samples is uniform over the sphere, so that rounding cannot give any light the density 0.
+ * the columns run from the direction +z through -x to -z in the middle of the image, then through +x back to +z, so
+ * that a viewer who looks along -z sees the image unmirrored. Directions are chosen with a density that is constant
+ * on each pixel and in proportion to its luminance times the sine of its row (Pharr, Jakob & Humphreys 2016, section
+ * 14.2.4), by two binary searches; 1 % of the samples are uniform over the sphere, so that rounding cannot give any
+ * light the density 0.
  */
 #include "render/lights/light_environment.h"
 
@@ -250,7 +251,7 @@ static const koksma__parameter parameters[] = {
 /* centre() is NULL: the integrators whitted and utah, which treat lights as points, use ambient light instead. */
 const koksma__light_kind koksma__light_environment = {
     .kind = {.name = "environment",
-             .title = "light from all directions that hit nothing, the same or an image",
+             .title = "light from all directions in which rays hit nothing: constant, or from an image",
              .cite = "pharr2016",
              .parameters = parameters,
              .keys = (const char *const[]){"image", "scale", "angle_deg", "radiance", NULL},

@@ -6,7 +6,7 @@
 #include "render/lanes3.h"
 #include "render/lights/lights.h"
 
-enum { KOKSMA__ENVIRONMENT_STEP = 16 }; /* spacing of the entries of a cumulative table that its coarse table has */
+enum { KOKSMA__ENVIRONMENT_STEP = 16 }; /* the coarse table of a cumulative table has every 16th entry */
 
 /* The fraction of samples that are uniform over the sphere. */
 #define KOKSMA__ENVIRONMENT_FLOOR 0.01f
@@ -14,13 +14,13 @@ enum { KOKSMA__ENVIRONMENT_STEP = 16 }; /* spacing of the entries of a cumulativ
 typedef struct koksma__environment {
     float radiance[3];       /* multiplies the image */
     const float *texels;     /* the image, with `channels` numbers for each pixel; NULL: constant radiance */
-    int32_t channels, green; /* green: offset of green in a texel; blue is at 2 green */
+    int32_t channels, green; /* green is the offset of the green number in a texel; blue is at 2 * green */
     int32_t width, height;
     float turn; /* rotation, as a fraction of a full turn */
     float mean;
     /* Cumulative tables, of `height` entries over the rows and of `width` over the columns of each row; row r's table
-       begins at column_cdf + r stride. Each is padded with values above 1 to a multiple of 16, and by another 16.
-       row_coarse, column_coarse: every 16th entry, searched first. */
+       begins at column_cdf + r stride. Each table is padded with values above 1 to a multiple of 16, and by another
+       16. row_coarse and column_coarse hold every 16th entry and are searched first. */
     float *row_cdf, *column_cdf, *row_coarse, *column_coarse;
     size_t stride;
 } koksma__environment;

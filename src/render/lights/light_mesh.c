@@ -17,14 +17,15 @@
 
 typedef struct mesh_light {
     size_t n;
-    double *cdf; /* of the triangles' areas, or of their emission; n + 1 numbers */
+    double *cdf; /* running sums of the triangles' areas, or of their emission; n + 1 numbers */
     const koksma__mesh *mesh;
     const koksma__map *map; /* the image of the emission, or NULL */
-    float *densities;       /* with a map: the density over area of positions on each triangle; else NULL */
+    /* if there is an image: the density over area of positions on each triangle; otherwise NULL */
+    float *densities;
     float corners[][9];
 } mesh_light;
 
-/* Copies the placed triangles and sums their areas. */
+/* Copies the triangles in world coordinates and sums their areas. */
 static void fill(const koksma__mesh *mesh, const koksma__placement *placement, mesh_light *m)
 {
     for (size_t t = 0; t < m->n; t++) {
@@ -32,7 +33,8 @@ static void fill(const koksma__mesh *mesh, const koksma__placement *placement, m
     }
 }
 
-/* The emission by the image at weights a and b of the second and third corner of triangle t. */
+/* The emission according to the image at the point of triangle t with the barycentric weights a and b of the second
+   and third corner. */
 static void glow_at(const mesh_light *m, size_t t, float a, float b, float rgb[3])
 {
     const float *uvs = m->mesh->uvs, w[3] = {1 - a - b, a, b};
@@ -154,7 +156,7 @@ static bool sample(const koksma__shading_light *light, const float p[3], const f
     koksma__unit3(n);
     const float at_light = -koksma__dot3(n, out->d);
     if (!(at_light > 0)) {
-        return false; /* p is behind the triangle, or the triangle has no area */
+        return false; /* no light: p is behind the triangle, or the triangle has no area */
     }
     float glow[3] = {1, 1, 1};
     out->pdf = square * length / (at_light * light->area);
@@ -189,7 +191,7 @@ static bool centre(const koksma__shading_light *light, const float p[3], koksma_
     if (!koksma__point_beam(light, p, light->area / 4, out)) {
         return false;
     }
-    for (int k = 0; k < 3; k++) { /* the ray ends before the mesh itself */
+    for (int k = 0; k < 3; k++) { /* the ray ends before it reaches the mesh */
         const float rest = out->d[k] - light->half[0] * out->w[k];
         out->d[k] = rest * out->w[k] > 0 ? rest : 1e-3f * out->d[k];
     }

@@ -33,7 +33,7 @@ static bool sample(const koksma__shading_light *light, const float p[3], const f
     return true;
 }
 
-/* From far away a sphere looks like a disk of its radius. */
+/* From far away the sphere looks like a disk of the same radius. */
 static bool centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
 {
     return koksma__point_beam(light, p, KOKSMA__PI_F * light->half[0] * light->half[0], out);

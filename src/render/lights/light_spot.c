@@ -95,7 +95,7 @@ static const koksma__parameter parameters[] = {
 
 const koksma__light_kind koksma__light_spot = {
     .kind = {.name = "spot",
-             .title = "a point that shines into a cone about a direction",
+             .title = "a point light that shines into a cone about a direction",
              .cite = "-",
              .parameters = parameters,
              .keys = KEYS("falloff")},

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The table of lights, and a scene's lights ready for sampling: each opened by its kind, their powers as a cumulative
- * table, and the data for estimates of their contribution at a point, in arrays for lanes (batch_lights.c).
+ * table, and, in arrays for SIMD lanes, the data from which batch_lights.c estimates their contribution at a point.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -109,7 +109,7 @@ koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out
     accumulate(out);
     memset(out->estimates, 0, sizeof *out->estimates);
     for (int i = 0; i < KOKSMA__MAX_BATCH_LIGHTS; i++) {
-        out->estimates->reach[i] = 1; /* not 0, because estimates for dark lights divide by it */
+        out->estimates->reach[i] = 1; /* not 0, because estimates divide by it even for dark lights */
     }
     for (size_t i = 0; i < n; i++) {
         set_estimate(&out->lights[i], (int)i, out->estimates);

@@ -23,10 +23,12 @@ typedef struct koksma__shading_light {
     float radiance[3];
     float values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
     float area;
-    float reach; /* largest distance of a part of the light from its centre */
-    float power; /* luminous power over pi^2, for choosing lights; for a light far away irradiance over pi */
-    int shape;   /* index of the light's own surface, or -1 */
-    void *data;  /* the kind's data, released by its close() */
+    float reach; /* largest distance of a point of the light from its centre */
+    /* for choosing among lights: luminous power divided by pi^2, or, for a light far away, irradiance divided by
+       pi */
+    float power;
+    int shape;  /* index of the light's own surface, or -1 */
+    void *data; /* the kind's data, released by its close() */
 } koksma__shading_light;
 
 /* How a spot's intensity falls off at the edge of its cone (light_spot.c): the value of its field `falloff`. */
@@ -62,7 +64,8 @@ typedef struct koksma__light_kind {
     koksma__kind kind; /* parameters are written to koksma__light; the kind's own at KOKSMA__LIGHT_VALUE(i) */
     koksma__light_distance distance;
     koksma__beam_form form;
-    bool is_flat; /* shines only on the side of its normal; extends along its axes u, v as far as half */
+    /* the light shines only on the side of its normal, and extends along its axes u and v as far as `half` */
+    bool is_flat;
     /* NULL, or reads the fields that are not parameters; name is the scene file's. */
     koksma_status (*parse)(const char *name, const field *f, koksma_scene *scene, koksma__light *light);
     /* Sets area, reach, power and data. Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
@@ -81,7 +84,7 @@ typedef struct koksma__light_kind {
     float (*met)(const koksma__shading_light *light, uint32_t triangle, const float uv[2], float radiance[3]);
     /* NULL, or for an environment: its radiance along w. */
     void (*radiance)(const koksma__shading_light *light, const float w[3], float out[3]);
-    /* NULL, or sets the light for lambert_lanes.c; for lights that rays do not see. */
+    /* NULL, or converts a light that rays do not see for lambert_lanes.c. */
     void (*lanes)(const koksma__light *from, koksma__batch_light *out);
 } koksma__light_kind;
 
@@ -97,7 +100,7 @@ typedef struct koksma__lights {
     koksma__shading_light *lights;
     float *cdf;                      /* cumulative powers, n + 1 numbers */
     koksma__batch_lights *estimates; /* for choosing lights by position */
-    koksma__batch_light *rectangles; /* for lambert_lanes.c; only if all lights' kinds have lanes() */
+    koksma__batch_light *rectangles; /* for lambert_lanes.c; set only if the kinds of all lights have lanes() */
     size_t first_around;             /* index of the first environment, or n */
 } koksma__lights;
 

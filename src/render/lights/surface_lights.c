@@ -15,9 +15,9 @@ static double luminance(const double rgb[3])
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
-/* Reads "radiance" of the surface, or "strength": the radiance reflected by a surface of albedo 1 that faces the
-   light, at the point that the light faces, if the light were small. towards: from the light to that point; NULL if
-   the file has a "normal" instead. */
+/* Reads "radiance" of the surface, or "strength": the radiance that a surface of albedo 1 would reflect at the point
+   that the light faces, if the surface faced the light and the light were small. towards: from the light to that
+   point; NULL if the file has a "normal" instead. */
 static koksma_status parse_power(const field *f, const double *towards, double area, koksma__light *light)
 {
     const bool by_radiance = koksma__json_has(f, "radiance");
@@ -27,7 +27,7 @@ static koksma_status parse_power(const field *f, const double *towards, double a
     const koksma_status status =
         koksma__parse_colour(f, by_radiance ? "radiance" : "strength", true, BRIGHT, light->radiance);
     const double square = by_radiance ? 0 : koksma__dot(towards, towards);
-    /* a single product for the grey power, so that strengths in files are not rounded twice */
+    /* the power of grey light is computed by one product, so that strengths in files are not rounded twice */
     light->power = by_radiance ? luminance(light->radiance) * area / M_PI : light->radiance[1] * square;
     for (int k = 0; !by_radiance && k < 3; k++) {
         light->radiance[k] *= square * M_PI / area;

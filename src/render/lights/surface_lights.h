@@ -25,9 +25,9 @@ koksma_status koksma__light_add_surface(const field *f, koksma_scene *scene, con
 /* Sets area, reach and power of a Lambert emitter. */
 void koksma__emitter_open(koksma__shading_light *light, double area, float reach);
 
-/* For any surface that is sampled by area. koksma__flat_light_sample: a sample at coordinates u, v of the surface,
-   with density 1 / area over the area. koksma__flat_light_centre: the light as a point at its centre.
-   koksma__area_pdf: the density of samples over solid angle. */
+/* For any surface that is sampled by area. koksma__flat_light_sample computes a sample at coordinates u, v of the
+   surface, with density 1 / area. koksma__flat_light_centre treats the light as a point at its centre.
+   koksma__area_pdf returns the density of samples over solid angle. */
 bool koksma__flat_light_sample(const koksma__shading_light *light, const float p[3], float u, float v,
                                koksma__beam *out);
 bool koksma__flat_light_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out);
@@ -44,8 +44,8 @@ KOKSMA__INLINE float koksma__flat_beam(koksma__v3 d, koksma__v3 normal, float ar
     return at_light > 0 ? pdf : 0;
 }
 
-/* Samples the cone that a sphere subtends, whose centre is at vector `axis` (light_sphere.c): the vector d to the
-   sphere and its direction w; returns the density, 0 from within the sphere. */
+/* Samples the cone that a sphere subtends (light_sphere.c); `axis` is the vector to its centre. Sets the vector d to
+   the sphere and its direction w; returns the density, which is 0 inside the sphere. */
 KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, float v, koksma__v3 *d, koksma__v3 *w)
 {
     const float square = koksma__v3_dot(axis, axis), distance = sqrtf(square), part = radius * radius / square;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * dielectric: smooth glass. Light is reflected with Fresnel's reflectance R for unpolarised light, and otherwise
- * refracted by Snell's law; `choice` selects one of the two with that probability, so that its weight is 1 (times the
- * tint). Because radiance is followed from the eye, the refracted ray would be multiplied by the squared ratio of
- * indices on entering, and divided by it on leaving; as every path that enters leaves again, the factor is omitted
- * (Veach 1997, section 5.2, keeps it for lights inside).
+ * dielectric: smooth glass. The fraction R of the light, Fresnel's reflectance for unpolarised light, is reflected,
+ * and the rest is refracted by Snell's law. The random number `choice` selects reflection with probability R, so that
+ * the weight of a sample is 1 (times the tint). Refraction multiplies the radiance by the squared ratio of indices on
+ * entering and divides it by the same number on leaving. Every path from the eye that enters also leaves, so this
+ * factor is omitted (Veach 1997, section 5.2, keeps it for lights inside).
  */
 #include "render/materials/lobes.h"
 
@@ -34,7 +34,7 @@ static void refract(const koksma__surface *s, float cosine, float ratio, float i
 
 static void split(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted)
 {
-    /* index of the other side over that of this side */
+    /* index of refraction on the other side divided by that on this side */
     const float ior = s->material->values[IOR], ratio = s->inside ? ior : 1 / ior;
     const float cosine = koksma__dot3(s->n, s->out);
     float inner;

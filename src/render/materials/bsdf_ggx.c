@@ -4,8 +4,8 @@
  * height-correlated shadowing; Schlick's reflectance from `reflectance` at normal incidence:
  *     value cos = F D G2 / (4 n.out)
  * Directions are sampled by visible facets (Heitz 2018), with density D G1(out) / (4 n.out), so that the weight of a
- * direction is F G2 / G1. Light scattered between facets is lost: a white metal reflects less than 1, and at
- * roughness 1 only 0.307 at normal incidence (1 - ln 2) and 0.379 at n.out = 0.7.
+ * direction is F G2 / G1. Light scattered between facets is lost: a white metal reflects less than all light, at
+ * roughness 1 only 0.307 of it at normal incidence (1 - ln 2) and 0.379 at n.out = 0.7.
  */
 #include "render/materials/facets.h"
 #include "render/materials/lobes.h"

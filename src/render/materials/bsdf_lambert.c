@@ -7,7 +7,7 @@
 #include "render/materials/lobes.h"
 
 const koksma__bsdf koksma__bsdf_lambert = {
-    .kind = {.name = "lambert", .title = "diffuse, as bright from every side", .cite = "pharr2016"},
+    .kind = {.name = "lambert", .title = "diffuse: equally bright from every side", .cite = "pharr2016"},
     .lobes = KOKSMA__LOBE_DIFFUSE,
     .diffuse = KOKSMA__ALBEDO | KOKSMA__IMAGE,
     .is_lambert = true,

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * principled: rough metal and coated diffuse in one, by the parameters of glTF 2.0 (appendix B): base colour c (the
- * albedo), metallic m, roughness, index of refraction. It has GGX facets with a = roughness^2, as in bsdf_ggx.c,
- * above a diffuse part, whose light is reduced by the facets' reflectance both on entering and on leaving (Ashikhmin
- * & Shirley 2000):
+ * principled: one material for rough metals and coated diffuse surfaces, with the parameters of glTF 2.0 (appendix
+ * B): base colour c (the albedo), metallic value m, roughness, index of refraction. It has GGX facets with a =
+ * roughness^2, as in bsdf_ggx.c, above a diffuse part; the facets' reflectance reduces the light of the diffuse part
+ * both on entering and on leaving (Ashikhmin & Shirley 2000):
  *
  *     f cos = D F G2 / (4 n.out) + (1 - m) c / pi (1 - S(n.out)) (1 - S(n.w)) cos
  *     F = S with F0 = (1 - m) s + m c at the facet;   S(x) = F0 + (1 - F0) (1 - x)^5,   s = ((ior - 1) / (ior + 1))^2
  *
- * glTF's sample implementation has 1 - F at the facet in place of the two factors, and so reflects more light than
- * arrives at grazing angles. The model here never reflects more than arrives and is reciprocal. It reflects up to
- * an eighth of c less than real surfaces, because light that bounces between facets and the diffuse part is lost.
- * A direction is sampled by the facets with a probability estimated from their reflectance, at least .1 if both lobes
- * exist.
+ * glTF's sample implementation uses the one factor 1 - F at the facet instead of these two factors, and so reflects
+ * more light than arrives at grazing angles. The model here never reflects more than arrives and is reciprocal. It
+ * reflects up to an eighth of c less than real surfaces, because light that bounces between facets and the diffuse
+ * part is lost. A direction is sampled from the facets with a probability that is estimated from their reflectance,
+ * and otherwise from the diffuse lobe; if both lobes exist, each has a probability of at least .1.
  */
 #include "render/materials/facets.h"
 #include "render/materials/lobes.h"
@@ -128,7 +128,7 @@ static const koksma__parameter parameters[] = {
 
 const koksma__bsdf koksma__bsdf_principled = {
     .kind = {.name = "principled",
-             .title = "rough metal or coated diffuse, by glTF's parameters",
+             .title = "rough metal or a coated diffuse surface, with glTF's parameters",
              .cite = "gltf2021 ashikhmin2000 walter2007 heitz2018",
              .parameters = parameters},
     .lobes = KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY,

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * rough-dielectric: ground glass. Its facets h have the GGX distribution, as in bsdf_ggx.c, and each reflects and
- * refracts like the material dielectric (Walter et al. 2007): with Fresnel's F at the facet, m the index on w's side
- * over the index on out's side,
+ * refracts like the material dielectric (Walter et al. 2007): with Fresnel's reflectance F at the facet, and m the
+ * index on the side of w divided by the index on the side of out,
  *
  *     reflection:  f cos = F D G2 / (4 n.out)
  *     refraction:  f |cos| = (1 - F) G1(w) Dv(h) J,   Dv(h) = D G1(out) (h.out) / (n.out),
  *                  J = m^2 |w.h| / (h.out + m w.h)^2,   h along -(out + m w)
  *
- * A visible facet is sampled (Heitz 2018), then its reflection with probability F; the weight of a direction is G2 /
- * G1(out) for a reflection and G1(w) for a refraction. As in dielectric, the squared ratio of indices is omitted;
- * light scattered between facets is lost. When one light is chosen for a path vertex, lights behind the surface are
- * not candidates: their light arrives only by rays that hit them.
+ * A visible facet is sampled (Heitz 2018), then a reflection with probability F and otherwise a refraction; the
+ * weight of a direction is G2 / G1(out) for a reflection and G1(w) for a refraction. As in dielectric, the squared
+ * ratio of indices is omitted; light scattered between facets is lost. When one light is chosen for a path vertex,
+ * lights behind the surface are not candidates: only sampled rays that hit them find their light.
  */
 #include "render/materials/facets.h"
 #include "render/materials/lobes.h"
 
 enum { TINT, ROUGHNESS = 3, IOR };
 
-/* The data that all directions share: a surface seen from `out`, with the index on this side over that on the
-   other. */
+/* The data that all directions share: a surface seen from `out`, and the index on this side divided by the index on
+   the other side. */
 typedef struct view {
     koksma__facets facets;
     float ratio;
@@ -111,7 +111,7 @@ static const koksma__parameter parameters[] = {
 
 const koksma__bsdf koksma__bsdf_rough_dielectric = {
     .kind = {.name = "rough-dielectric",
-             .title = "ground glass in air: facets that reflect and refract",
+             .title = "ground glass in air: GGX facets that reflect and refract",
              .cite = "walter2007 heitz2018",
              .parameters = parameters},
     .lobes = KOKSMA__LOBE_GLOSSY,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * utah: the local model of Phong (1975) as the sum of a Lambert part and a cosine lobe, which together reflect no
- * more than albedo + reflectance <= 1. Directions are sampled from either lobe in proportion to its luminance; their
- * weight is the material's value over the density of the mixture.
+ * more than albedo + reflectance <= 1. Directions are sampled from either lobe in proportion to its luminance; the
+ * weight of a direction is the material's value divided by the density of the mixture of both lobes.
  *
  *     f cos = albedo cos / pi + reflectance (e + 1) / (2 pi) cos^e(angle to the mirrored direction)
  */
@@ -51,7 +51,7 @@ static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], f
     return out->pdf > 0;
 }
 
-/* Sets the fraction of directions that the diffuse lobe gets: its share of the luminance. */
+/* Sets the probability of the diffuse lobe, which is its share of the luminance. */
 static void prepare(koksma__shading_material *m)
 {
     const float diffuse = koksma__luminance3(m->albedo[0]) + koksma__luminance3(m->albedo[1]);

@@ -3,8 +3,8 @@
  * GGX facets (bsdf_ggx.c documents the model), for single rays and for loops over lanes.
  *
  * D = a^2 / (pi t^2) with t = (n.h)^2 (a^2 - 1) + 1, which is (n.h)^2 a^2 + |n x h|^2: for small a the first form is
- * the difference of numbers near 1; the second form gives D with a relative error of 3e-5 at roughness 0.03 and of 3
- * % at 0.001, where directions in floats are themselves off by a tenth of a.
+ * a difference of two numbers near 1. The second form gives D with a relative error of 3e-5 at roughness 0.03 and of
+ * 3 % at roughness 0.001, where rounding to floats changes directions by a tenth of a.
  */
 #ifndef KOKSMA_RENDER_MATERIALS_FACETS_H
 #define KOKSMA_RENDER_MATERIALS_FACETS_H
@@ -17,7 +17,8 @@ typedef struct koksma__facets {
     float a;
 } koksma__facets;
 
-/* The terms for light from a direction: its density D G1 / (4 n.out), G2 / G1, and its cosine at the facet. */
+/* The terms for light from a direction: the direction's density D G1 / (4 n.out), the ratio G2 / G1, and the cosine
+   at the facet. */
 typedef struct koksma__facet_terms {
     float pdf, ratio, at_facet;
 } koksma__facet_terms;

@@ -7,7 +7,8 @@
 #include "render/materials/materials.h"
 #include "render/vector3.h"
 
-/* The density of koksma__cosine_direction for a direction with this cosine; times albedo it is the Lambert value. */
+/* The density of koksma__cosine_direction for a direction with this cosine; multiplied by the albedo it is the value
+   of a Lambert surface times the cosine. */
 KOKSMA__INLINE float koksma__lambert_pdf(float cosine)
 {
     return cosine > 0 ? cosine * (1 / KOKSMA__PI_F) : 0;
@@ -45,8 +46,8 @@ static inline bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigne
     return out->pdf > 0;
 }
 
-/* Fresnel's reflectance for unpolarised light. ratio: the index on this side over that on the other; *inner: the
-   cosine of the refracted ray, 0 for total reflection. */
+/* Fresnel's reflectance for unpolarised light. ratio: the index on this side divided by the index on the other side;
+   *inner: the cosine of the refracted ray, 0 for total reflection. */
 static inline float koksma__reflected_share(float cosine, float ratio, float *inner)
 {
     const float square = 1 - (1 - cosine * cosine) * ratio * ratio;
@@ -60,8 +61,8 @@ static inline float koksma__reflected_share(float cosine, float ratio, float *in
 }
 
 /* The cosine lobe of Shirley (1991, section 5.5.6): directions about the mirrored one with density (e + 1) / (2 pi)
-   cos^e, each with the weight `reflectance`; those below the surface are lost. The material's value times the cosine
-   is reflectance times density. */
+   cos^e, each with the weight `reflectance`; directions below the surface are lost. The material's value times the
+   cosine is reflectance times density. */
 KOKSMA__INLINE float koksma__lobe_pdf(koksma__v3 n, koksma__v3 out, float exponent, koksma__v3 w)
 {
     const float cosine = koksma__v3_dot(koksma__v3_mirror(out, n), w), above = koksma__v3_dot(n, w);

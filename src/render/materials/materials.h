@@ -36,55 +36,59 @@ typedef struct koksma__shading_material {
     const struct koksma__bsdf *bsdf;
     float albedo[2][3];
     float values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
-    float derived;                    /* set by prepare() from the values */
+    float derived;                    /* numbers that prepare() computes from the values */
     const koksma_image *image;        /* the image of the albedo, or NULL */
     const koksma__material *from;     /* the description of this material, which has the images */
 } koksma__shading_material;
 
-/* Whether an image or vertex colours make the material vary over the surface; a checker does not count. */
+/* Whether an image or vertex colours make the material vary over the surface; checkers are treated separately. */
 static inline bool koksma__is_textured(const koksma__shading_material *m)
 {
     return m->image || m->from->tinted || m->from->maps[KOKSMA__MAP_SURFACE].image ||
            m->from->maps[KOKSMA__MAP_NORMAL].image;
 }
 
-enum { KOKSMA__LOCAL = 4 }; /* the most numbers of a kind that images can change; its texture() computes them */
+/* maximum number of numbers of a kind that images can change; the kind's texture() computes them */
+enum { KOKSMA__LOCAL = 4 };
 
 /* A point on a surface, seen from `out`. */
 typedef struct koksma__surface {
     const koksma__shading_material *material;
     float p[3], n[3]; /* n points to the side from which the surface is seen */
     float out[3];
-    float albedo[3];    /* of the diffuse part, at this point */
-    const float *local; /* for a textured material whose kind has texture(): its numbers at this point; else NULL */
-    bool inside;        /* seen from inside a closed shape, or from the back of a flat one */
+    float albedo[3]; /* of the diffuse part, at this point */
+    /* the numbers that the kind's texture() computed for this point; NULL if the material has no texture or the kind
+       no texture() */
+    const float *local;
+    bool inside; /* whether the point is seen from inside a closed shape, or from the back of a flat one */
     int32_t primitive;
 } koksma__surface;
 
 /* A direction that light may come from. */
 typedef struct koksma__scatter {
     float w[3];
-    float weight[3]; /* value times cosine over pdf */
-    float pdf;       /* density over solid angle of the requested lobes; 0 for specular ones */
+    float weight[3]; /* value times cosine, divided by the pdf */
+    float pdf;       /* density over solid angle of the requested lobes; 0 for specular lobes */
     unsigned lobe;
 } koksma__scatter;
 
 typedef struct koksma__bsdf {
     koksma__kind kind; /* parameters are written to koksma__material: at = KOKSMA__VALUE(i) */
     unsigned lobes;    /* all lobes that the kind has */
-    unsigned diffuse;  /* the fields of its diffuse part; 0: none */
-    bool is_lambert;   /* its value is exactly albedo cosine / pi, so that lambert_lanes.c can shade it */
+    unsigned diffuse;  /* the fields of its diffuse part; 0 if it has none */
+    /* the value times the cosine is exactly albedo cosine / pi, so that lambert_lanes.c can shade the material */
+    bool is_lambert;
     koksma__material_form form;
     bool takes_choice; /* sample() uses choice */
     bool reciprocal;   /* value / cosine is symmetric in w and out */
     /* NULL, or a check of the parameters: returns the reason why they are not valid together, or NULL. */
     const char *(*check)(const koksma__material *material);
-    void (*prepare)(koksma__shading_material *material); /* NULL, or sets derived */
+    void (*prepare)(koksma__shading_material *material); /* NULL, or computes `derived` */
     /* Adds to value the material times the cosine for light from w, over the requested lobes; returns the density
        with which sample() chooses w among these lobes. */
     float (*value)(const koksma__surface *s, const float w[3], unsigned lobes, float value[3]);
-    /* Samples a direction among the requested lobes: u for the direction, choice for the lobe. False: the light is
-       lost. */
+    /* Samples a direction from the requested lobes: u selects the direction, `choice` the lobe. Returns false if the
+       light is lost. */
     bool (*sample)(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out);
     /* NULL, or computes local[0] to [KOKSMA__LOCAL - 1] at a point from the albedo there and from an image's factors
        of roughness and metallic value, and sets albedo to that of the diffuse part. */

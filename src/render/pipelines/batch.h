@@ -17,8 +17,8 @@
 /* A block of 256 rays, their hits and shadow rays take 24 KiB; smaller blocks call more often and draw fewer pixels together. */
 enum { KOKSMA__BLOCK = 256, KOKSMA__LANE_STEP = 16 };
 
-/* The kernel `order` uses a full shuffle for up to KOKSMA__SHUFFLED samples and accepts at most KOKSMA__ORDERED;
-   koksma__order_words returns how many random words it takes. */
+/* The kernel `order` uses a full shuffle for up to KOKSMA__SHUFFLED samples, and accepts at most KOKSMA__ORDERED
+   samples; koksma__order_words returns how many random words it takes. */
 enum { KOKSMA__SHUFFLED = 32, KOKSMA__ORDERED = 1 << 16 };
 static inline size_t koksma__order_words(size_t n)
 {
@@ -70,8 +70,8 @@ typedef struct koksma__shadows {
     const int32_t *aimed;
 } koksma__shadows;
 
-/* How to weight light that both light sampling, with density p, and a ray along a lobe, with density q, can find:
-   by the heuristics of Veach 1997, section 9.2, or by one strategy alone. */
+/* How to weight light that can be found by light sampling, with density p, and by a ray along a lobe, with density q:
+   by one of the heuristics of Veach 1997, section 9.2, or by using only one of the two strategies. */
 typedef enum koksma__light_weight {
     KOKSMA__WEIGHT_POWER,   /* p^2 / (p^2 + q^2) */
     KOKSMA__WEIGHT_BALANCE, /* p / (p + q) */
@@ -115,8 +115,8 @@ typedef struct koksma__landings {
     KOKSMA__LANES(uint32_t, triangle); /* index of the triangle in its mesh */
 } koksma__landings;
 
-/* A material: a constant albedo or a checker. A matrix holds the rotation and scale of the checker: s = su u + sv
-   v + s0, t = tu u + tv v + t0. */
+/* A material: a constant albedo or a checker. The numbers su to t0 are the rotation, scale and offset of the checker:
+   s = su u + sv v + s0, t = tu u + tv v + t0. */
 typedef struct koksma__batch_material {
     bool checker;
     float albedo[2], su, sv, s0, tu, tv, t0;
@@ -135,7 +135,7 @@ enum { KOKSMA__MAX_BATCH_LIGHTS = 256 };
    or 0 if no part of the light can be seen from p; d is the vector from p to the centre of the light, and r =
    max(|d|, reach). Distant lights have their direction in (nx, ny, nz) and power 0. */
 typedef struct koksma__batch_lights {
-    /* n is the number of lights, and whole is n rounded up to whole lanes, where added lights are dark */
+    /* n is the number of lights; `whole` is n rounded up to whole lanes, filled with dark lights */
     int n, whole;
     KOKSMA__LIGHT_LANES(cx);
     KOKSMA__LIGHT_LANES(cy);
@@ -143,7 +143,7 @@ typedef struct koksma__batch_lights {
     KOKSMA__LIGHT_LANES(nx);
     KOKSMA__LIGHT_LANES(ny);
     KOKSMA__LIGHT_LANES(nz);
-    KOKSMA__LIGHT_LANES(flat);  /* 1: the light shines along its normal; 0: in all directions */
+    KOKSMA__LIGHT_LANES(flat);  /* 1 if the light shines only on the side of its normal, 0 if in all directions */
     KOKSMA__LIGHT_LANES(power); /* power of a light that has a position; 0 for others */
     KOKSMA__LIGHT_LANES(reach);
     KOKSMA__LIGHT_LANES(far);   /* irradiance of a directional light on a surface that faces it */

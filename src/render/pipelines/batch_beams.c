@@ -193,8 +193,8 @@ static void find(const tables *t, int32_t cells, const float *u, int n, int32_t 
     }
 }
 
-/* Samples positions in the environment image by importance; the results of lanes that sample all directions
-   uniformly are not used. */
+/* Samples positions in the environment image by importance; the results are not used in lanes that sample the sphere
+   of directions uniformly. */
 static void place(const koksma__environment *e, const koksma__lanes *restrict u, int n, float *restrict x,
                   float *restrict y)
 {
@@ -257,7 +257,7 @@ void BATCH_NAME(around)(const struct koksma__environment *e, const koksma__rays 
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         const koksma__v3 d = koksma__v3_unit((koksma__v3){rays->dx[i], rays->dy[i], rays->dz[i]});
-        const int missed = hit[i] < 0; /* the other lanes look up one common texel */
+        const int missed = hit[i] < 0; /* all other lanes look up the same texel */
         w[0][i] = missed ? d.x : 0;
         w[1][i] = missed ? d.y : 1;
         w[2][i] = missed ? d.z : 0;

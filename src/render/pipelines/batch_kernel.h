@@ -24,7 +24,7 @@
 /* Forces inlining of functions that are compiled once for each value of a constant argument. */
 #define INLINE static inline __attribute__((always_inline))
 
-/* Returns how many of the first n rays hit the primitive. */
+/* Returns the number of the first n rays whose closest hit is the primitive. */
 INLINE int koksma__batch_count_hits(const koksma__hits *h, int32_t id, int n)
 {
     int count = 0;

@@ -90,8 +90,8 @@ static void lambert_values(const koksma__surfaces *restrict s, const koksma__lan
     }
 }
 
-/* The requested lobes as factors 0 or 1, and the probability of sampling a direction from Lambert's lobe, which is
-   fixed + shared koksma__surfaces.diffuse. */
+/* The requested lobes as factors 0 or 1, and the coefficients of the probability of sampling Lambert's lobe: fixed +
+   shared * koksma__surfaces.diffuse. */
 typedef struct lobe_shares {
     float diffuse, glossy, fixed, shared;
 } lobe_shares;
@@ -177,8 +177,8 @@ static void values(const koksma__surfaces *s, const koksma__lanes *w, unsigned l
 
 /* ---- Light that is reflected ---------------------------------------------------------------------------------- */
 
-/* Adds the weighted light of the beams to `reflected`. The light of a visible light is weighted against the
-   density in `values`, with which a reflected ray would hit it. */
+/* Adds the weighted light of the beams to `reflected`. Light from a visible light source is weighted by multiple
+   importance sampling; `values` has the density with which a reflected ray would hit that source. */
 INLINE void weigh(const koksma__light_lanes *restrict l, const koksma__beams *restrict b,
                   const koksma__bsdf_values *restrict values, koksma__light_weight weight, int n,
                   koksma__lanes *restrict reflected)

@@ -5,7 +5,8 @@
  *
  * Up to KOKSMA__SHUFFLED samples are put in order by the Fisher-Yates shuffle, which makes each of the n! orders
  * equally likely. More samples are permuted by a bijection of the k-bit numbers below the next power of two, as by
- * Kensler (2013); numbers that it maps to n or beyond are mapped again. Each round of the bijection computes
+ * Kensler (2013); numbers that the bijection maps to n or above are mapped again. Each round of the bijection
+ * computes
  *
  *     x = m x + a mod 2^k,   x = x ^ x >> 2,   x = x rotated by (k + 1) / 2 bits,
  *
@@ -30,7 +31,8 @@ enum { BYTES = 16 };
 #endif
 
 typedef uint16_t shorts __attribute__((vector_size(BYTES)));
-typedef uint64_t longs __attribute__((vector_size(BYTES))); /* gcc combines logical operations on this type */
+/* gcc combines several logical operations on this type into one instruction */
+typedef uint64_t longs __attribute__((vector_size(BYTES)));
 
 /* The random words were stored 32 bytes at a time; a wider load would have to wait for these stores. */
 typedef uint32_t octet __attribute__((vector_size(32)));
@@ -93,7 +95,7 @@ void BATCH_NAME(order)(const uint32_t *words, size_t n, uint16_t *out)
         first[l] = (uint16_t)l;
     }
     if ((n & (n - 1)) == 0) {
-        for (size_t i = 0; i < n; i += VECTORS * SHORTS) { /* a block has 64 numbers, and n is at least 64 */
+        for (size_t i = 0; i < n; i += VECTORS * SHORTS) { /* a block has 64 numbers, and n is never below 64 here */
             shorts x[VECTORS];
             for (int v = 0; v < VECTORS; v++, first += SHORTS) {
                 x[v] = first;
@@ -194,7 +196,7 @@ void BATCH_NAME(jitter)(const float *corners, const uint32_t *words, const float
     }
 }
 
-/* Permutes the lanes of v: lane l becomes the old lane number lane[l], which is below 8. */
+/* Permutes the lanes of v: lane l gets the value of the lane whose number is lane[l], which is below 8. */
 INLINE void permute_lanes(const octet *lane, octet *v)
 {
 #if defined(__AVX2__)

@@ -46,7 +46,7 @@ static void albedo_checker(const koksma__batch_material *material, int32_t id, c
 void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__hits *hits, int n, float *albedo)
 {
     int32_t most = -1;
-    uint32_t least = UINT32_MAX; /* as an unsigned number, material -1 is the largest */
+    uint32_t least = UINT32_MAX; /* material -1, converted to an unsigned number, is the largest one */
     for (int i = 0; i < STEP(n); i++) {
         const int32_t m = hits->material[i];
         albedo[i] = 0;

@@ -19,7 +19,8 @@ static const koksma__shape_type *const types[] = {
 #include "render/shapes/shapes.def"
 };
 
-/* Computes the position, normal and coordinates of the lanes that hit flat shape s; all: every lane hit it. */
+/* Computes the position, normal and coordinates of the lanes that hit the flat shape s. all: whether every lane hit
+   it. */
 INLINE void finish_flat(const koksma__batch_shape *s, const koksma__rays *restrict r, int n, koksma__hits *restrict h,
                         bool all)
 {

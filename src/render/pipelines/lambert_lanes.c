@@ -24,10 +24,10 @@ typedef struct scratch {
        each light those that may block its rays to these pixels. */
     koksma__batch_shapes shapes, *blockers;
     koksma__batch_shape *list;
-    size_t *seen, first, end, mixed; /* mixed: the end of a tile that sees several shapes */
+    size_t *seen, first, end, mixed; /* `mixed` is the end of the last tile that was found to see several shapes */
 } scratch;
 
-/* Decisions for this many pixels of a row hold for each of them. */
+/* Which shapes may be seen is decided for tiles of this many pixels of a row. */
 enum { TILE = 16 };
 
 static bool takes(const koksma__frame *frame)
@@ -82,7 +82,7 @@ static koksma_status open_scratch(const koksma__frame *frame, size_t capacity, v
 
 /* ---- What a group sees ------------------------------------------------------------------------------------ */
 
-/* Finds the shapes that may block rays from the only shape in sight, of index i, to each light. */
+/* Finds, for each light, the shapes that may block rays to it from shape i, which is the only shape in sight. */
 static void find_blockers(const koksma__frame *f, scratch *r, size_t i, const double x[2], const double y[2])
 {
     const koksma__batch_shapes *all = f->geometry.occluders;
@@ -125,7 +125,7 @@ static void look_at(const koksma__frame *f, scratch *r, size_t first, size_t end
     }
 }
 
-/* Looks at the tile of a group, and at the group alone if the tile may see several shapes. */
+/* Finds the shapes that the tile of a group may see, or only those of the group if the tile may see several. */
 static void look(const koksma__frame *f, scratch *r, const koksma__group *group)
 {
     const size_t first = group->first, end = first + group->count, width = (size_t)f->options->width;
@@ -200,7 +200,7 @@ static void shade_block(const koksma__frame *f, const koksma__rays *rays, const 
     for (int i = 0; i < n; i++) {
         sum[i] = (float)f->scene->ambient[0];
     }
-    shadows.aimed = NULL; /* the lights have no surfaces that could block shadow rays */
+    shadows.aimed = NULL; /* these lights have no surfaces that could block shadow rays */
     f->batch->albedo(f->materials, hits, n, albedo);
     for (size_t l = 0; l < f->lights.n; l++) {
         const float *positions = r->positions + 2 * (l * r->capacity + start);

@@ -35,13 +35,13 @@ typedef struct koksma__surfaces {
     const koksma__hits *hits;
     const koksma__shading_material *materials; /* indexed by hits->material */
     const koksma__lane_materials *table;       /* the materials as arrays of their properties */
-    unsigned traits;                           /* bitwise or of the traits of all lanes */
+    unsigned traits;                           /* the bitwise "or" of the traits of all lanes */
     KOKSMA__LANES(int32_t, form);
     _Alignas(64) koksma__lanes out[3];
     _Alignas(64) koksma__lanes albedo[3];
     _Alignas(64) koksma__lanes parameters[4]; /* parameters of materials of the forms LOBES and FACETS */
     _Alignas(64) koksma__lanes diffuse;       /* koksma__shading_material.derived of materials of the form LOBES */
-    /* result of texture() in the lanes whose material has images and whose BSDF has texture() */
+    /* results of the BSDF's texture(), in the lanes whose material has images and whose BSDF has texture() */
     float local[KOKSMA__BLOCK][KOKSMA__LOCAL];
 } koksma__surfaces;
 
@@ -51,7 +51,7 @@ typedef struct koksma__bsdf_values {
     _Alignas(64) koksma__lanes pdf;
 } koksma__bsdf_values;
 
-/* Sampled directions: koksma__scatter in lanes. kept 0: the path ends. */
+/* Sampled directions: koksma__scatter in lanes. If `kept` is 0, the path ends. */
 typedef struct koksma__directions {
     _Alignas(64) koksma__lanes w[3];
     _Alignas(64) koksma__lanes weight[3];
@@ -59,8 +59,8 @@ typedef struct koksma__directions {
     KOKSMA__LANES(int32_t, kept);
 } koksma__directions;
 
-/* The light that each vertex samples, or -1, and the probability of its choice. `same` is the light of all lanes
-   if they share one, else -1. */
+/* The light that each vertex samples, or -1, and the probability of choosing that light. `same` is the light of all
+   lanes if they share one, otherwise -1. */
 typedef struct koksma__light_lanes {
     const koksma__shading_light *lights;
     int same;
@@ -69,7 +69,7 @@ typedef struct koksma__light_lanes {
     _Alignas(64) koksma__lanes probability;
 } koksma__light_lanes;
 
-/* Sampled light: koksma__beam in lanes. lit 0: no light arrives. */
+/* Sampled light: koksma__beam in lanes. If `lit` is 0, no light arrives. */
 typedef struct koksma__beams {
     _Alignas(64) koksma__lanes d[3];
     _Alignas(64) koksma__lanes w[3];
@@ -93,7 +93,8 @@ typedef struct koksma__paths {
 typedef struct koksma__vertices {
     const koksma__paths *paths;
     int n, whole;
-    /* moves: kernels read the times of paths; chooses: kernels read the normals of paths, to choose lights */
+    /* moves: whether kernels read the times of paths; chooses: whether they read the normals of paths, to choose
+       lights */
     bool moves, chooses;
     koksma__hits hits;
     /* the form of a lane is KOKSMA__UNLIT if its ray hit nothing or a light, or if the lane is unused */

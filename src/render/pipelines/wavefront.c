@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The wavefront path tracer, which renders any scene with any integrator (Laine, Karras & Aila 2013 describe the idea
- * for GPUs). Long because all stages of a vertex share its block of lanes. For each sample of the film it estimates
- * the rendering equation (Kajiya 1986)
+ * for GPUs). The file is long because all stages of a vertex work on the same block of lanes. For each sample of the
+ * film it estimates the rendering equation (Kajiya 1986)
  *
  *     L(x, out) = E(x, out) + integral of f(w, out) L(y, -w) cos dw
  *
  * Here y is the point that the ray from x along w hits. The tracer estimates the integral by random paths. A path is
- * a ray and a weight beta, the product of f cos / pdf of all directions so far, with which its light counts for the
- * sample. All paths of a group advance by one vertex together, so that rays and shadow rays are intersected in blocks
- * of lanes (batch.h):
+ * a ray and a weight beta, the product of f cos / pdf over all directions so far. The light that the path finds is
+ * multiplied by beta and added to the sample. All paths of a group advance by one vertex together, so that rays and
+ * shadow rays are intersected in blocks of lanes (batch.h):
  *
  *     queue of paths, bounce b
  *       | closest          intersects rays, a block at once: primitive, position, normal; a medium may scatter a ray first
@@ -25,12 +25,13 @@
  * power heuristic (Veach 1997, section 9.2): m = p^2 / (p^2 + q^2), where p is the density of the strategy that found
  * the light and q that of the other strategy; the two weights m of one direction add up to 1. For this a path carries
  * the density of its last direction (0 after a mirror, because no light sampling finds its light: m = 1). Integrators
- * may use other weights: the balance heuristic, 1 or 0. If only lobes may find the light, paths take one more ray
- * past the depth limit, which replaces the light samples of the last vertex, so that all weights have the same mean
- * at any depth.
+ * may use other weights: the balance heuristic, 1 or 0. If only rays along lobes may find lights, each path traces
+ * one ray past the depth limit; it replaces the light samples of the last vertex, so that the images of all
+ * weightings have the same mean at any depth.
  *
- * All random numbers come from uses (samples/uses.def). Lobe, lobe choice, lights and roulette have different keys at
- * each vertex b, so that the patterns under study decide how vertices are stratified, and not the tracer.
+ * All random numbers come from uses (samples/uses.def). The uses lobe, lobe choice, light and roulette have different
+ * keys at each vertex b, so that the pattern under study, not the tracer, decides how the samples of vertices are
+ * stratified.
  */
 #include "render/pipelines/wavefront.h"
 
@@ -47,7 +48,8 @@
 #include "render/texture.h"
 #include "render/vector3.h"
 
-/* largest number of samples that are traced together, which bounds the queues that branching lengthens */
+/* largest number of samples that are traced together; it bounds the length of the queues, which branching paths
+   increase */
 enum { TOGETHER = 1024 };
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
@@ -115,7 +117,8 @@ static koksma__v3 direction_at(const koksma__paths *p, int i)
 static float met_weight(const koksma__frame *frame, const koksma__paths *p, int i, size_t light, float pdf)
 {
     if (!(p->pdf[i] > 0)) {
-        return p->pdf[i] < 0 ? 0 : 1; /* 1: from the eye or a mirror, where light sampling cannot find the light */
+        /* 1 for a ray from the eye or a mirror, because light sampling cannot find that light */
+        return p->pdf[i] < 0 ? 0 : 1;
     }
     const float o[3] = {p->rays.ox[i], p->rays.oy[i], p->rays.oz[i]}, n[3] = {p->n[0][i], p->n[1][i], p->n[2][i]};
     const float sampled = pdf * koksma__light_probability(frame, o, n, (int)light);
@@ -181,8 +184,8 @@ static void add_emission(const koksma__frame *frame, koksma__vertices *v, int i)
     }
 }
 
-/* Adds the emission of a light whose surface also reflects: its normals may be interpolated, and a texture may dim
-   it. */
+/* Adds the emission of a light whose surface also reflects. Such a surface may have interpolated normals, and a
+   texture may reduce its emission. */
 static void add_glow(const koksma__frame *frame, koksma__vertices *v, int i)
 {
     const koksma__hits *hits = &v->hits;
@@ -204,8 +207,8 @@ static void add_glow(const koksma__frame *frame, koksma__vertices *v, int i)
     add_scaled(v, i, radiance, met_weight(frame, v->paths, i, (size_t)light, pdf));
 }
 
-/* Replaces the normal of a hit by that of a normal map: x along u, y across, z outwards. The surface's normal
-   stays where the ray would see the back of the new one. */
+/* Replaces the normal of a hit by that of a normal map: x along u, y across, z outwards. The surface's normal is kept
+   where the ray would see the back of the new normal. */
 static void bend(const koksma__map *map, const koksma__triangle *triangle, koksma__vertices *v, int i)
 {
     koksma__hits *h = &v->hits;
@@ -292,7 +295,7 @@ static void note_first(koksma__values *values, const koksma__vertices *v, int i)
 
 /* ---- Going on --------------------------------------------------------------------------------------------- */
 
-/* Follows both directions, reflected and refracted, at lane i, whose material has two directions. */
+/* Follows both the reflected and the refracted direction at lane i, whose material has the two. */
 static koksma_status branch(const koksma__trace *trace, const koksma__vertices *v, int i)
 {
     const koksma__surface s = koksma__surface_at(&v->surfaces, i);
@@ -433,7 +436,7 @@ static void fill_lanes(koksma__paths *p, int n, int whole)
     }
 }
 
-/* Adds the light that was added to the vertices since `before`, which follows, to the AOVs. */
+/* Adds to the AOVs the light that the vertices gained since `before`; then sets `before` to their light. */
 static void note_aovs(const koksma__trace *trace, const koksma__vertices *v, int reflections, koksma__lanes before[3],
                       koksma__values *values)
 {
@@ -601,7 +604,7 @@ static bool takes(const koksma__frame *frame)
 
 const koksma__pipeline koksma__pipeline_wavefront = {
     .name = "wavefront",
-    .title = "all scenes and options: traces blocks of paths, one vertex at a time",
+    .title = "all scenes and options; traces blocks of paths, one vertex at a time",
     .takes = takes,
     .together = TOGETHER,
     .open = koksma__wavefront_open,

@@ -15,7 +15,8 @@
 typedef struct koksma__path {
     float o[3], d[3], beta[3];
     float n[3]; /* normal of the surface where the ray starts */
-    float pdf;  /* sampling density of the direction; 0 from a mirror or the eye, -1 if the ray must not see lights */
+    /* sampling density of the direction: 0 if the ray comes from a mirror or the eye, -1 if it must not see lights */
+    float pdf;
     float time;
     int32_t from; /* the primitive on which the ray starts, or -1 */
     uint32_t sample;
@@ -40,9 +41,9 @@ typedef struct koksma__wavefront_scratch {
     koksma__queue queues[2];
     float *sums;                         /* light of each sample, 3 numbers per sample */
     uint8_t *pixel_of;                   /* for each sample, the index of its pixel in the group */
-    bool is_alive[KOKSMA__GROUP_PIXELS]; /* tells which pixels of the group have a path at this bounce */
+    bool is_alive[KOKSMA__GROUP_PIXELS]; /* for each pixel of the group, whether it has a path at this bounce */
     koksma__vertices *vertices;
-    float (*estimates)[KOKSMA__BLOCK]; /* estimates of the light from each light source, to choose one */
+    float (*estimates)[KOKSMA__BLOCK]; /* estimates of the light from each light source, for choosing one source */
 } koksma__wavefront_scratch;
 
 /* The tracing of one group at one bounce. */
@@ -51,7 +52,7 @@ typedef struct koksma__trace {
     koksma__wavefront_scratch *scratch;
     const koksma__group *group;
     koksma__queue *next;
-    int bounce, first; /* first is the bounce at which the paths started, 0 for paths from the eye */
+    int bounce, first; /* `first` is the bounce at which the paths started: 0 for paths from the eye */
 } koksma__trace;
 
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out);

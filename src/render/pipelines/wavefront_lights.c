@@ -4,8 +4,8 @@
  * it. With KOKSMA_LIGHTS_ONE a light is chosen with a probability proportional to its estimated light without shadows
  * (Shirley 1991, section 5.4; Shirley, Wang & Zimmerman 1996), so that one shadow ray per vertex suffices for many
  * lights; the sampled light is divided by the probability. Other options choose uniformly or in proportion to the
- * power of the lights. Light that a ray along a followed lobe can also find is weighted as the flags of the
- * integrator say.
+ * power of the lights. The flags of the integrator determine the weight of light that a ray along a followed lobe can
+ * also find.
  */
 #include <string.h>
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The homogeneous medium in the wavefront tracer. Between `closest` and `emission` each ray is sampled (medium.c): either
- * its light comes from what it hits, or it is scattered before that. In a block both kinds of lanes go on together: a point
- * of the medium is a surface with the material of the phase function, so that lights and directions are sampled there as
- * on surfaces, each by its own uses of the vertex. Shadow rays are attenuated by the transmittance.
+ * The homogeneous medium in the wavefront tracer. Between the stages `closest` and `emission` a distance is sampled
+ * along each ray (medium.c): the ray either reaches the surface that it hits, or is scattered before. A block can
+ * contain both kinds of lanes: a point of the medium is represented as a surface whose material is the phase
+ * function, so that lights and directions are sampled there as on surfaces. Shadow rays are attenuated by the
+ * transmittance.
  */
 #include "render/pipelines/wavefront_medium.h"
 

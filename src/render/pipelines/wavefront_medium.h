@@ -5,13 +5,13 @@
 
 #include "render/pipelines/vertices.h"
 
-/* Samples the medium of a scene along the rays of the paths, whose hits are known, by the first number of each sample's pair.
-   Multiplies the weights of the paths, and replaces hits by points of the medium: their material is that of the medium, their
-   normal is 0, and their primitive is 0 until koksma__wavefront_detach. */
+/* Samples the medium along the rays of the paths, whose hits are known; the first number of each sample's pair
+   selects the distance. Multiplies the weights of the paths, and replaces hits by points of the medium: their
+   material is that of the medium, their normal is 0, and their primitive is 0 until koksma__wavefront_detach. */
 void koksma__wavefront_travel(const koksma_scene *scene, const float *pairs, koksma__paths *paths,
                               koksma__vertices *v);
 
-/* Sets the primitive of points in the medium to -1: rays from there start on nothing. */
+/* Sets the primitive of points in the medium to -1, because rays from there do not start on a primitive. */
 void koksma__wavefront_detach(const koksma_scene *scene, koksma__vertices *v);
 
 /* Multiplies light by the transmittance of the medium along the shadow rays. */

@@ -71,7 +71,7 @@ koksma_status koksma__wavefront_reserve(koksma__queue *queue)
 static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, koksma__drawn **out)
 {
     KOKSMA__FAIL_IF(scratch->n_drawn * scratch->capacity > KOKSMA__MAX_DRAWN, KOKSMA_ARGUMENT,
-                    "the scene needs too many uses for %zu samples at once: fewer samples a pixel would do",
+                    "the scene needs too many sample dimensions for %zu samples at once; use fewer samples a pixel",
                     scratch->capacity);
     /* the samples of a pixel are padded to whole lanes */
     const size_t n = 2 * (scratch->capacity + KOKSMA__LANE_STEP);
@@ -87,8 +87,8 @@ static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, k
     return KOKSMA_OK;
 }
 
-/* Draws the samples of each run of consecutive pixels that have paths, from the first run to the last: the copies
-   that fill the lanes of one run are overwritten by the next run, or lie where no sample is. */
+/* Draws the samples of each run of consecutive pixels that have paths, in ascending order: the copies that fill the
+   last lanes of one run are overwritten by the next run, or lie behind the last sample. */
 static koksma_status draw_alive(const koksma__trace *trace, uint32_t use, float *pairs)
 {
     koksma__wavefront_scratch *scratch = trace->scratch;

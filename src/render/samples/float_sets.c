@@ -3,8 +3,8 @@
  * Generates the point sets of a pixel in single precision. A rendered image needs a point set for each pixel and use,
  * in floats; koksma_generate makes doubles from 53 random bits, one set per call. The patterns in this file have a
  * float form of the same distribution: each coordinate takes one random word, loops run over SIMD lanes, and the
- * points come in the order that the pairing needs. koksma_generate draws all other patterns, and these patterns with
- * other parameters.
+ * points are made in the order that the pairing needs. koksma_generate makes all other patterns, and these patterns
+ * with parameters that have no float form.
  *
  * A coordinate is a multiple of 2^-24 below 1, which a float represents exactly. A cell begins at the first multiple
  * that lies in it, and all m cells have the same number of multiples, so that every point lies in its cell; the
@@ -52,7 +52,7 @@ static koksma_status make_corners(koksma__float_set *set, size_t numbers)
     return set->corners ? KOKSMA_OK : koksma__fail_memory(numbers * sizeof *set->corners);
 }
 
-/* Fills the corners for a Latin pattern: both numbers of pair i are the start of stratum i of n. */
+/* Fills the corners for a Latin hypercube pattern: both numbers of pair i are the start of stratum i of n. */
 static koksma_status make_strata(koksma__float_set *set)
 {
     const koksma_status status = make_corners(set, 2 * set->n);

@@ -16,20 +16,20 @@ typedef struct koksma__float_scratch {
 
 typedef struct koksma__float_set koksma__float_set;
 
-/* Generates a set from set->words random words. `order` is the order of its points, or NULL for that of the
-   pattern; `offset` is added to all points. */
+/* Generates a set from set->words random words. `order` is the order of its points, or NULL for the pattern's own
+   order; `offset` is added to all points. */
 typedef void koksma__float_draw(const koksma__float_set *set, const koksma__batch_table *batch, const uint32_t *words,
                                 const uint16_t *order, const float offset[2], const koksma__float_scratch *scratch,
                                 float *pairs);
 
 /* The float form of a pattern for sets of n points in the plane or on the line (where y = 0). */
 struct koksma__float_set {
-    koksma__float_draw *draw; /* NULL: there is no float form */
+    koksma__float_draw *draw; /* NULL if there is no float form */
     size_t n, words;
     int dim;
-    bool in_random_order; /* `draw` takes an order even where the pairing does not shuffle the points */
-    bool has_order;       /* the words begin with those of an order, which `draw` finds in scratch->order */
-    float *corners;       /* pairs: the corners of cells, or the start of one stratum twice */
+    bool in_random_order; /* whether `draw` needs an order even where the pairing does not shuffle the points */
+    bool has_order;       /* whether the first words are for a random order, which `draw` finds in scratch->order */
+    float *corners;       /* pairs: each is the corner of a cell, or twice the start of one stratum */
     float scale[2];       /* factor from a 24-bit word to an offset within a cell */
     size_t columns, rows;
     uint32_t partners[2][32];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Draws one point set over the whole image instead of one per pixel, which Mitchell (1992) leaves as an open
+ * Draws one point set over the whole image instead of one per pixel, an idea that Mitchell (1992) leaves as an open
  * question. Each use has a set of n = spp width height points. The set of the use `pixel`, stretched over the film,
  * determines which samples each pixel has, and how many. The samples of a pixel keep the order of the pattern.
  */
@@ -41,7 +41,8 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
     while (from < end && from->use != use) {
         from++;
     }
-    KOKSMA__FAIL_IF(from == end, KOKSMA_ARGUMENT, "the image's samples were drawn without use %u", (unsigned)use);
+    KOKSMA__FAIL_IF(from == end, KOKSMA_ARGUMENT, "the samples of the image were drawn without use number %u",
+                    (unsigned)use);
     const float width = (float)s->options->width, height = (float)s->options->height;
     for (uint32_t i = s->first[pixel]; i < s->first[pixel + 1]; i++) {
         const float *pair = from->pairs + 2 * (size_t)s->order[i];
@@ -87,8 +88,8 @@ static void keep(const double *xs, int dim, int first, bool two, size_t n, const
     }
 }
 
-/* Draws a random order for the set with this key. *out is NULL where the pattern's order is kept: without shuffled
-   pairing, and for the film positions, which determine the pixel of each sample. */
+/* Draws a random order for the set with this key. *out is NULL where the pattern's order is kept: if the pairing is
+   not shuffled, and for the film positions, which determine the pixel of each sample. */
 static koksma_status draw_order(const image_samples *s, uint32_t set_key, uint32_t **out)
 {
     *out = NULL;
@@ -152,7 +153,8 @@ static size_t pixel_of(const image_samples *s, size_t sample)
 {
     const float *pair = s->sets[0].pairs + 2 * sample;
     const float width = (float)s->options->width, height = (float)s->options->height;
-    const float x = pair[0] * width, y = pair[1] * height; /* rounding may give x = width or y = height */
+    /* rounding may give x = width or y = height, which are outside the film */
+    const float x = pair[0] * width, y = pair[1] * height;
     const size_t column = x < width ? (size_t)x : (size_t)width - 1,
                  row = y < height ? (size_t)y : (size_t)height - 1;
     return row * (size_t)s->options->width + column;
@@ -236,8 +238,8 @@ static koksma_status make_room(const koksma_render_options *options, const koksm
     const size_t pixels = (size_t)options->width * (size_t)options->height;
     const size_t n_sets = list_uses(uses, NULL);
     KOKSMA__FAIL_IF(pixels * (size_t)options->spp > MAX_NUMBERS / 2 / n_sets, KOKSMA_ARGUMENT,
-                    "%dx%d pixels of %d samples with %zu uses: scope image keeps at most %zu numbers", options->width,
-                    options->height, options->spp, n_sets, MAX_NUMBERS);
+                    "%dx%d pixels of %d samples with %zu uses: scope image can store at most %zu numbers",
+                    options->width, options->height, options->spp, n_sets, MAX_NUMBERS);
     image_samples *s = calloc(1, sizeof *s + n_sets * sizeof *s->sets);
     *out = s;
     KOKSMA__REQUIRE_MEMORY(s, sizeof *s);

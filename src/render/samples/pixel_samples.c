@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Draws a new point set of the pattern in every pixel. Distribution ray tracing needs a point with the dimensions of
- * all uses. Cook (1986) and Shirley (1991, section 5.5.4) build it from 2D sets, one per use, whose strata are
- * matched by random permutations ("uncorrelated jitter"): the set of each use alone is as well spread as its pattern,
- * and the uses are independent. A pattern with native pairing has the dimensions of all uses, and the pattern of a
- * group has the dimensions of the group's uses; the coordinates of each such point stay together in one sample.
+ * Draws a new point set of the pattern in every pixel. Distribution ray tracing needs, for each sample, a point with
+ * the dimensions of all uses. Cook (1986) and Shirley (1991, section 5.5.4) build such points from 2D sets, one per
+ * use, whose strata are matched by random permutations ("uncorrelated jitter"): the set of each use alone is as well
+ * spread as its pattern, and the uses are independent. A pattern with native pairing has the dimensions of all uses,
+ * and the pattern of a group has the dimensions of the group's uses; the coordinates of each such point stay together
+ * in one sample.
  *
  * The random words are hashes of (seed, pixel, use). float_sets.c makes the pairs of a use in floats if its pattern
  * has such a form; koksma_generate makes all others.
@@ -31,15 +32,15 @@ typedef struct pixel_samples {
     const koksma__batch_table *batch;
     koksma__use_list uses;
     /* The arrays below are indexed by use. `fixed` has point sets that are made only once: the one set of a
-       deterministic pattern, or all sets of a family of files (file_names.h), from which the seed of a pixel
-       chooses; else it is NULL. */
+       deterministic pattern, or all sets of a family of files (file_names.h), of which the seed of a pixel chooses
+       one; otherwise it is NULL. */
     float *fixed[KOKSMA_N_USES];
     size_t fixed_sets[KOKSMA_N_USES];
     int dims[KOKSMA_N_USES]; /* number of dimensions of the generated sets */
     koksma__float_set floats[KOKSMA_N_USES];
     bool shuffles[KOKSMA_N_USES];
     koksma__place_of_use places[KOKSMA_N_USES];
-    /* for each group, the number of dimensions that other groups occupy before it in the scratch */
+    /* for each group, the index of its first dimension in the scratch, which holds the groups one after the other */
     size_t kept_first[KOKSMA_MAX_USE_GROUPS];
 } pixel_samples;
 
@@ -81,8 +82,8 @@ static bool has_two(uint32_t use)
     return koksma_use_at((size_t)koksma__use_index(use))->dim == 2;
 }
 
-/* Draws a set for a group of uses, and copies one use's coordinates to room->xs. The scratch keeps the set, because
-   the group's other uses of the same pixel are drawn later, after this use of the neighbouring pixels. */
+/* Draws a set for a group of uses, and copies the coordinates of one use to room->xs. The scratch keeps the set,
+   because the other uses of the group are drawn later, after this use has been drawn for the neighbouring pixels. */
 static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pixel, uint32_t use,
                                      koksma__sample_scratch *room)
 {
@@ -132,11 +133,13 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
     return status;
 }
 
-/* What a use takes of random words in each pixel: for its set in floats, or for the order of a set made otherwise. */
+/* The random words that a use needs in each pixel: for its set, if the pattern has a float form, or for the order of
+   a set that koksma_generate makes. */
 typedef struct demand {
     const koksma__float_set *floats; /* NULL: made otherwise */
-    bool shuffles, ordered;          /* ordered: the words begin with those of an order by the kernel `order` */
-    size_t counters;                 /* of four words */
+    /* ordered: whether the first words are for the kernel `order`, which makes a random order */
+    bool shuffles, ordered;
+    size_t counters; /* of four words */
     uint32_t key;
 } demand;
 
@@ -154,7 +157,7 @@ static demand demand_of(const pixel_samples *samples, uint32_t use)
     return d;
 }
 
-/* Where the orders within float sets begin. */
+/* The index of the word at which the orders within float sets begin. */
 static uint16_t *own_orders(const koksma__sample_scratch *room, size_t n)
 {
     return room->order + room->room_for * n + 64;
@@ -169,7 +172,8 @@ static void draw_words(const pixel_samples *samples, const demand *d, uint64_t f
         koksma__kernels()->draws(samples->options->seed, KOKSMA__PURPOSE_PIXEL, first * d->counters, d->key,
                                  count * d->counters, room->words);
     }
-    for (size_t p = 0; d->ordered && p < count; p++) { /* an order may write over the next */
+    /* ascending, because the kernel may write beyond an order, into the place of the next one */
+    for (size_t p = 0; d->ordered && p < count; p++) {
         samples->batch->order(room->words + 4 * p * d->counters, n, room->order + p * n);
     }
     const size_t first_own = d->ordered ? koksma__order_words(n) : 0;
@@ -283,7 +287,7 @@ static koksma_status keep_fixed(const double *set, size_t n, int dim, int first,
     return status;
 }
 
-/* Reads all sets of n points of a family of files, so that no pixel has to open a file. */
+/* Reads all sets of n points of a family of files in advance, so that no pixel has to open a file. */
 static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, float **fixed, size_t *n_sets)
 {
     static const float nowhere[2] = {0, 0};
@@ -380,8 +384,8 @@ static koksma_status try_uses(pixel_samples *samples)
 static koksma_status check_kept(size_t n, int dim, const char *of)
 {
     return n * (size_t)dim > MAX_KEPT
-               ? koksma__fail(KOKSMA_ARGUMENT, "%zu samples in %d dimensions: %s keeps at most %zu numbers", n, dim,
-                              of, MAX_KEPT)
+               ? koksma__fail(KOKSMA_ARGUMENT, "%zu samples in %d dimensions: %s can store at most %zu numbers", n,
+                              dim, of, MAX_KEPT)
                : KOKSMA_OK;
 }
 
@@ -408,7 +412,7 @@ static koksma_status try_group(pixel_samples *samples, int g)
     return status;
 }
 
-/* Checks the groups that have at least one use that the image needs. */
+/* Checks each group of which the image needs at least one use. */
 static koksma_status try_groups(koksma__sampler *sampler, pixel_samples *samples)
 {
     const koksma_use_group *groups = samples->options->groups;

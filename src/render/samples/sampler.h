@@ -21,14 +21,14 @@ enum {
     KOKSMA__MAX_BOUNCES = 255
 };
 
-/* The scratch memory of a thread: buffers for the points of one pixel, and a store (`kept`) for the sets that
-   several uses share, those of a native pattern or of groups of uses, for as many pixels as are drawn together. */
+/* The scratch memory of a thread: buffers for the points of one pixel, and a store (`kept`) for the sets that several
+   uses share (those of a native pattern or of groups of uses), for all pixels that are drawn together. */
 typedef struct koksma__sample_scratch {
     double *xs;
     float *pairs;
     uint32_t *words;               /* buffer for the random words of a use in `room_for` pixels */
-    uint16_t *order;               /* buffers for two orders of its samples in each of them */
-    size_t room_for, first, count; /* `prepare` filled them for the pixels first .. first + count - 1 */
+    uint16_t *order;               /* buffers for two orders of the samples of each of these pixels */
+    size_t room_for, first, count; /* `prepare` filled the buffers for the pixels first .. first + count - 1 */
     double *kept;
     uint64_t *kept_keys;   /* the key of the set in each slot; 0: none */
     const koksma_run *run; /* the run of the sampler, or one that is never cancelled */
@@ -45,8 +45,8 @@ typedef struct koksma__sampler {
     size_t kept_sets;  /* number of groups; a native pattern counts as one group */
     size_t kept_slots; /* pixels in `kept`; the sets of a pixel are in slot pixel modulo kept_slots */
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
-    /* Draws the random words of a use for several pixels together, which takes less time, before `draw` is called for
-       each of them with the same scratch; NULL: draws alone. */
+    /* Draws the random words of a use for several pixels at once, which saves time, before `draw` is called for each
+       of these pixels with the same scratch; NULL: draws alone. */
     void (*prepare)(const struct koksma__sampler *sampler, uint64_t first, size_t count, uint32_t use,
                     koksma__sample_scratch *room);
     /* Draws the pairs of a use in a pixel and adds the offset; the second number of a one-dimensional use has no
@@ -56,8 +56,8 @@ typedef struct koksma__sampler {
     void (*release)(struct koksma__sampler *sampler);
 } koksma__sampler;
 
-/* The uses that a scene and an integrator need. Native pairing assigns them to dimensions, and scope `image` draws
-   them before the image. */
+/* The uses that a scene and an integrator need. Native pairing assigns these uses to dimensions, and scope `image`
+   draws their samples before the image is rendered. */
 typedef struct koksma__use_list {
     bool lens, time;
     int lights;        /* number of light uses per bounce */
@@ -83,7 +83,7 @@ koksma_status koksma__image_samples(const koksma_render_options *options, const 
 koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler);
 void koksma__sample_scratch_fini(koksma__sample_scratch *room);
 
-/* The coordinates that a use takes from the points of its set. */
+/* Which coordinates a use takes from the points of its set. */
 typedef struct koksma__place_of_use {
     int group;      /* index in the options of the group of uses that this use belongs to; -1: it is in no group */
     int first, dim; /* the first coordinate of the use, and the number of dimensions of the set */
@@ -95,7 +95,7 @@ koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *option
    itself. */
 uint32_t koksma__set_key(const koksma__place_of_use *place, uint32_t use);
 
-/* Returns the pattern spec of a use: that of its group, its own, or the common one. */
+/* Returns the pattern spec of a use: that of its group, that of the use alone, or the one common to all uses. */
 const koksma_spec *koksma__use_spec(const koksma_render_options *options, uint32_t use);
 
 /* Returns the number of dimensions of the point sets for use u, which must not be in a group. A one-dimensional

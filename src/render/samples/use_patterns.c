@@ -47,11 +47,10 @@ static koksma_status fail_dimensions(const koksma_use_group *group)
         snprintf(parts + used, sizeof parts - used, "%s%s %d", i ? ", " : "", use->name, use->dim);
     }
     snprintf(has, sizeof has, p->min_dim == p->max_dim ? "%d" : "%d to %d", p->min_dim, p->max_dim);
-    return koksma__fail(
-        KOKSMA_DIM,
-        "%s=%s: these uses have %d dimensions together (%s), the pattern has %s; it takes uses with as "
-        "many, or another pattern",
-        name, p->name, dimensions(group), parts, has);
+    return koksma__fail(KOKSMA_DIM,
+                        "%s=%s: these uses have %d dimensions together (%s), but the pattern has %s; choose uses "
+                        "with as many dimensions, or another pattern",
+                        name, p->name, dimensions(group), parts, has);
 }
 
 static koksma_status check_group(const koksma_use_group *group)
@@ -61,10 +60,10 @@ static koksma_status check_group(const koksma_use_group *group)
         return KOKSMA_OK;
     }
     KOKSMA__FAIL_IF(group->n_uses < 2 || group->n_uses > KOKSMA_N_USES, KOKSMA_ARGUMENT,
-                    "a group of %d uses: it takes 2 to %d", group->n_uses, KOKSMA_N_USES);
+                    "a group of %d uses: a group must have 2 to %d", group->n_uses, KOKSMA_N_USES);
     for (int i = 0; i < group->n_uses; i++) {
         KOKSMA__FAIL_IF(group->uses[i] < 0 || group->uses[i] >= KOKSMA_N_USES, KOKSMA_ARGUMENT,
-                        "use number %d of a group: it takes 0 to %d", group->uses[i], KOKSMA_N_USES - 1);
+                        "use number %d in a group: the number must be 0 to %d", group->uses[i], KOKSMA_N_USES - 1);
     }
     koksma_use_group_text(group, name);
     KOKSMA__FAIL_IF(!group->pattern.pattern, KOKSMA_ARGUMENT,
@@ -86,7 +85,7 @@ static int patterns_of(const koksma_render_options *options, int u)
     return n;
 }
 
-/* Native pairing has one pattern for all uses: fails if a use or group has another pattern. */
+/* Fails if a use or group has its own pattern although native pairing uses one pattern for all uses. */
 static koksma_status check_native(const koksma_render_options *options)
 {
     char name[KOKSMA_MAX_SPEC] = "";
@@ -117,7 +116,7 @@ koksma_status koksma__check_use_patterns(const koksma_render_options *options)
         KOKSMA__FAIL_IF(!options->patterns[u].pattern && options->patterns[u].measure, KOKSMA_ARGUMENT,
                         "the options' pattern for '%s' is the spec of a measure", name);
         KOKSMA__FAIL_IF(patterns_of(options, u) > 1, KOKSMA_ARGUMENT,
-                        "use %s has two patterns: it takes one, alone or in one group", name);
+                        "use %s has two patterns: a use takes one, alone or in one group", name);
     }
     return !status && options->pairing == KOKSMA_PAIRING_NATIVE ? check_native(options) : status;
 }
@@ -127,12 +126,11 @@ koksma_status koksma__check_single_use(const koksma_spec *spec)
     const koksma_pattern *p = spec->pattern;
     char has[64];
     snprintf(has, sizeof has, p->min_dim == p->max_dim ? "%d" : "%d to %d", p->min_dim, p->max_dim);
-    return p->min_dim > 2
-               ? koksma__fail(KOKSMA_DIM,
-                              "%s: a use alone has 1 or 2 dimensions, the pattern has %s; it takes a group "
-                              "of uses, such as pixel+time=PATTERN",
-                              p->name, has)
-               : KOKSMA_OK;
+    return p->min_dim > 2 ? koksma__fail(KOKSMA_DIM,
+                                         "%s: a single use has 1 or 2 dimensions, but the pattern has %s; give it to "
+                                         "a group of uses, such as pixel+time=PATTERN",
+                                         p->name, has)
+                          : KOKSMA_OK;
 }
 
 static koksma_status try_set(const koksma_spec *spec, size_t n, int dim, const koksma_run *run)
@@ -207,12 +205,12 @@ static koksma_status parse_uses(const char *part, const char *text, size_t lengt
         const size_t name = strcspn(at, "+=");
         const int use = find_use(at, name);
         KOKSMA__FAIL_IF(use < 0, KOKSMA_UNKNOWN,
-                        "%s: no such use; a sample is spent on pixel, lens, time, light-choice, light, lobe, "
-                        "lobe-choice, roulette and distance",
+                        "%s: no such use; the uses are pixel, lens, time, light-choice, light, lobe, lobe-choice, "
+                        "roulette and distance",
                         part);
         for (int i = 0; i < group->n_uses; i++) {
             KOKSMA__FAIL_IF(group->uses[i] == use, KOKSMA_ARGUMENT,
-                            "%s: use %s is there twice; a group takes each once", part,
+                            "%s: use %s occurs twice; a group takes each use once", part,
                             koksma_use_at((size_t)use)->name);
         }
         group->uses[group->n_uses++] = use;
@@ -228,7 +226,7 @@ static koksma_status add_group(const char *part, const koksma_use_group *group, 
     int g = 0;
     for (int i = 0; i < group->n_uses; i++) {
         KOKSMA__FAIL_IF(patterns_of(options, group->uses[i]), KOKSMA_ARGUMENT,
-                        "%s: use %s has a pattern already; it takes one, alone or in one group", part,
+                        "%s: use %s already has a pattern; a use takes one, alone or in one group", part,
                         koksma_use_at((size_t)group->uses[i])->name);
     }
     if (group->n_uses == 1) {

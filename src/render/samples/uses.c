@@ -32,7 +32,7 @@ enum {
 };
 
 _Static_assert((int)LINES == (int)KOKSMA_N_USES && sizeof uses_table / sizeof *uses_table == KOKSMA_N_USES,
-               "koksma/render.h counts the uses, and their numbers count up from 0");
+               "koksma/render.h must have the right number of uses, and their numbers must count up from 0");
 
 const koksma_use *koksma_use_at(size_t i)
 {
@@ -65,7 +65,7 @@ koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *option
         for (int i = 0; i < group->n_uses && i < KOKSMA_N_USES; i++) {
             const int other = group->uses[i];
             if (other < 0 || other >= KOKSMA_N_USES) {
-                continue; /* the options may not have been checked by koksma__check_use_patterns */
+                continue; /* koksma__check_use_patterns may not have checked the options yet */
             }
             if (other == u) {
                 place.group = g;
@@ -81,8 +81,7 @@ koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *option
     return (koksma__place_of_use){.group = -1, .dim = uses_table[u].dim};
 }
 
-/* Among the uses of a vertex only lights can occur several times, and only the first light shares the set of a
-   group. */
+/* Only the use `light` can occur several times at a vertex, and only the first light shares the set of a group. */
 uint32_t koksma__set_key(const koksma__place_of_use *place, uint32_t use)
 {
     return place->group < 0 || use % KOKSMA__USES_A_BOUNCE > KOKSMA__USE_LIGHT

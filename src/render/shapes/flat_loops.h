@@ -38,7 +38,7 @@ INLINE void koksma__flat_hit(const koksma__batch_shape *shape, const koksma__ray
     }
 }
 
-/* The loops hit and finish in one, for a block of rays that start on no shape and can hit no other shape. */
+/* The loops `hit` and `finish` combined, for a block of rays that start on no shape and can hit no other shape. */
 INLINE int koksma__flat_only(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
                              koksma__hits *restrict h, koksma__within *within)
 {
@@ -76,8 +76,8 @@ INLINE int koksma__flat_only(const koksma__batch_shape *shape, const koksma__ray
     return count;
 }
 
-/* aimed: the shape of the light at which each ray is aimed. That shape cannot block the ray, and neither can the
-   shape on which the ray starts. */
+/* aimed: the shape of the light at which each ray is aimed. Neither that shape nor the shape on which the ray starts
+   can block the ray. */
 INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__hits *restrict h, const int32_t *aimed,
                                int n, koksma__shadows *restrict r, koksma__within *within)
 {

@@ -3,8 +3,8 @@
 #include "core/vector.h"
 #include "render/shapes/shapes.h"
 
-/* Makes side `side` (0 to 5: -x +x -y +y -z +z of the box's axes), a rectangle in the frame that a rectangle with
-   this normal has: v is the box's y, and -z for top and bottom; u = v x normal. */
+/* Makes the side with number `side` (0 to 5: -x +x -y +y -z +z of the box's axes), a rectangle with the axes that a
+   rectangle with this normal has by default: v is the box's y, or -z for top and bottom; u = v x normal. */
 static void make_side(koksma__shape *shape, double axes[3][3], const double half[3], int side)
 {
     const int along = side / 2;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mesh and instance: they have a file, a placement and a material. A mesh is read once; its instances are placements
- * of the same triangles. Embree intersects them (accel/accel_embree.c).
+ * The shapes mesh and instance: a mesh has a file, a placement and a material and is read once; an instance is
+ * another placement of the same triangles. Embree intersects them (accel/accel_embree.c).
  */
 #include <string.h>
 
@@ -99,7 +99,7 @@ static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh
         status = parse_emission(f, scene, p);
     } else if (!status && !scene->meshes[mesh].uvs &&
                (scene->materials[material].checker || scene->materials[material].image)) {
-        status = koksma__json_fail(f, "a mesh without texture coordinates takes no checker and no image");
+        status = koksma__json_fail(f, "a mesh without texture coordinates can't have a checker or an image");
     }
     return status ? status : p->smooth ? koksma__mesh_smooth(&scene->meshes[mesh]) : KOKSMA_OK;
 }
@@ -164,7 +164,7 @@ const koksma__shape_type koksma__shape_mesh = {
 
 const koksma__shape_type koksma__shape_instance = {
     .kind = {.name = "instance",
-             .title = "the mesh of that name once more",
+             .title = "another placement of the mesh with this name",
              .cite = "-",
              .keys = KEYS("of", PLACEMENT)},
     .takes_checker = true,

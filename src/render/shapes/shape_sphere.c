@@ -25,7 +25,8 @@ INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *res
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
         const float inverse = 1 / a, middle = -b * inverse;
-        /* uses the vector from the centre to the line's nearest point, which avoids cancellation of large squares */
+        /* the vector from the centre to the line's nearest point is used, which avoids cancellation of large
+           squares */
         const float qx = ex + middle * dx, qy = ey + middle * dy, qz = ez + middle * dz;
         const float rest = radius2 - (qx * qx + qy * qy + qz * qz);
         const float reach = sqrtf((rest > 0 ? rest : 0) * inverse);
@@ -39,7 +40,7 @@ INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *res
     }
 }
 
-/* Sets position and normal of the lanes that hit the sphere; all: every lane hits it. */
+/* Sets position and normal of the lanes that hit the sphere. all: whether every lane hits it. */
 INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *restrict r, int n,
                           koksma__hits *restrict h, bool all, bool moves)
 {
@@ -69,7 +70,7 @@ INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *rest
 /* Blocks the shadow rays for which |e + t d|^2 = r^2 has a root in (0, end). Multiplied by a = d.d the equation is (a
    t + b)^2 = D with b = e.d and, by Lagrange's identity, D = a r^2 - |e x d|^2: this avoids a difference of large
    squares, so that small spheres far away keep their shadows. An end of the ray is inside the sphere if (a t + b)^2 <
-   D; if both ends are outside, the line must cross the sphere between them. For a ray that starts on the sphere D is
+   D; if both ends are outside, the line must cross the sphere between them. For a ray that starts on the sphere, D is
    exactly b^2. */
 INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restrict h, const int32_t *aimed, int n,
                          koksma__shadows *restrict r, bool moves)
@@ -93,7 +94,8 @@ INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restr
     }
 }
 
-/* The same for a sphere at rest on which all rays start: the rays that go inwards are blocked. */
+/* Blocks shadow rays like the function above, for a sphere at rest on which all rays start: the rays that go inwards
+   are blocked. */
 static void shade_own(const koksma__batch_shape *s, const koksma__hits *restrict h, const int32_t *aimed, int n,
                       koksma__shadows *restrict r)
 {

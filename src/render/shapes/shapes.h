@@ -34,12 +34,12 @@ typedef struct koksma__shape_type {
        which the normal points. */
     double (*equation)(const koksma__shape *shape, const double p[3], double *beyond);
 
-    /* The loops; n as in batch.h. hit: sets t and primitive where the shape is closer than the hit so far. from: the
-       shape on which each ray starts, whose t = 0 is no hit, or -1. */
+    /* The loops; n as in batch.h. hit: sets t and primitive where the shape is closer than the closest hit so far.
+       from: the shape on which each ray starts, where t = 0 does not count as a hit, or -1. */
     void (*hit)(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
                 koksma__hits *hits);
-    /* Sets position, normal, coordinates, side and material of the hits on this shape; all: every lane hits it. NULL:
-       flat shapes, which share a loop. */
+    /* Sets position, normal, coordinates, side and material of the hits on this shape. all: whether every lane hits
+       it. NULL: flat shapes, which share a loop. */
     void (*finish)(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits, bool all);
     /* Sets the light of lanes that the shape blocks to 0; aimed: the shape at which each ray is aimed, which cannot
        block it, or -1. */

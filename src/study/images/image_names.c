@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads the file names of images that another renderer made. A path is matched with a template whose names in
+/* Reads the file names of images that another renderer made. A path is matched with a template, in which names in
    braces, such as {spp} and {trial}, stand for digits or text. {spp} and {trial} are numbers; all other names
    together identify the image's group. The matching backtracks, and remembers failures so that its time is
    bounded. */
@@ -37,7 +37,7 @@ typedef struct trial_fit {
     const char *path;
     size_t length;
     unsigned char *failed;      /* (MAX_PLACES + 1) x (length + 1) flags */
-    size_t lengths[MAX_PLACES]; /* length of the text at each place */
+    size_t lengths[MAX_PLACES]; /* length of the text that each place (a name in braces) stands for */
 } trial_fit;
 
 /* Whether the path from `at` on fits the rest of the template. Longer texts are tried first for each place. The
@@ -104,7 +104,7 @@ koksma_status koksma__image_names_pattern(const char *places, char *pattern, siz
         if (*at == '{') {
             at = strchr(at, '}');
             KOKSMA__FAIL_IF(++n > MAX_PLACES, KOKSMA_ARGUMENT, "'%s': more than %d places", places, MAX_PLACES);
-            KOKSMA__FAIL_IF(!at, KOKSMA_ARGUMENT, "'%s': a place that is not closed", places);
+            KOKSMA__FAIL_IF(!at, KOKSMA_ARGUMENT, "'%s': a brace is not closed", places);
             pattern[used++] = '*';
         } else {
             if (strchr("*?[]\\", *at)) {

@@ -26,11 +26,12 @@
 typedef struct picture {
     const char *path;
     koksma__image_name name;
-    /* aligned to 8 also where a double needs less, so that the struct is an array of doubles */
+    /* aligned to 8 bytes even where a double needs less, so that an array of the struct can be read as doubles */
     _Alignas(8) koksma_image_error error;
     double robust, top_share;
 } picture;
-_Static_assert(sizeof(picture) % sizeof(double) == 0, "the statistics step over pictures by doubles");
+_Static_assert(sizeof(picture) % sizeof(double) == 0,
+               "the statistics step over an array of pictures in units of doubles");
 
 typedef struct pictures {
     size_t n;
@@ -98,7 +99,7 @@ static koksma_status compare_one(void *context, size_t i)
     koksma_status status = koksma__image_read(all->at[i].path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &image);
     if (!status) {
         status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
-        /* A single pixel with NaN would make the mean of a whole group NaN. */
+        /* images with a NaN are refused, because one NaN would make the mean of a whole group NaN */
         status =
             status ? koksma__fail_in(status, all->at[i].path) : koksma_image_check_finite(&image, all->at[i].path);
         status = status ? status : apply_metric(all, &image, &all->at[i]);

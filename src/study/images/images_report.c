@@ -16,11 +16,11 @@
 #include "study/report/document.h"
 #include "study/report/page.h"
 
-/* The most bytes of floats on a page, before base64 encoding, and the most images shown. */
+/* The maximum number of bytes of floats on a page, before base64 encoding, and the maximum number of images shown. */
 enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
 
-/* Writes a group's texts without their names, "sobol ball" for "sampler=sobol scene=ball", so that a pattern's
-   name selects its colour in charts. */
+/* Writes the texts of a group without their names, such as "sobol ball" for "sampler=sobol scene=ball", so that the
+   chart recognises the pattern's name and uses its colour. */
 static const char *label_of(const koksma_images_row *row, char label[KOKSMA_IMAGES_GROUP])
 {
     char *to = label;

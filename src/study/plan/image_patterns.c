@@ -25,7 +25,8 @@ koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_S
     KOKSMA__TRY(koksma__image_pattern_set(text, &options));
     koksma_render_patterns_text(&options, all);
     KOKSMA__FAIL_IF(strlen(all) >= KOKSMA_MAX_SPEC, KOKSMA_ARGUMENT,
-                    "'%.40s...': the patterns of an image take at most %d characters", all, KOKSMA_MAX_SPEC - 1);
+                    "'%.40s...': the text of an image's patterns may have at most %d characters", all,
+                    KOKSMA_MAX_SPEC - 1);
     memcpy(out, all, strlen(all) + 1);
     return KOKSMA_OK;
 }

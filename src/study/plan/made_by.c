@@ -2,7 +2,7 @@
 /* Lists the revisions of the code that makes a row: "random 0" for points, "renderer 0, n-rooks 0, sobol 0" for
    an image with two patterns. Each generator of a row is listed once. When the revision of one of them changes,
    so does the text, and with it the key of the row. Filters and integrators have no revisions: the renderer's
-   covers them. */
+   revision covers them. */
 #include "study/plan/made_by.h"
 
 #include <stdio.h>
@@ -16,7 +16,7 @@
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan.h"
 
-/* Appends "name revision" unless the text has it. The text has room for all uses of an image
+/* Appends "name revision" unless the text has it. The text has capacity for the patterns of all uses of an image
    (KOKSMA_MAX_PATTERNS_TEXT). */
 static void add(char text[KOKSMA__MADE_BY], const char *name, int revision)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The revisions of the patterns, measures, warps and renderer that make a row. They are part of the row's key in
-   the store: a row stays valid when another generator changes, and a row of an older revision is not taken for a
-   new one. */
+   the store: a row stays valid when another generator changes, and a row of an older revision is not mistaken for one
+   of the present revision. */
 #ifndef KOKSMA_STUDY_PLAN_MADE_BY_H
 #define KOKSMA_STUDY_PLAN_MADE_BY_H
 
@@ -20,8 +20,9 @@ typedef struct koksma__made_by {
     char value[KOKSMA__MADE_BY];
 } koksma__made_by;
 
-/* Writes the revisions of what makes a row of the series that the texts describe. For a reference, pattern is "".
-   With `first` every revision is 0, otherwise that of this program. Errors: those of the specs. */
+/* Writes the revisions of all code that makes a row of the series that the texts describe. For a reference, pattern
+   is "". If `first`, every revision is written as 0, otherwise as it is in this program. Errors: those of the
+   specs. */
 koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what, bool first,
                                    koksma__made_by *out);
 

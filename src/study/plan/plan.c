@@ -62,7 +62,8 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
         for (size_t m = 0; m < b->measures.n; m++) {
             koksma_spec spec;
             koksma_value value;
-            KOKSMA__JSON_FAIL_IF(koksma__integrand_of(b->measures.at[m]), node, "warps take measures, no integrands");
+            KOKSMA__JSON_FAIL_IF(koksma__integrand_of(b->measures.at[m]), node,
+                                 "warps can be combined with measures only, not with integrands");
             koksma_status status = koksma_measure_spec(b->measures.at[m], &spec);
             status = status ? status : koksma_warp_evaluate(warp, &spec, &point, NULL, &value);
             if (status) {
@@ -125,7 +126,8 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
     KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "the name has more than %d characters",
                          MAX_NAME);
-    if (!status && strchr(r->name, ':')) { /* a ':' ends the name in the key of rows (made_by.h) */
+    /* the name must not contain ':', which ends it in the keys of rows (made_by.h) */
+    if (!status && strchr(r->name, ':')) {
         return koksma__json_fail(node, "the name contains ':'");
     }
     return status ? status : koksma__plan_check_reference(node, r);
@@ -204,7 +206,7 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
                                         (void **)&p->questions, &p->n_questions);
     status = status ? status : koksma__plan_check_questions(root, p);
     KOKSMA__JSON_FAIL_IF(!status && p->n_discrepancies + p->n_images == 0, root,
-                         "the plan has neither 'discrepancies' nor 'images': nothing to do");
+                         "the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
     status = status ? status : koksma__plan_check_tables(root, p);
     return status ? status : koksma__plan_own(p);
 }

@@ -20,12 +20,12 @@ typedef struct koksma__wholes {
 /* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make. */
 typedef struct koksma__left_out {
     bool *is;            /* a flag for each pattern and size, true if left out; NULL: no size is left out */
-    koksma__texts lines; /* messages, each with a pattern, its sizes and the reason */
+    koksma__texts lines; /* a message for each pattern, with its sizes and the reason */
 } koksma__left_out;
 
 /* A block of discrepancies: every combination of patterns, n, warps, measures and trials. */
 typedef struct koksma__discrepancy_block {
-    char *id;               /* the name by which questions refer to the block; may be NULL */
+    char *id;               /* the name by which questions refer to the block, or NULL */
     koksma__texts patterns; /* canonical specs of patterns */
     /* canonical specs of measures, then integrands as "error of SPEC" (koksma__integrand_of) */
     koksma__texts measures;
@@ -48,10 +48,11 @@ typedef struct koksma__reference {
 typedef struct koksma__image_block {
     char *id;
     koksma__texts scenes, patterns;
-    koksma__texts variants; /* canonical texts of the options; at least one, "" when the plan names none */
+    /* canonical texts of the options; at least one text, which is "" if the plan names no options */
+    koksma__texts variants;
     koksma__wholes spp;
     koksma__left_out left_out;
-    int width, height; /* size of the images; 0: the scene's own */
+    int width, height; /* size of the images; 0: the scene's size */
     long long trials;
     size_t n_references;
     koksma__reference *references;
@@ -78,7 +79,7 @@ typedef struct koksma__table_row {
 /* A note on why a published cell differs from the computed one. */
 typedef struct koksma__note {
     char *pattern; /* pattern of the cell that differs; NULL: all rows of the column */
-    long long n;   /* n of the cell's column, in a table over several n; 0: all columns */
+    long long n;   /* in a table over several n: the n of the cell's column, or 0 for all columns */
     int statistic; /* which statistic: 0 mean, 1 SD, 2 max */
     char *reason;
     bool explained; /* true: `reason` explains the difference; false: it lists what was tried */
@@ -86,7 +87,7 @@ typedef struct koksma__note {
 
 typedef struct koksma__table {
     char *id, *title;
-    size_t part;          /* index of the plan part that has this table */
+    size_t part;          /* index of the part (of a joined plan) that has this table */
     char *scene;          /* scene of an image table; NULL: a discrepancy table */
     char *measure, *also; /* measures of a discrepancy table; `also` is shown beside the first, NULL: none */
     koksma__wholes n;     /* numbers of points; with several, each is a column (discrepancy tables only) */
@@ -116,7 +117,7 @@ typedef struct koksma__figure {
 } koksma__figure;
 
 /* Flags of a kind of question: which members it needs or takes. A kind with neither NEEDS_POINTS nor NEEDS_IMAGES
-   needs one of `discrepancies` and `images`. A plan without questions is answered by all kinds but those with
+   needs `discrepancies` or `images`. For a plan without questions the report answers all kinds except those with
    ASKED_BY_NAME. */
 enum {
     KOKSMA__NEEDS_POINTS = 1, /* the question needs `discrepancies` */
@@ -143,7 +144,7 @@ typedef struct koksma__scene_group {
 
 typedef struct koksma__question {
     char *id, *title;
-    size_t part; /* index of the plan part that has this question */
+    size_t part; /* index of the part (of a joined plan) that has this question */
     const koksma__question_kind *kind;
     char *discrepancies, *images; /* ids of the question's blocks; NULL: none */
     size_t n_groups;
@@ -153,7 +154,8 @@ typedef struct koksma__question {
 /* One of the plans that were joined into one. Its tables and questions refer only to its own blocks. */
 typedef struct koksma__plan_part {
     char *title;
-    char *about, *order;     /* order: the overall order of the patterns, as printed; both may be NULL */
+    /* order: the overall order of the patterns as the paper prints it; either text may be NULL */
+    char *about, *order;
     bool asks;               /* whether the part has tables or questions */
     size_t discrepancies[2]; /* indices of the part's blocks: the first, and one past the last */
     size_t images[2];
@@ -175,11 +177,11 @@ typedef struct koksma__plan {
 /* Options of a run that change a plan's numbers of trials. */
 typedef struct koksma__plan_trials {
     long long trials; /* if > 0, replaces the plan's numbers of trials */
-    bool quick;       /* use each block's `quick`, where it has one */
+    bool quick;       /* use the number `quick` of each block that has one */
 } koksma__plan_trials;
 
 /* Parses a plan; name is what errors call it ("plan 'my.json': line 3: …"). Checks every spec, so that a study
-   does not fail halfway. With trials NULL the plan's numbers of trials hold. */
+   does not fail halfway. If trials is NULL, the plan's numbers of trials are used. */
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan);
 

@@ -24,7 +24,7 @@ static koksma_status get_wholes(const koksma__json_node *node, const char *key, 
     size_t length;
     koksma_status status = koksma__json_member(node, key, &list);
     status = status ? status : koksma__json_length(&list, n, &length);
-    KOKSMA__JSON_FAIL_IF(!status && length != n, &list, "it takes %zu numbers", n);
+    KOKSMA__JSON_FAIL_IF(!status && length != n, &list, "it needs %zu numbers", n);
     for (size_t i = 0; !status && i < n; i++) {
         const koksma__json_node item = koksma__json_item(&list, i);
         status = koksma__json_whole(&item, 0, KOKSMA_MAX_IMAGE_SIDE, &out[i]);
@@ -43,7 +43,7 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     if (!status && f->adaptive) {
         status = koksma_adaptive_parse(f->adaptive, &adaptive);
         if (!status && adaptive.method->own_samples && !koksma__image_pattern_is_one(f->pattern)) {
-            status = koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive=%s: it takes one pattern for all uses", f->pattern,
+            status = koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive=%s: it needs one pattern for all uses", f->pattern,
                                   f->adaptive);
         }
     }
@@ -53,13 +53,13 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     KOKSMA__JSON_FAIL_IF(f->warp && !koksma_warp_find(f->warp), node, "no warp '%s'; 'koksma list warps' names them",
                          f->warp);
     KOKSMA__JSON_FAIL_IF(!f->scene && (f->adaptive || *f->variant || f->detail[2]), node,
-                         "options, adaptive and detail go with a scene");
+                         "options, adaptive and detail need a scene");
     KOKSMA__JSON_FAIL_IF(strstr(f->variant, "adaptive="), node,
                          "a figure's method is its own field 'adaptive', not one of its options");
-    KOKSMA__JSON_FAIL_IF(f->strata[0] >= 0 && !f->adaptive, node, "strata go with an adaptive method");
-    KOKSMA__JSON_FAIL_IF(f->spaces.n && f->strata[0] < 0, node, "spaces go with strata");
+    KOKSMA__JSON_FAIL_IF(f->strata[0] >= 0 && !f->adaptive, node, "strata need an adaptive method");
+    KOKSMA__JSON_FAIL_IF(f->spaces.n && f->strata[0] < 0, node, "spaces need strata");
     KOKSMA__JSON_FAIL_IF(f->exposure != 1 && (!f->scene || f->strata[0] >= 0), node,
-                         "exposure goes with the picture of a scene");
+                         "exposure needs the picture of a scene");
     return KOKSMA_OK;
 }
 
@@ -74,7 +74,7 @@ static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
         status = koksma__json_fail(node, "lines '%s': it takes primal or dual", word);
     }
     if (!status && f->lines && (f->scene || f->warp || f->cells)) {
-        status = koksma__json_fail(node, "lines go with neither scene, warp nor cells");
+        status = koksma__json_fail(node, "lines can't be combined with a scene, a warp or cells");
     }
     free(word);
     return status;
@@ -116,7 +116,7 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
         status ? status : koksma__json_get_number(node, "exposure", false, MIN_EXPOSURE, MAX_EXPOSURE, &f->exposure);
     status = status ? status : koksma__variants_parse(node, &variants);
     if (!status && variants.n != 1) {
-        status = koksma__json_fail(node, "a figure takes one value of each option");
+        status = koksma__json_fail(node, "a figure can have only one value of each option");
     }
     if (!status) {
         f->variant = variants.at[0];

@@ -8,7 +8,7 @@
 /* Makes a newly read plan consist of one part, which has its title, text and all its blocks. Errors: MEMORY. */
 koksma_status koksma__plan_own(koksma__plan *plan);
 
-/* Moves all that `from` has to the end of `plan`, whose name becomes "a+b"; `from` is empty afterwards. */
+/* Moves everything in `from` to the end of `plan`, and joins the names as "a+b"; `from` is empty afterwards. */
 koksma_status koksma__plan_append(koksma__plan *plan, koksma__plan *from);
 
 /* Frees everything that a plan owns. */

@@ -39,8 +39,8 @@ koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return status;
 }
 
-/* An integrand's canonical text does not depend on the dimension, so that the first dimension that it supports is
-   used. */
+/* An integrand is parsed in the first dimension that it supports, because its canonical text does not depend on the
+   dimension. */
 koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
 {
     koksma_integral *integral;
@@ -58,8 +58,8 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return length < KOKSMA_MAX_SPEC ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "%.64s...: too long", text);
 }
 
-/* Whether a path begins at `at`: directly after a word such as "file:" that begins the text or follows "=" or
-   ";", as in ";lens=file:". */
+/* Whether a path begins at `at`: directly after a word such as "file:", which must be at the start of the text or
+   after "=" or ";", as in ";lens=file:". */
 static bool begins_path(const char *text, const char *at)
 {
     static const char *const words[] = {"file:", "exec:", "plugin:"};
@@ -77,7 +77,7 @@ static bool begins_path(const char *text, const char *at)
 static koksma_status from_plan(const koksma__json_node *node, bool is_scene, char **text)
 {
     const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
-    /* the plan's folder is the current one, as in "./plan.json" */
+    /* the plan is in the current folder, as in "./plan.json" */
     const bool is_here = slash == name + 1 && *name == '.';
     const size_t folder = slash && !is_here ? (size_t)(slash + 1 - name) : 0;
     const bool is_path = is_scene ? strpbrk(*text, "/.") != NULL : strchr(*text, ':') != NULL;
@@ -97,7 +97,8 @@ static koksma_status from_plan(const koksma__json_node *node, bool is_scene, cha
     }
     const bool fits = (size_t)(to - joined) < KOKSMA_MAX_SPEC;
     const koksma_status status =
-        fits ? KOKSMA_OK : koksma__json_fail(node, "'%.60s...': the path is too long after the plan's folder", *text);
+        fits ? KOKSMA_OK
+             : koksma__json_fail(node, "'%.60s...': the path, with the plan's folder before it, is too long", *text);
     free(fits ? *text : joined);
     *text = fits ? joined : *text;
     return status;

@@ -39,12 +39,12 @@ koksma_status koksma__plan_join(koksma__texts *to, koksma__texts *more);
 koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,
                                   koksma__wholes *out);
 
-/* Sorts the numbers in ascending order, so that results do not depend on the order in a plan. The order in the
-   plan is lost: checks whose errors name a position in the plan must be made before. */
+/* Sorts the numbers in ascending order, so that results do not depend on the order in a plan. The order of the plan
+   is lost, so that checks whose errors name a position in the plan must come before this call. */
 void koksma__plan_sort(koksma__wholes *wholes);
 
-/* Reads a list of objects into an array of zeroed items of item_size bytes; *n is the number of items to free,
-   also on failure. */
+/* Reads a list of objects into an array of zeroed items of item_size bytes; *n is the number of items to free, even
+   after a failure. */
 koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
                                 koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
                                 size_t *n);

@@ -12,7 +12,8 @@
 #include "study/plan/plan_section.h"
 #include "study/plan/variants.h"
 
-/* Larger sets are not tried: that takes time, and a pattern's restrictions on n show at smaller n. */
+/* The largest sets are not tried, because that takes time and a pattern that cannot make some n fails at smaller
+   sets, too. */
 enum { MOST_TRIED = 1 << 16 };
 
 /* Interrupts a pattern at its first progress call. By then it has checked its arguments, which is all that is
@@ -59,7 +60,7 @@ static koksma_status try_image(const void *block, const char *pattern, long long
     return try_image_set(pattern, n);
 }
 
-/* What to try: all patterns with all numbers `n`, which are the list `key` of the JSON object `node`. */
+/* The combinations to try: all patterns with all numbers `n`, which are the list `key` of the JSON object `node`. */
 typedef struct tried {
     const koksma__json_node *node;
     const char *key;
@@ -93,7 +94,7 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     int length = snprintf(line, sizeof line, "%s, N = ", t->patterns->at[p]);
     for (size_t k = 0; k < t->n->n && t->n->at[k] <= MOST_TRIED; k++) {
         const koksma_status status = t->trial(t->block, t->patterns->at[p], t->n->at[k]);
-        /* an error of a file or the system, not of this number of points */
+        /* the error concerns a file or the system, not this number of points */
         if (koksma_status_exit_code(status) > 2) {
             return koksma__json_fail_in(t->node, status);
         }
@@ -114,7 +115,8 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     if (!text) {
         return koksma__fail_memory(size);
     }
-    const size_t name = strcspn(t->patterns->at[p], ":"); /* the reason, too, may begin with the pattern's name */
+    /* the reason may begin with the pattern's name, too, which is then not repeated */
+    const size_t name = strcspn(t->patterns->at[p], ":");
     const bool twice = !strncmp(reason, line, name) && !strncmp(reason + name, ": ", 2);
     snprintf(text, size, "%s: %s", line, reason + (twice ? name + 2 : 0));
     out->lines.at[out->lines.n++] = text;
@@ -178,7 +180,7 @@ koksma_status koksma__plan_check_measures(const koksma__json_node *node, const k
     }
     for (size_t m = 0, first = 0; !status && m < block->measures.n; m++) {
         const bool error = koksma__integrand_of(block->measures.at[m]);
-        first = error ? first : m + 1; /* position of the first integrand */
+        first = error ? first : m + 1; /* index of the first integrand, because integrands follow the measures */
         status = serves(block->measures.at[m], &point);
         if (status) {
             koksma__json_node list;
@@ -191,7 +193,7 @@ koksma_status koksma__plan_check_measures(const koksma__json_node *node, const k
     return status;
 }
 
-/* Whether patterns make sets of spp points. Other scopes than the pixel and adaptive methods need sets of other
+/* Whether patterns make sets of spp points. Adaptive methods, and scopes other than the pixel, need sets of other
    sizes; native pairing needs sets of another dimension. */
 static bool takes_spp_points(const char *variant)
 {
@@ -210,7 +212,7 @@ static koksma_status check_variant(const char *variant, const koksma__texts *pat
     const bool takes_one = native || (v.adaptive.method && v.adaptive.method->own_samples);
     for (size_t p = 0; !status && takes_one && p < patterns->n; p++) {
         KOKSMA__FAIL_IF(!koksma__image_pattern_is_one(patterns->at[p]), KOKSMA_ARGUMENT,
-                        "%s: %s: it takes one pattern for all uses", patterns->at[p], variant);
+                        "%s: %s: it needs one pattern for all uses", patterns->at[p], variant);
     }
     return status;
 }

@@ -119,7 +119,8 @@ static koksma_status check_shape(const koksma__json_node *node, const koksma__ta
     const bool over_n = koksma__table_is_over_n(t);
     KOKSMA__JSON_FAIL_IF(!t->scene == !t->measure, node, "a table has either a scene or a measure");
     KOKSMA__JSON_FAIL_IF(t->scene && over_n, node, "a table of a scene has one number of samples");
-    KOKSMA__JSON_FAIL_IF(t->measure && t->fitted, node, "'fitted' needs a scene: a measure has nothing to fit");
+    KOKSMA__JSON_FAIL_IF(t->measure && t->fitted, node,
+                         "'fitted' needs a scene, because a measure has nothing to fit");
     for (size_t i = 0; i + 1 < t->n.n; i++) {
         KOKSMA__JSON_FAIL_IF(t->n.at[i] >= t->n.at[i + 1], node,
                              "a table's numbers of points rise: %lld comes before %lld", t->n.at[i], t->n.at[i + 1]);
@@ -163,7 +164,7 @@ static bool makes_image(const koksma__image_block *i, const koksma__table *t, co
            koksma__texts_have(&i->patterns, pattern) && koksma__wholes_have(&i->spp, t->n.at[0]);
 }
 
-/* Finds the first image block that makes all rows of a table, so that all are compared with the same references
+/* Finds the first image block that makes all rows of a table, so that all rows are compared with the same references
    at one size. If there is none, *row is the first row that the best block lacks. */
 static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
 {
@@ -218,8 +219,10 @@ koksma_status koksma__plan_check_tables(const koksma__json_node *root, const kok
             koksma__json_member(root, "tables", &tables);
             const koksma__json_node table = koksma__json_item(&tables, i);
             return row && t->scene
-                       ? koksma__json_fail(&table, "no block of the plan makes the row of %s with those before it",
-                                           t->rows[row].pattern)
+                       ? koksma__json_fail(
+                             &table,
+                             "no single block of the plan makes the row of %s together with the rows before it",
+                             t->rows[row].pattern)
                        : koksma__json_fail(&table, "no block of the plan makes the row of %s", t->rows[row].pattern);
         }
     }

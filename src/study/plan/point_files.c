@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Hashes the files of points and parameters that a plan's patterns name (file:PATH, net-file:PATH). A result
-   depends on the contents of such a file, so that their hash is part of the result's key: after a change of the
-   file, new rows are made and the old ones stay. */
+   depends on the contents of such a file, so that their hash is part of the result's key: after a change of the file,
+   new rows are made and the old rows are kept. */
 #include "study/plan/point_files.h"
 
 #include <stdio.h>
@@ -53,8 +53,8 @@ static uint64_t hash_of_file(const char *path)
     return all;
 }
 
-/* Returns the hash of a file, from the list if it is there. If the list cannot grow, the file is hashed again
-   next time. */
+/* Returns the hash of a file, which is taken from the list if the list has it. If the list cannot grow, the file is
+   hashed again next time. */
 static uint64_t look_up(koksma__point_files *known, const char *path)
 {
     for (size_t i = 0; known && i < known->n; i++) {

@@ -12,7 +12,7 @@ typedef struct koksma__point_file {
     uint64_t hash;
 } koksma__point_file;
 
-/* The files that were hashed, so that each is read once. {0}: none yet. */
+/* The files that were hashed already, so that each is read once; {0} is an empty list. */
 typedef struct koksma__point_files {
     size_t n;
     koksma__point_file *at;

@@ -19,7 +19,7 @@ enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };
 /* An option of a variant; set() checks a word and stores its value. */
 typedef struct option {
     const char *name, *fallback;
-    /* when the option changes the exact image, so that it needs its own references */
+    /* the option changes the exact image, so that each of its values needs its own references */
     enum { NEVER, ALWAYS, UNLESS_BOX } changes_image;
     koksma_status (*set)(koksma__variant *variant, const char *word);
 } option;
@@ -112,8 +112,8 @@ static void word_of(const char *text, const option *o, char word[MAX_WORD])
     }
 }
 
-/* Whether an option of the text changes the exact image. Splatting does so with a filter wider than a pixel:
-   pixels at the frame's edge then lack samples from beyond it. */
+/* Whether an option of the text changes the exact image. Splatting with a filter wider than a pixel changes it,
+   because pixels at the edge of the frame then lack samples from beyond the edge. */
 static bool changes_image(const char *text, const option *o)
 {
     char filter[MAX_WORD] = "box";
@@ -239,7 +239,8 @@ static koksma_status check_together(const char *text)
     memset(&v, 0, sizeof v);
     const koksma_status status = koksma__variant_apply(text, false, &v);
     return !status && v.adaptive.method && (v.render.splat || v.render.scope != KOKSMA_SCOPE_PIXEL)
-               ? koksma__fail(KOKSMA_ARGUMENT, "'%s': adaptive goes with neither splat nor scope image", text)
+               ? koksma__fail(KOKSMA_ARGUMENT, "'%s': adaptive can't be combined with splat or with scope image",
+                              text)
                : status;
 }
 

@@ -4,7 +4,8 @@
  * so that the program may write other files beside the picture. What the program prints goes to a file in that
  * directory; its last line is part of the error message if the program fails. The command runs in its own process
  * group, so that a stop kills all processes that the shell started. The library polls waitpid in steps of 10 ms,
- * which is short compared with rendering a picture, because a library must not wait for its caller's other children.
+ * which is short compared with rendering a picture, because a library must not reap its caller's other child
+ * processes.
  */
 #include <koksma/study.h>
 
@@ -65,8 +66,8 @@ static int word_at(const char *template, const char *text, size_t *length)
     return -1;
 }
 
-/* Replaces the placeholders of the template by their values. *out: index of the placeholder that names the picture's
-   file. Errors: ARGUMENT. */
+/* Replaces the placeholders of the template by their values. *out gets the index of the placeholder that names the
+   picture's file. Errors: ARGUMENT. */
 static koksma_status expand(const char *template, const char *const values[N_WORDS], char *command, int *out)
 {
     size_t length = 0, taken = 0;
@@ -214,9 +215,10 @@ static koksma_status render_in(const char *folder, const char *template, const k
         status = explain(log, outcome);
     }
     if (!status && (status = koksma_image_read(values[out], image))) {
-        status = koksma__fail(
-            status == KOKSMA_MEMORY ? status : KOKSMA_IMPOSSIBLE, "the picture that the command wrote: %s",
-            strrchr(koksma_error_text(), '/') ? strrchr(koksma_error_text(), '/') + 1 : koksma_error_text());
+        status = koksma__fail(status == KOKSMA_MEMORY ? status : KOKSMA_IMPOSSIBLE,
+                              "the picture that the command wrote can't be used: %s",
+                              strrchr(koksma_error_text(), '/') ? strrchr(koksma_error_text(), '/') + 1
+                                                                : koksma_error_text());
     }
     free(command);
     return status;

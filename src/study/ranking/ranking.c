@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Finds the pattern that leaves the least error in a scene. The ranking works in three steps:
- *     1. a contest of all patterns at the size asked for, until the best pattern is decided, and then until the best
- *        pattern whose error is not coherent (the advised one) is decided;
- *     2. contests at half and at twice the size, of the best three patterns that may be advised and the best three
- *        of all, until the best of the former (of all, where every error is coherent) and then the best of all is
- *        decided;
+ *     1. a contest of all patterns at the requested image size, until the best pattern is decided, and then until the
+ *        best pattern whose error is not coherent (the advised pattern) is decided;
+ *     2. a contest at half and one at twice the size. Each compares the best three patterns that may be advised and
+ *        the best three of all, until the best of the first three (of all, if every error is coherent) and then the
+ *        best of all is decided;
  *     3. the first contest again, until every pair of patterns is decided.
  * A time limit may end the ranking at any point; the rows then report what is known. Every decision is a function of
  * the options alone (ranking_contest.c describes the treatment of patterns too slow for the time limit,
@@ -52,8 +52,8 @@ static size_t checked(const koksma__contest *c)
 }
 
 /* The mean error of contestant i after the round in which `best` was decided, or after the contestant's last round
-   before that; infinite for a contestant that is out or has no round and, if `advised`, for one whose error is
-   coherent (unless that of `best` is coherent too). */
+   before that. The result is infinite for a contestant that is excluded or has no round, and, if `advised`, for one
+   whose error is coherent (unless the error of `best` is coherent, too). */
 static double early_mean(const koksma__rank_table *table, size_t i, size_t best, bool advised)
 {
     const koksma__rank_entrant *e = &table->entrants[i];
@@ -94,7 +94,7 @@ static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHE
     size_t all[CHECKED];
     size_t n = first_patterns(c, checked(c), true, patterns);
     const size_t n_all = first_patterns(c, c->table.leader, false, all);
-    for (size_t k = n_all; k-- > 0;) { /* all[0], the leader, comes last */
+    for (size_t k = n_all; k-- > 0;) { /* all[0], the leader, is looked up last */
         *leader = 0;
         while (*leader < n && patterns[*leader] != all[k]) {
             ++*leader;
@@ -106,8 +106,8 @@ static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHE
     return n;
 }
 
-/* The result of a check: whether contestant i is the best at the checked size, where `best` is decided to be the
-   best. */
+/* The result of a check of contestant i: whether `best`, the contestant that was decided to be the best at the
+   checked size, is i. */
 static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, size_t best)
 {
     koksma_rank_check_result result = {.state = koksma__rank_check_best(&c->table, i, best)};
@@ -174,8 +174,8 @@ static double trial_s(const koksma__contest *c, size_t i)
     return 1e-9 * (double)atomic_load(&c->contestants[i].busy_ns) / (double)(n ? n : 1);
 }
 
-/* Estimated number of trials that would decide the pairs of the pattern with the smallest error; 0 if no number
-   would. */
+/* Estimated number of trials that would decide all pairs of the pattern with the smallest error; 0 if no number of
+   trials would decide them. */
 static size_t trials_to_lead(const koksma__rank_table *table)
 {
     size_t best = NOBODY, needed = 0;
@@ -237,8 +237,8 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
 
 /* ---- Rows ------------------------------------------------------------------------------------------------ */
 
-/* Whether contestant a comes before b in the rows: the leader first, then by position and mean error, then
-   contestants without a complete round, and those that are out last. */
+/* Whether contestant a comes before b in the rows: the leader is first, then contestants follow by position and mean
+   error, then those without a complete round, and last those that are excluded. */
 static bool is_before(const koksma__contest *c, size_t a, size_t b)
 {
     const koksma__rank_errors *mine = koksma__rank_latest(&c->table, a), *other = koksma__rank_latest(&c->table, b);
@@ -351,8 +351,8 @@ static koksma_status nobody_can_serve(const koksma__contest *c)
     return koksma__fail(KOKSMA_ARGUMENT, "no pattern can serve: %s", c->contestants[c->n - 1].reason);
 }
 
-/* Whether to check other sizes: not with another renderer that was given no size, as it may support one size
-   only. */
+/* Whether to check other sizes. If another renderer is used and the options give no size, none are checked, because
+   that renderer may support only one size. */
 static bool check_sizes(const koksma_rank_options *options)
 {
     return !options->one_size && (!options->render || options->width);

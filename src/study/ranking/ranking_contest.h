@@ -21,8 +21,9 @@ typedef struct koksma__contestant {
     size_t refused_trial;  /* the first trial that failed */
     char reason[KOKSMA_RANK_REASON];
     double first[KOKSMA__RANK_FIRST_ROUND][KOKSMA__RANK_ERRORS]; /* errors of the trials of round 0 */
-    atomic_bool done[KOKSMA__RANK_FIRST_ROUND];                  /* whether trial t of round 0 is in `first` */
-    size_t n; /* number of trials summed in the next fields, added in the order of the trials */
+    /* whether `first` has the errors of trial t of round 0 */
+    atomic_bool done[KOKSMA__RANK_FIRST_ROUND];
+    size_t n; /* number of trials summed in the next fields; trials are added in their order */
     /* The mean error of the trials; the sum of their squared deviations; then sums over the trials. */
     double mean, squares, robust, top_share, without[KOKSMA__RANK_REPLICATES];
     pthread_mutex_t lock;                      /* guards the next four fields until round 0 is complete */
@@ -34,7 +35,7 @@ typedef struct koksma__contestant {
 
 typedef struct koksma__contest {
     const koksma_rank_options *options;
-    koksma__study_scene scene; /* its width and height are those of this contest */
+    koksma__study_scene scene; /* the scene, with the width and height of this contest's pictures */
     const char *variant;
     koksma__run_control *control;
     /* NULL, or the contest at the size that the caller asked for, with all patterns in the order of the options: a

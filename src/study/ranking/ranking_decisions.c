@@ -10,9 +10,9 @@
  *     level = alpha / 14 / (n (n + 1) / 2) / 2.
  * A decision about a pair can be wrong by at most two bounds: where the means are equal, by either bound of the
  * difference; where they differ, by the bound that allows "same" and by the bound that allows the wrong order.
- * Sharper procedures exist, but Holm's (1979) gives no intervals, and Tukey's needs equal variances and gains 3 % in
- * width for seven patterns. The level uses the number of rounds of the longest possible ranking, so that no decision
- * depends on the time or the number of trials allowed.
+ * Sharper procedures exist, but Holm's (1979) gives no intervals, and Tukey's needs equal variances and makes
+ * intervals only 3 % narrower for seven patterns. The level uses the number of rounds of the longest possible
+ * ranking, so that no decision depends on the time or the number of trials allowed.
  *
  * Each bound is the lower bound of a contrast theta = x A - y B of the mean errors A and B of independent trials:
  *     theta - bias  -  t(level, nu) sqrt(x^2 s_A^2 / n + y^2 s_B^2 / n + v)  -  |bias|
@@ -20,9 +20,9 @@
  * causes are estimated by the jackknife over the k independent replicates of the reference (Efron & Stein 1981):
  * with theta_r the contrast measured against the reference without replicate r, and theta_. the mean of the theta_r,
  *     bias = (k - 1) (theta_. - theta),   v = (k - 1) / k  sum (theta_r - theta_.)^2.
- * Where the pattern's error is a smooth function of the reference, the bias is proportional to 1/k and is removed.
- * Where the pattern is exact, the bias is proportional to 1/sqrt k and half of it is removed: |bias| covers the
- * other half. A reference that is too noisy therefore leaves pairs undecided.
+ * If the pattern's error is a smooth function of the reference, the bias is proportional to 1/k and the jackknife
+ * removes it. If the pattern is exact, the bias is proportional to 1/sqrt k and the jackknife removes half of it: the
+ * term |bias| covers the other half. A reference that is too noisy therefore leaves pairs undecided.
  *
  * The bounds of the quotient are the zeros q of the bounds of the contrasts A - q B (Fieller 1954), found by
  * bisection, so they agree with the decisions. Student's t needs nearly normal means, which the errors of images
@@ -39,8 +39,8 @@
 /* Relative bound of the rounding error in the difference of two values that are equal in exact arithmetic. */
 #define ROUNDING 1e-12
 
-/* A pair is declared hopeless only from 128 trials on: with fewer, the estimated variance v of the reference (see
-   above) contains much of the trials' own noise. */
+/* A pair is declared hopeless only from 128 trials on: with fewer trials, much of the estimated variance v of the
+   reference (see above) is noise of the trials. */
 enum { SURE_ROUND = 4 };
 
 double koksma__rank_level(double alpha, size_t n_patterns)
@@ -52,7 +52,7 @@ double koksma__rank_level(double alpha, size_t n_patterns)
 /* ---- One contrast --------------------------------------------------------------------------------------- */
 
 typedef struct contrast {
-    double value, bias, error, degrees; /* value: the estimate with the bias removed */
+    double value, bias, error, degrees; /* value: the estimate, from which the bias has been subtracted */
 } contrast;
 
 static double whole_or_zero(double x, double size)
@@ -138,7 +138,7 @@ koksma__estimate koksma__rank_quotient(const koksma__rank_errors *a, const koksm
 {
     const double mean_a = contrast_of(a, 1, NULL, 0).value, mean_b = contrast_of(b, 1, NULL, 0).value;
     if (!koksma__compare(mean_a, mean_b) && koksma__rank_judge(a, b, level) == KOKSMA__RANK_SAME &&
-        !(mean_a > 0)) { /* neither pattern has any error */
+        !(mean_a > 0)) { /* both errors are 0 */
         return (koksma__estimate){1, 1, 1};
     }
     if (a->n < 2 || b->n < 2) {
@@ -245,8 +245,8 @@ bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present)
     return leads;
 }
 
-/* Whether i is decided to be the best of the patterns whose error is not coherent. Before a pattern has a complete
-   round, its coherence is unknown; then no pattern is decided to be the best. */
+/* Whether pattern i is decided to be the best of those whose error is not coherent. While a pattern has no complete
+   round, its coherence is unknown, and no pattern is decided to be the best. */
 static bool leads_incoherent(const koksma__rank_table *table, size_t i)
 {
     const koksma__rank_entrant *mine = &table->entrants[i];
@@ -260,7 +260,7 @@ static bool leads_incoherent(const koksma__rank_table *table, size_t i)
     return leads;
 }
 
-/* The round after which the last pair of i that counts for the goal was decided. */
+/* The round after which the last pair of pattern i that counts for the goal was decided. */
 static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
 {
     int round = 0;

@@ -26,14 +26,16 @@ enum {
 /* The errors of one pattern's first n trials. */
 typedef struct koksma__rank_errors {
     size_t n;
-    double mean, variance; /* of the errors against the whole reference; variance divides by n - 1 */
+    /* mean and variance of the errors against the whole reference; the variance is the sum of squares divided by n -
+       1 */
+    double mean, variance;
     double without[KOKSMA__RANK_REPLICATES]; /* mean errors against the reference without replicate r */
     double robust, top_share;                /* means of these koksma_metric_value fields; no decision uses them */
 } koksma__rank_errors;
 
 typedef enum koksma__rank_verdict {
     KOKSMA__RANK_OPEN,
-    KOKSMA__RANK_LESS, /* the first of the pair leaves less error */
+    KOKSMA__RANK_LESS, /* the first pattern of the pair has the smaller error */
     KOKSMA__RANK_MORE,
     KOKSMA__RANK_SAME, /* the means are within 2 % of each other */
 } koksma__rank_verdict;
@@ -48,8 +50,8 @@ double koksma__rank_level(double alpha, size_t n_patterns);
 koksma__estimate koksma__rank_error(const koksma__rank_errors *a, double level);
 koksma__estimate koksma__rank_quotient(const koksma__rank_errors *a, const koksma__rank_errors *b, double level);
 
-/* The intersection of two simultaneous confidence intervals of one quantity, with the second's value clamped to it;
-   the second estimate if the intervals are disjoint. */
+/* The intersection of two simultaneous confidence intervals of one quantity; its value is the second estimate,
+   clamped to the intersection. If the intervals are disjoint, the second estimate is returned unchanged. */
 koksma__estimate koksma__rank_both(koksma__estimate first, koksma__estimate second);
 
 /* The decision about two patterns whose errors are a and b. */
@@ -64,14 +66,14 @@ size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__ra
 /* A decision about a pair and the round after which it was taken. */
 typedef struct koksma__rank_pair {
     koksma__rank_verdict verdict;
-    int round, judged; /* judged: number of rounds after which the pair was judged so far */
+    int round, judged; /* judged: number of rounds so far after which the pair was judged */
     bool hopeless;     /* the pair is open, and no number of trials would decide it: the reference is too noisy */
 } koksma__rank_pair;
 
 typedef struct koksma__rank_entrant {
     bool out;      /* the pattern cannot be ranked; its pairs stay undecided */
     bool aside;    /* postponed for now */
-    bool coherent; /* its error is coherent, so it is not advised; known after round 0 */
+    bool coherent; /* the pattern's error is coherent, so that the pattern is not recommended; known after round 0 */
     int n_rounds;  /* number of complete rounds */
     koksma__rank_errors rounds[KOKSMA__RANK_ROUNDS]; /* errors after each complete round */
 } koksma__rank_entrant;
@@ -81,8 +83,9 @@ typedef struct koksma__rank_table {
     double level;
     koksma__rank_entrant *entrants;
     koksma__rank_pair *pairs; /* pair (i, j) at i * n + j */
-    size_t leader;            /* the best pattern; KOKSMA__RANK_NOBODY until it is decided, then never changed */
-    size_t advised;           /* the same for the best pattern whose error is not coherent */
+    /* the pattern decided to be the best, which never changes; KOKSMA__RANK_NOBODY before the decision */
+    size_t leader;
+    size_t advised; /* the same for the best pattern whose error is not coherent */
 } koksma__rank_table;
 
 /* What the rounds of a ranking are to decide: the pattern of smallest error, the best of the patterns whose error is
@@ -90,7 +93,7 @@ typedef struct koksma__rank_table {
 typedef enum koksma__rank_goal {
     KOKSMA__RANK_FIND_LEADER,
     KOKSMA__RANK_FIND_ADVISED,
-    KOKSMA__RANK_ORDER_ALL, /* reached when no pair needs another round */
+    KOKSMA__RANK_ORDER_ALL, /* the goal is reached when no pair needs another round */
 } koksma__rank_goal;
 
 /* Errors: MEMORY. koksma__rank_table_fini also accepts a zeroed table. */
@@ -110,8 +113,8 @@ koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i,
 bool koksma__rank_matters(const koksma__rank_table *table, size_t i, size_t j, koksma__rank_goal goal);
 bool koksma__rank_reached(const koksma__rank_table *table, koksma__rank_goal goal);
 
-/* Whether all pairs of i are decided and no other pattern leaves less error. Patterns that are out do not count;
-   with `present`, postponed patterns do not count either. */
+/* Whether all pairs of i are decided and no other pattern leaves less error. Excluded patterns do not count; if
+   `present`, postponed patterns do not count either. */
 bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present);
 
 /* Whether pattern i, the best at the size asked for, is confirmed by this table of another size. best: the best

@@ -107,8 +107,8 @@ koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, con
         finish(reference, squares);
         status = scene->render && reference->error == 0
                      ? koksma__fail(KOKSMA_IMPOSSIBLE,
-                                    "%s: pictures by %s are equal for all seeds: a reference needs a pattern that "
-                                    "depends on the seed",
+                                    "%s: %s makes the same picture for every seed, but a reference needs a pattern "
+                                    "that depends on the seed",
                                     scene->name, pattern)
                      : KOKSMA_OK;
     }
@@ -134,7 +134,7 @@ koksma_status koksma__rank_reference_compare(const koksma__rank_reference *refer
     koksma__metric_values(spec->metric, image, values);
     koksma_status status = KOKSMA_OK;
     for (int r = REPLICATES; !status && r >= 0;
-         r--) { /* the whole reference last: koksma__metric_pool below reorders its errors in `map` */
+         r--) { /* the whole reference comes last, because koksma__metric_pool below reorders its errors in `map` */
         const koksma_metric_input in = {spec->params, reference->width, reference->height, values,
                                         r ? reference->without + (size_t)(r - 1) * reference->values
                                           : reference->mean};

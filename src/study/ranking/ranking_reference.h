@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The reference image that a ranking measures errors against, for one metric: the mean of independent replicates of
- * jittered samples. The means without each of the replicates are kept too, for the jackknife estimate of the
+ * jittered samples. The means over all replicates but one are stored, too, for the jackknife estimate of the
  * reference's own error (ranking_decisions.c). The samples depend only on the scene, the size and the samples per
  * pixel.
  */
@@ -17,7 +17,7 @@ typedef struct koksma__rank_reference {
     int width, height;
     size_t pixels, values; /* values: pixels times metric.metric->channels */
     double *mean;          /* mean of each value over the replicates */
-    double *without;       /* mean of value v over all replicates but r, at r * values + v */
+    double *without;       /* the mean of value v over all replicates except r is at r * values + v */
     double error;          /* expected mean absolute error of the luminance of `mean` */
     int made;              /* number of replicates rendered so far */
 } koksma__rank_reference;

@@ -96,7 +96,7 @@ static const koksma__discrepancy_block *measured_in(const koksma__topic *topic, 
 
 /* ---- Images -------------------------------------------------------------------------------------------- */
 
-/* Whether two blocks render a scene at one size and have the same last reference. */
+/* Whether two blocks render a scene at the same size and with the same last reference. */
 static bool same_pictures(const koksma_study *study, const koksma__image_block *a, const koksma__image_block *b,
                           const char *scene)
 {
@@ -135,7 +135,7 @@ static const koksma__image_block *rendered_in(const koksma__cases *c, const koks
 
 /* ---- Cases --------------------------------------------------------------------------------------------- */
 
-/* Whether a block before b renders the case; unless `pattern` is NULL, also with that pattern. */
+/* Whether a block before block b renders the case (with this pattern, unless `pattern` is NULL). */
 static bool is_before(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b)
 {
     for (size_t k = 0; k < b; k++) {
@@ -182,8 +182,8 @@ koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor v
     return status;
 }
 
-/* Adds the two means of a pattern, which block b is the first to render. A pattern that lacks results of points or
-   of images, or exceeds KOKSMA__CASE_PATTERNS, is counted but not added. */
+/* Adds the two means of a pattern. Block b is the first block that renders the pattern. A pattern that lacks results
+   of points or of images, or exceeds KOKSMA__CASE_PATTERNS, is counted but not added. */
 static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
                               koksma__pairs *out)
 {

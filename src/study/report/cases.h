@@ -12,7 +12,7 @@
 /* Maximum number of patterns of a case, because the time of the bootstrap grows with the square of that number. */
 enum { KOKSMA__CASE_PATTERNS = 256 };
 
-/* A measure of points of `dim` dimensions; one measure in two and in three dimensions counts as two. */
+/* A measure of points of `dim` dimensions; the same measure in two and in three dimensions counts as two measures. */
 typedef struct koksma__measured {
     const char *measure;
     int dim;
@@ -38,7 +38,8 @@ typedef struct koksma__case {
    high. */
 typedef struct koksma__pairs {
     size_t n,
-        patterns_in_all; /* patterns_in_all: also counts those without results or beyond KOKSMA__CASE_PATTERNS */
+        /* patterns_in_all counts all patterns, even those without results or beyond KOKSMA__CASE_PATTERNS */
+        patterns_in_all;
     double x[KOKSMA__CASE_PATTERNS], y[KOKSMA__CASE_PATTERNS], low[KOKSMA__CASE_PATTERNS],
         high[KOKSMA__CASE_PATTERNS];
     double x_error[KOKSMA__CASE_PATTERNS], y_error[KOKSMA__CASE_PATTERNS]; /* standard errors of the means */

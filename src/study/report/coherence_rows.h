@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Whether the images of a pattern have visible bands, from the coherence rows of a store. Each row belongs to one
- * image: it has the coherence (the peak of the error's power spectrum over its mean) and the probability p that
- * white noise has a coherence as large.
+ * image: it has the coherence (the peak of the error's power spectrum divided by its mean) and the probability p that
+ * white noise has a coherence at least as large.
  *
  * A pattern is "in bands" when more than half of its images are coherent, each judged alone (p < KOKSMA_COHERENT_P,
- * coherence >= KOKSMA_COHERENT_LEAST). However much the images have in common, white noise is called "in bands" in
- * at most 2 KOKSMA_COHERENT_P = 1 % of all cases (Markov's inequality for the number of coherent images).
- * Averaged spectra, which `rank` and the pictures of a report use, find weaker waves than single images show.
+ * coherence >= KOKSMA_COHERENT_LEAST). Patterns whose errors are white noise are called "in bands" in at most 2
+ * KOKSMA_COHERENT_P = 1 % of all cases, however much their images have in common (Markov's inequality for the number
+ * of coherent images). `koksma rank` and the pictures of a report use spectra averaged over images, which show weaker
+ * waves than single images.
  */
 #ifndef KOKSMA_STUDY_REPORT_COHERENCE_ROWS_H
 #define KOKSMA_STUDY_REPORT_COHERENCE_ROWS_H
@@ -17,7 +18,7 @@
 
 typedef struct koksma__row_coherence {
     koksma__summary mean; /* summary of the images' coherences */
-    size_t coherent;      /* number of coherent images, of mean.n */
+    size_t coherent;      /* number of coherent images among all mean.n */
 } koksma__row_coherence;
 
 /* The text of a table cell: whether the pattern is in bands, "yes" or "no"; "not known" without rows. */

@@ -78,7 +78,7 @@ static bool is_complete(const koksma__combinations *c, const koksma__combined *o
 /* ---- Results ------------------------------------------------------------------------------------------- */
 
 typedef struct findings {
-    size_t n_cases, n_scenes; /* number of complete cases, and of their scenes */
+    size_t n_cases, n_scenes; /* number of complete cases, and number of scenes with such cases */
     const char **scenes;
     koksma__rank_case *cases;
     koksma__held_out *held_out;
@@ -122,7 +122,7 @@ static void say_difference(koksma__document *d, const koksma__summary *s)
     koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, s->low, s->high);
 }
 
-/* Writes a mean correlation; its interval is clamped to -1 .. 1. */
+/* Writes a mean correlation and its interval, which is clamped to -1 .. 1. */
 static void say_mean(koksma__document *d, const koksma__summary *s)
 {
     koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, fmax(s->low, -1), fmin(s->high, 1));
@@ -156,7 +156,7 @@ static void say_chosen(koksma__document *d, const koksma__cases *cases, const fi
 static void say_findings(koksma__document *d, const koksma__cases *cases, const findings *f)
 {
     enum { STRIDE = sizeof *f->held_out / sizeof(double) };
-    _Static_assert(sizeof *f->held_out % sizeof(double) == 0, "the stride is a whole number of doubles");
+    _Static_assert(sizeof *f->held_out % sizeof(double) == 0, "the stride must be a whole number of doubles");
     const size_t n = f->n_scenes;
     const koksma__held_out *of = f->held_out;
     const koksma__summary single = koksma__summarize(&of->rho_single, n, STRIDE);

@@ -3,11 +3,12 @@
  * The report's document model, written as JSON while it is built: no tree is kept, because blocks are written in the
  * order in which they are shown. A block that is finished before one that is shown above it, such as a table before
  * the sentence that sums it up, is written into a separate document and appended later (koksma__doc_append).
- * docs/report-format.md describes the members, and docs/report.schema.json checks them. A change of the members
- * needs changes in both files and in the page.
+ * docs/report-format.md describes the members, and docs/report.schema.json checks them. Whoever changes the members
+ * must change both files and the page.
  *
  * Words are a list of runs; a run is a text, or an object with a style or with the value of a number. A run is
- * extended as long as words of the same style follow. Long because all kinds of blocks share the state of the writer.
+ * extended as long as words of the same style follow. The file is long because all kinds of blocks share the state of
+ * the writer.
  */
 #include "study/report/document.h"
 
@@ -171,7 +172,8 @@ static void say(koksma__document *d, const char *format, va_list *arguments)
         char plain[128];
         const size_t run = strcspn(at, "%`*_^");
         size_t n = run < sizeof plain ? run : sizeof plain - 1;
-        while (n < run && (at[n] & 0xc0) == 0x80) { /* do not cut inside a UTF-8 character */
+        /* a text that is too long must not be cut inside a UTF-8 character */
+        while (n < run && (at[n] & 0xc0) == 0x80) {
             n--;
         }
         memcpy(plain, at, n);
@@ -474,7 +476,8 @@ void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__se
     koksma__json_write_text(&d->json, "style", styles[style]);
     if (style == KOKSMA__SERIES_LINE || style == KOKSMA__SERIES_MARKS) {
         size_t number = koksma__take_curve_number(label, d->curves);
-        if (number == KOKSMA__CURVE_STYLES) { /* the family's dashes are taken: they repeat, and marks differ */
+        /* all dashes of the pattern's family are in use: dashes repeat, and the marks differ */
+        if (number == KOKSMA__CURVE_STYLES) {
             for (size_t i = koksma__colour_of(label) % KOKSMA__COLOURS; i < number; i += KOKSMA__COLOURS) {
                 d->curves[i] = false;
             }

@@ -28,7 +28,7 @@ void koksma__doc_append(koksma__document *d, koksma__document *part);
 /* Whether nothing was written and nothing failed. */
 bool koksma__doc_is_empty(const koksma__document *d);
 
-/* The ending of a noun behind n: "1 set", "2 sets". */
+/* The plural ending of a noun after the number n: "1 set", "2 sets". */
 static inline const char *koksma__plural(double n)
 {
     return n == 1 ? "" : "s";
@@ -96,8 +96,8 @@ typedef struct koksma__column {
    unused. */
 typedef struct koksma__cell_data {
     double value, low, high, sd;
-    size_t sets;         /* number of point sets, shown after the value if the rows of a table differ in it */
-    const char *text;    /* shown instead of the value: the number as published */
+    size_t sets;         /* number of point sets, shown after the value if it differs between the rows of the table */
+    const char *text;    /* the number as published, which is shown instead of the value */
     size_t note;         /* number of a note below the table, from 1 */
     const char *verdict; /* koksma_study_verdict_name */
     double z, change;    /* the numbers that the verdict is based on */
@@ -127,7 +127,8 @@ void koksma__doc_table_end(koksma__document *d);
 typedef struct koksma__chart {
     const char *title, *x_title, *y_title; /* title: also the chart's text alternative */
     bool log_x, log_y;
-    int better; /* of y: -1 smaller, 1 larger; 0: neither. A page that cannot draw all lines begins with the best */
+    /* which y is better: -1 smaller, 1 larger, 0 neither. A page that cannot draw all lines begins with the best */
+    int better;
 } koksma__chart;
 
 /* How a series is drawn: LINE: marks joined by lines; MARKS: marks alone; THEORY: a dashed line without marks;

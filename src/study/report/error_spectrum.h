@@ -6,8 +6,8 @@
  *     P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / (W H),
  *
  * averaged over rings of the frequency f = sqrt((u/W)^2 + (v/H)^2) in cycles a pixel (Ulichney 1988, radially
- * averaged power). For white noise, P equals the variance at every f. The mean error, P(0, 0), is left out, as are
- * frequencies above 1/2, which only the diagonals have.
+ * averaged power). For white noise, P equals the variance at every f. The power P(0, 0) of the mean error is left
+ * out, and so are frequencies above 1/2, which occur only near the diagonals.
  */
 #ifndef KOKSMA_STUDY_REPORT_ERROR_SPECTRUM_H
 #define KOKSMA_STUDY_REPORT_ERROR_SPECTRUM_H

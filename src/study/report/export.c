@@ -25,9 +25,9 @@ static const char *const value_names[N_VALUES] = {"value", "sd", "max", "rmse", 
 
 typedef struct writer {
     FILE *stream;
-    koksma__sha256 *hash; /* takes the CSV instead of the stream, unless it is NULL */
-    long long series;     /* the id of the series that `before` and `after` are of; 0: none */
-    char *before, *after; /* the columns of a row of CSV before the trial, and those after the values */
+    koksma__sha256 *hash; /* receives the CSV instead of the stream, unless it is NULL */
+    long long series;     /* the id of the series to which `before` and `after` belong; 0: no series */
+    char *before, *after; /* the columns of a CSV row before the trial, and the columns after the values */
     koksma__json_writer json;
     size_t rows, widths[N_TEXTS]; /* lengths of the byte strings in NPY */
 } writer;
@@ -45,7 +45,7 @@ static long long whole_of(const koksma__series *s, int k)
     return wholes[k];
 }
 
-/* Puts a result's values into the columns of its kind, and NaN into the others. */
+/* Puts the values of a result into the columns of its kind, and NaN into the other columns. */
 static void values_of(const koksma__series *s, const koksma__result *result, double values[N_VALUES])
 {
     const int first = strcmp(s->kind, "coherence") ? 1 : KOKSMA__RESULT_VALUES;

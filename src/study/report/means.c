@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads every number of a report that comes from the store: looks a series up by its key, reads its trials below the
- * plan's number of trials, and sums them up as a mean with an interval (koksma__summarize). Nothing is cached
- * between calls, as SQLite caches the pages of the store.
+ * plan's number of trials, and sums them up as a mean with an interval (koksma__summarize). Nothing is cached between
+ * calls, because SQLite caches the pages of the store.
  */
 #include "study/report/means.h"
 
@@ -33,8 +33,8 @@ koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result
                                                   : koksma__summarize(results->values, n, KOKSMA__RESULT_STRIDE);
 }
 
-/* sets: whether the series is of point sets. A deterministic pattern has one point set, whose value is exact, but
-   its images differ between trials. */
+/* sets: whether the series has the results of point sets. A deterministic pattern has one point set, whose value is
+   exact, but its images differ between trials. */
 static koksma_status mean_of(koksma_study *study, const koksma__series *series, bool sets, long long trials,
                              koksma__result **results, koksma__summary *mean)
 {

@@ -23,7 +23,7 @@ koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discre
                                        const char *pattern, long long n, const char *measure,
                                        koksma__result **results, koksma__summary *mean);
 
-/* The mean error of a block's images against the block's last reference; `results` as in
+/* The mean error of a block's images against the block's last reference; `results` has the same meaning as in
    koksma__discrepancy_mean. */
 koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block *block, const char *scene,
                                  const char *variant, const char *pattern, long long spp, koksma__result **results,
@@ -40,7 +40,7 @@ koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, co
 /* Writes the name of a scene with its options, such as "checker, filter=tent". */
 void koksma__case_name(const char *scene, const char *variant, char *text, size_t size);
 
-/* The mean of a summary with its interval. */
+/* The mean of a summary and its interval. */
 koksma__estimate koksma__estimate_of(const koksma__summary *summary);
 
 #endif

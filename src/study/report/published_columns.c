@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The parts that all published tables have in common in a report: a row begins with its label and the published
- * numbers, each with the number of its note, and has our numbers with the verdict on the published mean. Below the
- * table are its notes, and a test of its k values of z together: if the differences are due to chance alone, the sum
- * of the z over sqrt k is standard normal, and the sum of their squares is chi-squared with k degrees of freedom.
+ * The parts that all published tables of a report have in common: a row has its label, the published numbers, each
+ * with the number of its note, and then our numbers with the verdict on the published mean. Below the table are its
+ * notes, and a joint test of its k values of z: if the differences are due to chance only, the sum of the values
+ * divided by sqrt k has a standard normal distribution, and the sum of their squares a chi-squared distribution with
+ * k degrees of freedom.
  */
 #include "study/report/published_columns.h"
 
@@ -90,7 +91,7 @@ void koksma__published_verdict(koksma__document *d, const koksma__verdict *v)
 
 void koksma__published_add_z(koksma__z_sums *sums, const koksma__verdict *v, const koksma__cell *cell)
 {
-    /* without a spread, all sets are equal, and the difference is rounding alone */
+    /* if the standard deviation is 0, all sets are equal, and the difference is only rounding */
     if (isfinite(v->z) && cell->sd > 0 && v->kind != KOKSMA_VERDICT_EXPLAINED) {
         sums->count++;
         sums->sum += v->z;

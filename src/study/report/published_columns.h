@@ -20,16 +20,16 @@ void koksma__published_row(koksma__document *d, const koksma__table *table, cons
 /* Writes a cell with a number as published, and its note; a dash if the paper has no number there. */
 void koksma__published_cell(koksma__document *d, const koksma__printed *printed, size_t note);
 
-/* Writes a cell with our mean, the number of sets that it comes from (0: not shown), and the verdict on the
-   published mean (NULL: none). */
+/* Writes a cell with our mean, the number of sets over which it is taken (0: not shown), and the verdict on the
+   published mean (NULL: no verdict). */
 void koksma__published_mean(koksma__document *d, const koksma__summary *mean, size_t sets,
                             const koksma__verdict *verdict);
 
 /* Writes a cell that has a verdict only. */
 void koksma__published_verdict(koksma__document *d, const koksma__verdict *verdict);
 
-/* Sums over the z-values of a table. Each z may be within chance while all together are not, because all have one
-   sign or all are large. Cells that differ for a known reason do not count. */
+/* Sums over the z-values of a table. Each z may be explained by chance although all together are not, because they
+   have one sign or all are large. Cells that differ for a known reason do not count. */
 typedef struct koksma__z_sums {
     size_t count;
     double sum, squares;

@@ -2,8 +2,8 @@
 /*
  * Compares published tables with the store: the cell of a row (mean, SD and maximum over trials), the verdict on the
  * published mean, and the rows that koksma_study_table_row returns. A published mean of a discrepancy agrees if |z|,
- * the difference over the errors of both means and the rounding, is below KOKSMA__AGREEMENT_Z; a published mean of
- * image errors agrees if it is within KOKSMA__IMAGE_TOLERANCE of ours.
+ * the difference divided by the errors of both means and the rounding, is below KOKSMA__AGREEMENT_Z; a published mean
+ * of image errors agrees if it is within KOKSMA__IMAGE_TOLERANCE of ours.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +22,8 @@ const koksma__image_block *koksma__table_images(const koksma_study *study, const
     return &study->plan.images[table->images];
 }
 
-/* The block of the table's plan that has the results of a row; if several have, the one with the most sets. */
+/* The block of the table's plan that has the results of a row; if several blocks have them, the one with the most
+   sets. */
 static const koksma__discrepancy_block *discrepancies_of(const koksma_study *study, const koksma__table *table,
                                                          const char *measure, const char *pattern, long long n)
 {
@@ -141,7 +142,7 @@ koksma__verdict koksma__table_judge(const koksma__table *t, const koksma__table_
     if (t->scene) {
         v.ratio = cell->mean.mean / printed->value - 1;
         agrees = fabs(v.ratio) <= KOKSMA__IMAGE_TOLERANCE;
-    } else { /* the published mean is over 100 sets */
+    } else { /* the published mean was taken over 100 sets */
         v.z = (printed->value - cell->mean.mean) / (sqrt(cell->sd * cell->sd * (0.01 + 1 / n)) + printed->half_digit);
         agrees = fabs(v.z) < KOKSMA__AGREEMENT_Z;
     }

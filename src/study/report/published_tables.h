@@ -8,8 +8,8 @@
 
 /* The mean, SD and maximum of one cell of a table. */
 typedef struct koksma__cell {
-    koksma__summary mean; /* images: of the trials' mean errors; discrepancies: of the values */
-    double sd;            /* images: mean of the trials' SDs; discrepancies: SD of the values */
+    koksma__summary mean; /* mean of the trials' mean errors (images) or of the values (discrepancies) */
+    double sd;            /* mean of the trials' SDs (images) or SD of the values (discrepancies) */
     double max,
         max_sd; /* mean and SD of the trials' maxima (images) or of the largest of 100 values (discrepancies) */
 } koksma__cell;
@@ -25,7 +25,7 @@ koksma_status koksma__table_image(koksma_study *study, const koksma__table *tabl
 
 /* ---- Agreement of a published mean with ours ------------------------------------------------------------- */
 
-/* A published mean of discrepancies, which is over 100 sets, agrees if |z| is below this limit. */
+/* A published mean of discrepancies, which was taken over 100 sets, agrees if |z| is below this limit. */
 static const double KOKSMA__AGREEMENT_Z = 2.6;
 
 /* The largest relative difference between our mean of an image table and the published one; it is large because our
@@ -34,7 +34,7 @@ static const double KOKSMA__IMAGE_TOLERANCE = 0.25;
 
 typedef struct koksma__verdict {
     koksma_study_verdict kind;
-    double z;     /* discrepancies: published - ours, over (standard error of both + half of the last digit) */
+    double z;     /* for discrepancies: (published - ours) / (standard error of both + half of the last digit) */
     double ratio; /* images: ours / published - 1 */
     size_t note;  /* number of the note on the cell, from 1; 0: none */
 } koksma__verdict;

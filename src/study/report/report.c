@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The report of a study: report.json, which holds every number (docs/report-format.md), and report.html, which is the
- * same text inside a page that shows it. The report depends on the plan and the store alone, so that equal rows give
+ * same text inside a page that shows it. The report depends only on the plan and the store, so that equal rows give
  * equal bytes, however often the run was interrupted; only the list of runs, which is one line of the text, may
  * differ. sections.def lists the sections. Each file is replaced as a whole, report.json first.
  */

@@ -33,7 +33,7 @@ static void add_heads(koksma__document *d, const koksma__rho_means *s, const cha
     koksma__doc_head(d, what);
     koksma__doc_head_number(d, "cases", 7);
     koksma__doc_head(d, "best");
-    koksma__doc_head(d, "surely worse than the best");
+    koksma__doc_head(d, "significantly worse than the best");
     for (size_t m = 0; m < s->n; m++) {
         koksma__doc_head_interval(d, s->of[m].measure, 2);
     }

@@ -10,7 +10,7 @@
 /* KOKSMA__RHO_VARIANTS: the number of combinations of options that have a column in a table. KOKSMA__RHO_SAMPLES:
    the number of bootstrap resamples. Holm's correction over the 45 pairs of ten measures compares p with .0011,
    which is two or three of 4,000 resamples: with so few, the significant differences changed with the resamples'
-   seed. With 20,000 resamples this p is eleven of them. */
+   seed. Among 20,000 resamples this p corresponds to eleven. */
 enum { KOKSMA__RHO_VARIANTS = 24, KOKSMA__RHO_SAMPLES = 20000 };
 
 /* Sums over the cases of a measure in one scene with one number of samples. */
@@ -27,8 +27,9 @@ typedef struct koksma__rho_sums {
     const char *measure;
     double total, rho[KOKSMA__RHO_VARIANTS];
     size_t all, cases[KOKSMA__RHO_VARIANTS];
-    size_t sure;         /* number of cases whose interval excludes 0 */
-    size_t few, perfect; /* number of cases without an interval: with too few patterns; in perfect order */
+    size_t sure; /* number of cases whose interval excludes 0 */
+    /* numbers of cases without an interval: those with too few patterns, and those in perfect order */
+    size_t few, perfect;
     size_t n_cells, room_of_cells;
     koksma__rho_cell *cells;
 } koksma__rho_sums;
@@ -47,8 +48,8 @@ typedef struct koksma__rho_source {
     size_t n_patterns;
 } koksma__rho_source;
 
-/* A correlation over n_patterns patterns as it is shown and counted: an interval from too few patterns, or of width
-   0, is meaningless and becomes NaN. */
+/* Returns a correlation over n_patterns patterns as it is shown and counted: an interval from too few patterns, or of
+   width 0, is meaningless and becomes NaN. */
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns);
 
 /* Adds a case: rho from koksma__rho_shown, and its resamples. For a measure that is better when larger, the caller

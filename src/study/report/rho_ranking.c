@@ -3,9 +3,9 @@
  * Rankings of measures by their mean rank correlation with the image error. A measure's mean over the chosen cases
  * is computed from sums of cells, also in each resample. Two means differ significantly where the p-value of their
  * difference, from the resamples and adjusted by Holm's method, is at most 0.05. Holm's method counts all pairs of
- * measures, not only those with the best, because the best is found in the same data. A statement about all scenes
- * is made only if it holds also without each single scene: these are the jackknife's subsets (Efron 1982), used as a
- * check, not for a variance.
+ * measures, not only those with the best measure, because the same data determine which measure is the best. A
+ * statement about all scenes is made only if it also holds when any single scene is left out. These subsets are those
+ * of the jackknife (Efron 1982), used here as a check, not to estimate a variance.
  */
 #include "study/report/rho_ranking.h"
 #include "stats/bootstrap.h"

@@ -16,7 +16,7 @@ typedef struct koksma__rho_subset {
 typedef struct koksma__rho_standing {
     size_t measure; /* index of the measure in koksma__rho_means */
     size_t cases;
-    koksma__estimate mean; /* the interval is NaN if a case has too few patterns */
+    koksma__estimate mean; /* the mean with its interval, which is NaN if a case has too few patterns */
     koksma__estimate less; /* the mean minus that of the first measure */
     double p;              /* p-value of "the mean is 0", adjusted by Holm over the measures */
 } koksma__rho_standing;
@@ -39,8 +39,8 @@ void koksma__rho_ranking_fini(koksma__rho_ranking *ranking);
 bool koksma__rho_is_better(const koksma__rho_ranking *ranking, size_t a, size_t b);
 bool koksma__rho_predicts(const koksma__rho_ranking *ranking, size_t measure);
 
-/* Rankings over all scenes, and over all scenes but one: of[0] is over all, of[1 + s] is without scene s. With a
-   single scene there is only of[0]. */
+/* Rankings over all scenes, and over all scenes but one: of[0] includes all scenes, of[1 + s] all but scene s. If
+   there is only one scene, there is only of[0]. */
 typedef struct koksma__rho_jackknife {
     size_t n;
     koksma__rho_ranking *of;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Writes which measures predict the image error over all cases. Every statement is checked on the rankings over all
- * scenes and without each scene (koksma__rho_always_...). A statement that does not hold without some scene is not
- * made, and the text says so.
+ * Writes which measures predict the image error over all cases. Every statement is checked on the ranking over all
+ * scenes and on those without one scene (koksma__rho_always_...). A statement that fails without some scene is not
+ * made, and the text says that it depends on that scene.
  */
 #include "study/report/rho_words.h"
 #include "stats/bootstrap.h"
@@ -50,8 +50,7 @@ static void say_cases(koksma__document *d, const koksma__rho_sums *of)
     }
 }
 
-/* Names the measure that comes first without a scene, for each scene where it differs from the first over all
-   scenes. */
+/* For each scene whose omission changes the first measure, names the measure that is then the first. */
 static void say_other_firsts(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     for (size_t i = 1; i < j->n; i++) {

@@ -17,11 +17,11 @@
 
 enum { NAMED = 4, NAMED_ZEROS = 12 };
 
-/* The result for all patterns that have a slope. `counted`, `tied`, `faster` and `off_line` are numbers of
+/* The result for all patterns that have a slope; `counted`, `tied`, `faster` and `off_line` are numbers of
    patterns. */
 typedef struct standing {
     size_t counted, best, tied, faster, off_line; /* tied: the patterns that may fall fastest */
-    size_t random;                                /* index of a pattern of random points; n: none */
+    size_t random;                                /* index of a pattern of random points, or n if there is none */
 } standing;
 
 static double half(const koksma__estimate *e)
@@ -197,7 +197,7 @@ void koksma__slopes_sentence(koksma__document *d, const koksma__slopes *of)
     koksma__doc_say(d, "*%s:* ", of->name);
     if (of->sense != KOKSMA__FALLS) {
         koksma__doc_say(d, of->sense == KOKSMA__LARGER ? "larger is better; no slope is the best"
-                                                       : "no power of N; no slope is the best");
+                                                       : "no power law in N; no slope is the best");
     } else if (s.counted) {
         say_fastest(d, of, &s);
     } else {

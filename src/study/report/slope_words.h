@@ -8,9 +8,9 @@
 
 /* Whether a steeper slope means a better pattern. */
 typedef enum koksma__slope_sense {
-    KOKSMA__FALLS,  /* errors and discrepancies: falling faster is better */
-    KOKSMA__LARGER, /* distances: larger values are better */
-    KOKSMA__NO_SIZE /* a measure of quality, which is 0 for good points and rises with n for others */
+    KOKSMA__FALLS,  /* for errors and discrepancies: a faster fall is better */
+    KOKSMA__LARGER, /* for distances: larger values are better */
+    KOKSMA__NO_SIZE /* for a measure of quality, which is 0 for good points and rises with n for others */
 } koksma__slope_sense;
 
 /* The slopes of n patterns. zeros: for each pattern, the number of sizes at which its mean is 0, which has no

@@ -119,7 +119,7 @@ static koksma_status stored(audit *a, const koksma__audit_series *s, bool image,
     return status;
 }
 
-/* Checks that the row's seed is the hash of its key; otherwise the row was not computed from that key. */
+/* Checks that the row's seed is the hash of its key; if it is not, the row was not computed from that key. */
 static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__audit_series *s, long long trial,
                                 bool *right)
 {
@@ -130,12 +130,13 @@ static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__a
     *right = row.seed == koksma__task_seed(t, trial) && trial < t->trials;
     if (!status && !*right) {
         koksma__audit_name(&s->key, trial, name, sizeof name);
-        differ(a, "%s: no run uses the seed %llu for this row", name, (unsigned long long)row.seed);
+        differ(a, "%s: the stored seed %llu is not the seed that runs use for this row", name,
+               (unsigned long long)row.seed);
     }
     return status;
 }
 
-/* Marks all jobs as done except those of the drawn rows. */
+/* Marks all jobs as done, except the jobs of the drawn rows. */
 static koksma_status look_up(void *context, koksma__tasks *tasks)
 {
     audit *a = context;
@@ -185,8 +186,8 @@ static koksma_status put_job(void *context, const koksma__task *t, const koksma_
         if (!same || v < KOKSMA__RESULT_VALUES) {
             char name[KOKSMA__REFERENCE_NAME];
             koksma__audit_name(&s->key, row.trial, name, sizeof name);
-            differ(a, "%s: %.17g is stored, and %.17g is made", name, row.values[v % KOKSMA__RESULT_VALUES],
-                   results[k].values[v % KOKSMA__RESULT_VALUES]);
+            differ(a, "%s: the stored value is %.17g, but computing it again gives %.17g", name,
+                   row.values[v % KOKSMA__RESULT_VALUES], results[k].values[v % KOKSMA__RESULT_VALUES]);
         } else if (is_drawn(s, row.trial)) {
             pthread_mutex_lock(&a->lock);
             a->out->agree++;
@@ -225,7 +226,8 @@ static koksma_status check_file(audit *a, const koksma__reference_image *referen
     koksma_image_fini(&image);
     if (strcmp(found, pixels) != 0) {
         *same = false;
-        differ(a, "reference %s of %s: %s has other pixels", name, reference->scene->name, path);
+        differ(a, "reference %s of %s: the pixels of the file %s differ from those rendered now", name,
+               reference->scene->name, path);
     }
     return KOKSMA_OK;
 }
@@ -246,7 +248,7 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
     if (!(isnan(row.standard_error) && isnan(made->standard_error)) &&
         memcmp(&row.standard_error, &made->standard_error, sizeof row.standard_error) != 0) {
         same = false;
-        differ(a, "reference %s of %s: its own error %.17g is stored, and %.17g is made", name,
+        differ(a, "reference %s of %s: its stored error is %.17g, but computing it again gives %.17g", name,
                reference->scene->name, row.standard_error, made->standard_error);
     }
     const koksma_status status = check_file(a, reference, made->pixels, name, &same);
@@ -266,7 +268,7 @@ static koksma_status list_series(audit *a)
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_AUDIT, NULL, &a->study->store);
     status = status ? status : koksma__audit_list_read(a->study->store, &a->list);
     if (!status && !koksma__store_is_sealed(a->study->store)) {
-        differ(a, "%s: its rows are not those that runs wrote: some were changed, lost or added", path);
+        differ(a, "%s: the rows are not those that runs wrote: some were changed, lost or added", path);
     }
     for (size_t i = 0; !status && i < a->list.n; i++) {
         koksma__audit_series *s = &a->list.at[i];
@@ -281,7 +283,7 @@ static koksma_status list_series(audit *a)
         }
         if (status) {
             koksma__audit_name(&s->key, s->end - 1, name, sizeof name);
-            differ(a, "%s: can't be made again: %s", name, koksma_error_text());
+            differ(a, "%s can't be computed again: %s", name, koksma_error_text());
             status = KOKSMA_OK;
         }
         if (s->state == KOKSMA__AUDIT_OTHER && !a->out->other_rows) {
@@ -305,13 +307,14 @@ static koksma_status compare(audit *a, const koksma_run *run)
     koksma_status status = koksma__store_scan(a->study->store, draw_row, a);
     status = koksma__run_kind(a->study, false, &control, status, &summary, &failures);
     status = koksma__run_kind(a->study, true, &control, status, &summary, &failures);
-    /* A reference failed: count it as a difference, so that the content of a store does not choose the exit code. */
+    /* If a reference fails, counts that as a difference, so that the content of a store does not decide the exit
+       code. */
     if (status && !koksma__ends_all(status)) {
         differ(a, "%s", koksma_error_text());
         status = KOKSMA_OK;
     }
     if (failures.n) {
-        differ(a, "%zu rows can't be made again, such as %s", failures.n, failures.text);
+        differ(a, "%zu rows can't be computed again, such as %s", failures.n, failures.text);
     }
     const long long wrong = a->out->drawn - a->out->agree;
     const bool all = a->out->drawn == a->out->rows;

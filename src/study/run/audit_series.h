@@ -14,10 +14,10 @@ typedef enum koksma__audit_state {
 } koksma__audit_state;
 
 typedef struct koksma__audit_series {
-    koksma__series key;      /* its strings are owned copies */
-    long long id, rows, end; /* end: one above the series' largest trial */
+    koksma__series key;      /* the key, with its own copies of the strings */
+    long long id, rows, end; /* end: 1 + the series' largest trial */
     koksma__audit_state state;
-    unsigned char *drawn; /* one bit per trial: drawn for the audit */
+    unsigned char *drawn; /* one bit per trial, which tells whether the trial was drawn for the audit */
 } koksma__audit_series;
 
 /* The series that one job computes: the measures in a row of table `result`, or the error and coherence of an

@@ -4,8 +4,7 @@
  * assumed to cost what the nearest timed task of its block and scene costs, scaled by a power of n: the power that
  * the pattern showed between two timed values of n or, before two are timed, 1 for renders and 2 for point sets.
  * distance() defines the nearest task by n, pattern and variant. First the smallest n of every block and scene is
- * timed; then, repeatedly, the task whose total cost is the largest and least certain among those that fit into the
- * time left.
+ * timed; then, repeatedly, the task with the largest uncertain cost among those that fit into the remaining time.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,8 +17,8 @@
 #include "study/run/run_control.h"
 #include "study/run/tasks.h"
 
-/* Bytes of a row of table `result` with its share of the B-tree, of each of its up to VALUES values (both measured
-   on 1e5 rows of each kind), and of each channel of a reference's pixel. */
+/* Numbers of bytes: of a row of table `result` with its share of the B-tree, of each of the row's up to VALUES values
+   (both measured on 1e5 rows of each kind), and of each channel of a pixel of a reference. */
 static const double ROW = 34, VALUE = 8, REFERENCE_PIXEL = 4;
 enum { VALUES = KOKSMA__RESULT_VALUES };
 
@@ -77,7 +76,8 @@ static double power_at(const guesses *g, size_t i, long long n)
         const koksma__task *other = g->at[j].task;
         if (is_timed(g, j) && other->n != t->n && same_kind(other, t)) {
             const double ratio = log((double)other->n / (double)t->n);
-            const double far = fabs(ratio) + ((ratio > 0) == up ? 0 : 100); /* other side: a last resort */
+            /* a task on the other side is used only if there is none on this side */
+            const double far = fabs(ratio) + ((ratio > 0) == up ? 0 : 100);
             if (far < best) {
                 best = far;
                 power = log(g->at[j].seconds / g->at[i].seconds) / ratio;
@@ -107,7 +107,7 @@ static void learn(guesses *g, size_t timed)
     }
 }
 
-/* Puts a black picture of the right size in place of each reference, because timing needs only the size. */
+/* Replaces each reference by a black picture of the same size, because timing needs only the size. */
 static koksma_status stand_in(koksma_study *study, const koksma__task *task)
 {
     koksma_status status = KOKSMA_OK;
@@ -141,7 +141,7 @@ static koksma_status time_job(koksma_study *study, const koksma__task *task, con
     for (; !status && n < MOST_LOOKS && (n == 0 || all < LONG_JOB); n++) {
         const double start = koksma__thread_s();
         status = koksma__task_do(study, task, n % task->trials, job, results);
-        status = status == KOKSMA_IMPOSSIBLE ? KOKSMA_OK : status; /* a failing job takes time, too */
+        status = status == KOKSMA_IMPOSSIBLE ? KOKSMA_OK : status; /* a job that fails takes time, too */
         looks[n] = koksma__thread_s() - start;
         all += looks[n];
     }
@@ -267,7 +267,8 @@ koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, 
     const double left_s = budget_s - (koksma__now_s() - start_s);
     status = status ? status : estimate_kind(study, true, run, fmax(left_s, budget_s / 4), out);
     out->seconds += out->reference_seconds;
-    for (size_t i = 0; i < study->n_references; i++) { /* frees the black pictures, which are not references */
+    /* frees the black pictures, which must not be used as references */
+    for (size_t i = 0; i < study->n_references; i++) {
         koksma_image_fini(&study->references[i].image);
     }
     return status;

@@ -38,14 +38,14 @@ enum {
 
 enum { KOKSMA__PHASES = 2 };
 
-/* Seconds after which a rank sends its results: the work lost if the rank is lost, unless a single job takes
-   longer. */
+/* Seconds after which a rank sends its results. If the rank is lost, so is the work of this time, or of one job that
+   takes longer. */
 #define KOKSMA__SEND_S 0.02
 
 typedef struct koksma__request {
     double phase;       /* 0: discrepancies, 1: images */
     double job_s;       /* mean seconds of a job in the last batch; 0: unknown */
-    double busy_s;      /* seconds this rank has worked in this phase so far */
+    double busy_s;      /* seconds that this rank has worked in this phase so far */
     double processor_s; /* this rank's processor time in this phase so far */
 } koksma__request;
 

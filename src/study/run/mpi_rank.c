@@ -11,7 +11,7 @@
 #include "core/status.h"
 
 static koksma__mpi here;
-static const char *problem; /* why MPI cannot be used although mpirun started several processes; else NULL */
+static const char *problem; /* NULL, or the reason why MPI cannot be used although mpirun started several processes */
 
 static void finish(void)
 {

@@ -2,8 +2,8 @@
 /*
  * Rank 0 of an MPI run: it exchanges messages with the other ranks and works on a second thread. A batch counts as
  * assigned until its results arrive. When nothing else is left to do, rank 0 also does jobs that are still assigned:
- * a lost rank then costs its batch, if MPI lets the other ranks continue. Otherwise the run ends, and running the
- * same command again continues from the store.
+ * if a rank is lost and MPI lets the others continue, only the work on its batch is repeated. Otherwise the run ends;
+ * the same command then continues from the store.
  */
 #include "study/run/mpi_serve.h"
 
@@ -18,8 +18,8 @@
 #include "study/run/mpi_rank.h"
 #include "study/run/run_state.h"
 
-/* Pause between two polls for messages. Ranks request a batch while they still work on another, so an answer may
-   take this long. */
+/* Pause between two polls for messages. An answer may take this long, because ranks request a batch while they still
+   work on another. */
 static const double REST_S = 1e-3;
 /* How long rank 0 waits at the end of a phase for ranks that send nothing. */
 static const double GOODBYE_S = 30;
@@ -29,9 +29,9 @@ typedef struct server {
     const koksma__transport *mpi;
     int size, number; /* number of ranks; number of the phase (KOKSMA__PHASES) */
     koksma__run_state state;
-    double exec_s; /* the time that the caller's thread allows for programs (koksma_allow_exec) */
+    double exec_s; /* the time limit for programs that the caller's thread has set (koksma_allow_exec) */
     /* The next two fields are used by the serving thread only. */
-    koksma__request *requests; /* the last request of each rank */
+    koksma__request *requests; /* the most recent request of each rank */
     bool *ended;               /* whether each rank knows that the phase is over */
 } server;
 
@@ -186,8 +186,8 @@ static bool all_ended(const server *s)
     return all;
 }
 
-/* Handles messages until all results have arrived and all ranks know that the phase is over. At the end, ranks that
-   send nothing for GOODBYE_S are given up as lost. */
+/* Handles messages until all results have arrived and all ranks know that the phase is over. At the end, a rank that
+   sends nothing for GOODBYE_S counts as lost. */
 static void serve(server *s)
 {
     double over_s = 0;

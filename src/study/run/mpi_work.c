@@ -30,7 +30,7 @@ typedef struct worker {
     const koksma_run *job;
     koksma__tasks tasks;
     outbox out;
-    double busy_s, began_s; /* began_s: processor time at the phase's start */
+    double busy_s, began_s; /* began_s: processor time at the start of the phase */
 } worker;
 
 static koksma_status lost(const worker *w)
@@ -148,7 +148,7 @@ static koksma_status do_tile(worker *w, const koksma__reference_tile *tile)
     return status;
 }
 
-/* Does the assignments. *over: no work is left in this phase; *run_over: no work is left in the run. */
+/* Does the assignments. Sets *over if no work is left in this phase, and *run_over if none is left in the run. */
 static koksma_status do_batch(worker *w, const koksma__assignment *assignments, size_t n, bool *over, bool *run_over)
 {
     koksma_status status = KOKSMA_OK;

@@ -54,8 +54,9 @@ static koksma_status render_elsewhere(const koksma__study_scene *scene, const ko
     *out = (koksma_image){0};
     koksma_status status = scene->render(scene->render_context, &asked, run, out);
     if (!status && picture->width && (out->width != picture->width || out->height != picture->height)) {
-        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%s: a picture has %d x %d pixels; asked for were %d x %d",
-                              picture->pattern, out->width, out->height, picture->width, picture->height);
+        status =
+            koksma__fail(KOKSMA_IMPOSSIBLE, "%s: the renderer made a picture of %d x %d pixels instead of %d x %d",
+                         picture->pattern, out->width, out->height, picture->width, picture->height);
     }
     if (status) {
         koksma_image_fini(out);

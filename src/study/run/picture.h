@@ -20,7 +20,7 @@ typedef struct koksma__study_scene {
     void *render_context;
 } koksma__study_scene;
 
-/* The width and height of an image block's pictures: the block's if it has any, otherwise the scene's. */
+/* The width and height of an image block's pictures: those of the block if it states them, otherwise the scene's. */
 void koksma__block_size(const koksma__image_block *block, const koksma__study_scene *scene, int *width, int *height);
 
 /* The parameters of a render of a study, except its scene. */

@@ -12,8 +12,8 @@
 #include "core/capacity.h"
 #include "core/status.h"
 
-/* About 20 ms of rendering for a simple scene, so that jobs do not wait long for the last tile of their
-   reference. */
+/* The size of a tile: about 20 ms of rendering for a simple scene, so that jobs do not wait long for the last tile of
+   their reference. */
 static const double SAMPLES_A_TILE = 1 << 19;
 
 static koksma_status add_tile(koksma__reference_tiles *tiles, size_t reference, int first_row, int rows)

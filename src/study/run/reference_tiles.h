@@ -32,8 +32,8 @@ void koksma__tiles_close(koksma__reference_tiles *tiles);
 koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
                               koksma__replicates *out);
 
-/* Copies a tile's sums into those of its reference; *complete: this was the reference's last tile. Calls must not
-   overlap, and each tile is put once. */
+/* Copies a tile's sums into those of its reference; *complete tells whether this was the reference's last tile. Calls
+   must not overlap, and each tile must be put only once. */
 koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__reference_tile *tile,
                                 const koksma__replicates *sums, bool *complete);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reference images. The paper used 400 jittered samples per pixel. A reference whose own error is not far below the
- * errors that are measured against it hides or adds error, so a plan may ask for the mean of many independent
+ * Reference images. The paper used 400 jittered samples per pixel. If the error of a reference is not far below the
+ * errors that are measured against it, these are distorted. So a plan may ask for the mean of many independent
  * renders (replicates), whose spread also gives an estimate of the reference's own error. A finished reference is a
  * file in DIR/references, named by the hash of everything it depends on, and a row of the store.
  */
@@ -87,7 +87,8 @@ koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *
     return status;
 }
 
-/* References are never rendered adaptively (variants.c), so this function can call the renderer's row interface. */
+/* References are never rendered adaptively (variants.c), so that this function can call the renderer's interface for
+   single rows. */
 koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
                                           int first_row, int rows, const koksma_run *run, koksma_image *out)
 {
@@ -188,8 +189,8 @@ koksma_status koksma__reference_read(const koksma_study *study, koksma__referenc
         koksma_image_fini(&reference->image);
         reference->image = (koksma_image){0};
         status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s: its pixels are not those that the study rendered, by their hash; "
-                              "remove the file, and 'koksma study run' renders it again",
+                              "%s: the hash of its pixels shows that the study did not render them; remove the file, "
+                              "and 'koksma study run' renders it again",
                               path);
     }
     return status;
@@ -199,9 +200,9 @@ koksma_status koksma__reference_read(const koksma_study *study, koksma__referenc
 
 /* The mean of many independent renders, and its expected error. For k replicates with the sample standard deviation
    s of a pixel's luminance, a normal error of standard deviation s / sqrt k has the mean absolute value sqrt(2/pi) s
-   / sqrt k. The mean of that over the pixels is the picture's own expected absolute error (of luminance, like all
-   errors of images: image/compare.c). Squared deviations are updated by Welford's method (1962), so that equal
-   replicates have a deviation of exactly 0. */
+   / sqrt k. The mean of this value over the pixels is the expected absolute error of the picture itself (in
+   luminance, like all errors of images: image/compare.c). Squared deviations are updated by Welford's method (1962),
+   so that equal replicates have a deviation of exactly 0. */
 
 size_t koksma__replicates_numbers(const koksma__replicates *s)
 {

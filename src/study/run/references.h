@@ -8,16 +8,16 @@
 
 #include "study/run/study.h"
 
-/* Sums over replicates, added in their order: for the picture, the sum of each channel; for its error, the mean
-   luminance of each pixel and the sum of the squared deviations from it. */
+/* Sums over replicates, added in their order: for the picture the sum of each channel; for its error the mean
+   luminance of each pixel and the sum of the squared deviations from that mean. */
 typedef struct koksma__replicates {
-    double *sum, *luminance, *squares; /* parts of one array, which begins at `sum` */
+    double *sum, *luminance, *squares; /* these point into one array, which begins at `sum` */
     size_t pixels, channels;
     long long n;
 } koksma__replicates;
 
-/* koksma__replicates_numbers: the length of the array of sums. koksma__replicates_over: sums in a given array of n
-   numbers. koksma__replicates_init: zero sums in a new array. */
+/* koksma__replicates_numbers returns the length of the array of sums. koksma__replicates_over uses a given array of n
+   numbers for the sums; koksma__replicates_init allocates one and sets it to 0. */
 size_t koksma__replicates_numbers(const koksma__replicates *sums);
 koksma__replicates koksma__replicates_over(double *numbers, size_t n, size_t pixels);
 koksma_status koksma__replicates_init(koksma__replicates *sums, size_t pixels, size_t channels);
@@ -48,8 +48,8 @@ void koksma__reference_path(const koksma_study *study, const koksma__reference_i
 /* Whether the rows of the reference can be rendered independently of each other. */
 koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *reference, bool *alone);
 
-/* Renders rows of one replicate of a reference; all rows if they cannot be rendered independently. Allocates *out,
-   with `rows` rows. */
+/* Renders some rows of one replicate of a reference, or all rows if they cannot be rendered independently. Allocates
+   *out, with `rows` rows. */
 koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
                                           int first_row, int rows, const koksma_run *run, koksma_image *out);
 
@@ -57,7 +57,7 @@ koksma_status koksma__reference_replicate(const koksma__reference_image *referen
    32 bits. */
 void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA256_TEXT]);
 
-/* Makes the mean of all replicates the reference's pixels, and fills *row for the store. Frees the sums. */
+/* Sets the reference's pixels to the mean of all replicates, and fills *row for the store. Frees the sums. */
 koksma_status koksma__replicates_done(koksma__replicates *sums, koksma__reference_image *reference,
                                       koksma__reference_row *row);
 

@@ -65,7 +65,7 @@ static void add_failures(koksma__failures *all, const koksma__failures *more)
     all->n += more->n;
 }
 
-/* If `before` is not OK, only counts the jobs. */
+/* If `before` is not OK, the jobs are only counted. */
 koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
                                koksma_study_summary *summary, koksma__failures *failures)
 {

@@ -7,8 +7,8 @@
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 
-/* Asks the caller before the clock: after a long job both may demand a stop, and an interruption takes precedence
-   over the time limit. */
+/* Asks the caller before it reads the clock: after a long job both may demand a stop, and an interruption takes
+   precedence over the time limit. */
 static bool look(koksma__run_control *control)
 {
     if (!atomic_load(&control->interrupted) && !koksma__keep_going(control->caller_run, control->fraction)) {
@@ -38,7 +38,7 @@ static bool keep_running(void *context, double fraction)
 static bool keep_at_job(void *context, double fraction)
 {
     koksma__run_control *control = context;
-    (void)fraction; /* the fraction of one job is not part of the progress */
+    (void)fraction; /* the fraction done of a single job does not count as progress */
     return pthread_equal(pthread_self(), control->caller) ? look(control) : !atomic_load(&control->stop);
 }
 

@@ -15,12 +15,12 @@
 typedef struct koksma__run_control {
     const koksma_run *caller_run; /* may be NULL */
     pthread_t caller;
-    double end_s;            /* the deadline on the clock koksma__now_s; 0: none */
+    double end_s;            /* the deadline as a time of koksma__now_s, or 0 if there is none */
     double fraction;         /* completed fraction of the run, as last reported on the caller's thread */
     double begin, share;     /* the current phase covers the fractions begin .. begin + share of the run */
-    atomic_bool stop;        /* all work must end */
-    atomic_bool is_up;       /* the time limit was reached */
-    atomic_bool interrupted; /* the caller's keep_going returned false, before or after the time limit */
+    atomic_bool stop;        /* whether all work must end */
+    atomic_bool is_up;       /* whether the time limit was reached */
+    atomic_bool interrupted; /* whether the caller's keep_going has returned false, before or after the time limit */
     koksma_run run;          /* options for the whole run, with the caller's number of threads */
     koksma_run job;          /* options for a single job, on any one thread */
 } koksma__run_control;
@@ -28,8 +28,8 @@ typedef struct koksma__run_control {
 /* Starts the clock. `watch` must not be moved in memory afterwards. time_limit_s = 0: no limit. */
 void koksma__run_control_begin(const koksma_run *run, double time_limit_s, koksma__run_control *watch);
 
-/* Whether the time limit, and not the caller, has ended the work. Asks the caller's keep_going once more, so that an
-   interruption during a long job takes precedence over the limit. Only the caller's thread may call this function. */
+/* Whether the time limit, and not the caller, has ended the work. Calls keep_going once more, so that an interruption
+   during a long job takes precedence over the limit. Only the caller's thread may call this function. */
 bool koksma__run_control_time_is_up(koksma__run_control *watch);
 
 #endif

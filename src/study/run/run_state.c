@@ -139,8 +139,8 @@ size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__refe
     return i;
 }
 
-/* A reference is ready when its file is written, which is after its last tile was put. The phase does not end in
-   between, because the jobs that need the reference are left. */
+/* A reference is ready when its file has been written, some time after its last tile was put. The phase cannot end
+   between these two moments, because the jobs that need the reference are not done yet. */
 void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums)
 {
     const koksma__reference_tile tile = state->tiles.at[i];
@@ -249,8 +249,8 @@ void koksma__work(koksma__run_state *state, bool redo)
         if (asks && !koksma__keep_going(&control->run, koksma__run_state_fraction(state))) {
             koksma__run_state_stop(state, KOKSMA_INTERRUPTED, "interrupted");
         }
-        /* If this worker has had nothing to do for much longer than its last assignment took, a batch may be
-           lost. */
+        /* If this worker has been idle for much longer than its last assignment took, the batch of another rank may
+           be lost. */
         const bool late = redo && koksma__now_s() - since_s > 1 + 20 * took_s;
         if (koksma__run_state_take(state, late, &assignment)) {
             const double start_s = koksma__now_s();

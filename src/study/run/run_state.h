@@ -15,15 +15,15 @@
 
 enum { KOKSMA__MAX_BATCH = 256, KOKSMA__FAILURE_TEXT = 480 };
 
-/* Seconds of work in a batch. A rank requests the next batch when it begins one, and rank 0 may answer slowly when
-   all processors are busy. */
+/* Seconds of work in a batch: long enough for a slow answer of rank 0, because a rank requests the next batch when it
+   begins one. */
 #define KOKSMA__BATCH_S 0.25
 
 typedef enum koksma__assignment_kind {
     KOKSMA__ASSIGN_JOB,
     KOKSMA__ASSIGN_TILE,
-    KOKSMA__PHASE_OVER, /* sent to other ranks only: no work is left in the phase */
-    KOKSMA__RUN_OVER    /* sent to other ranks only: the run has failed */
+    KOKSMA__PHASE_OVER, /* no work is left in the phase (sent only to other ranks) */
+    KOKSMA__RUN_OVER    /* the run has failed (sent only to other ranks) */
 } koksma__assignment_kind;
 
 typedef struct koksma__assignment {
@@ -35,7 +35,7 @@ typedef struct koksma__assignment {
    continue. */
 typedef struct koksma__failures {
     size_t n, first;
-    char text[KOKSMA__FAILURE_TEXT]; /* the error text of job `first`, the failed job of lowest number */
+    char text[KOKSMA__FAILURE_TEXT]; /* the error text of job `first`, the failed job with the lowest number */
 } koksma__failures;
 
 /* The jobs of one kind, and their progress. */
@@ -62,7 +62,7 @@ typedef struct koksma__run_state {
     bool *ready; /* per reference: whether its pixels are complete */
 } koksma__run_state;
 
-/* Call koksma__run_state_close also after a failed open; before that, the state may be used but has no assignments.
+/* Call koksma__run_state_close even after a failed open; until then the state may be used, but has no assignments.
    Errors: MEMORY, and those of koksma__tiles_open. */
 koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *state);
 void koksma__run_state_close(koksma__run_state *state);
@@ -78,13 +78,13 @@ double koksma__run_state_fraction(koksma__run_state *state);
 /* Returns the first failure, as this thread's error, or OK. The work must have ended before the call. */
 koksma_status koksma__run_state_status(const koksma__run_state *state);
 
-/* Takes an assignment: tiles first, because jobs wait for them. False: none is ready now. With `lost`, if all are
-   taken, returns one whose result has not arrived. */
+/* Takes an assignment: tiles first, because jobs wait for them. Returns false if none is ready now. If `lost` is true
+   and all are taken, it returns one whose result has not arrived. */
 bool koksma__run_state_take(koksma__run_state *state, bool lost, koksma__assignment *assignment);
 
 /* Takes a batch of assignments for one of `ranks` ranks and returns their number: jobs of about KOKSMA__BATCH_S
-   seconds together, or a few tiles; fewer towards the end, so that no rank is left with many. job_s: seconds per
-   job; 0: unknown. */
+   seconds together, or a few tiles; fewer towards the end, so that no rank works long after the others. job_s:
+   seconds per job; 0: unknown. */
 size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int ranks,
                                     koksma__assignment assignments[KOKSMA__MAX_BATCH]);
 
@@ -94,15 +94,15 @@ void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksm
 void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char *text);
 void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums);
 
-/* The index of a tile that a rank has sent back; tiles.n if there is no such tile. */
+/* The index of a tile that a rank has sent back, or tiles.n if there is no such tile. */
 size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile);
 
 /* Takes and does assignments until the phase is over or has failed. On the thread of the run's caller, asks the
-   caller's keep_going between assignments. With `redo`, also does assignments of other ranks whose results are
+   caller's keep_going between assignments. If `redo`, it also does assignments of other ranks whose results are
    overdue. */
 void koksma__work(koksma__run_state *state, bool redo);
 
-/* Runs a phase on the threads of its run control. */
+/* Runs a phase on the number of threads that its run control allows. */
 koksma_status koksma__work_threads(koksma__phase *phase);
 
 #endif

@@ -24,7 +24,8 @@ static koksma_status load_plan(const char *name, const koksma__plan_trials *tria
     if (!strchr(name, '/') && !(length > 5 && !strcmp(name + length - 5, ".json"))) {
         const char *shipped = koksma__plan_shipped(name, &size);
         KOKSMA__FAIL_IF(!shipped, KOKSMA_UNKNOWN,
-                        "no plan '%s' ships; a plan of your own is a file, such as ./%s.json", name, name);
+                        "koksma has no built-in plan '%s'; give your own plan as a file, such as ./%s.json", name,
+                        name);
         text = (unsigned char *)strdup(shipped);
         status = text ? KOKSMA_OK : koksma__fail_memory(size);
     } else {
@@ -89,7 +90,7 @@ koksma_status koksma__study_open_to_write(koksma_study *study)
         return KOKSMA_OK;
     }
     snprintf(path, sizeof path, "%s/results.sqlite", study->folder);
-    koksma__store_close(study->store); /* its lock would block the next open */
+    koksma__store_close(study->store); /* the lock of this store would block the next open */
     const koksma_status status = koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
     study->is_written = !status;
     if (status) {
@@ -166,7 +167,7 @@ static koksma_status recall_plan(koksma_study *study)
     return status;
 }
 
-/* Fails if plan i has the same text as an earlier plan, as all its jobs and questions would be repeated. */
+/* Fails if plan i has the same text as an earlier plan, because all its jobs and questions would be repeated. */
 static koksma_status check_text(const koksma_study_options *options, char *const *texts, size_t i)
 {
     for (size_t k = 0; k < i; k++) {

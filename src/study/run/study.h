@@ -15,17 +15,18 @@ struct koksma__task;
    function may be called on any thread. */
 typedef struct koksma__sink {
     void *context;
-    koksma_status (*look_up)(void *context, struct koksma__tasks *tasks); /* marks the jobs that need not be done */
+    /* NULL, or marks the jobs that need not be done */
+    koksma_status (*look_up)(void *context, struct koksma__tasks *tasks);
     koksma_status (*put_job)(void *context, const struct koksma__task *task, const koksma__result *results);
     koksma_status (*put_reference)(void *context, const koksma__reference_image *reference,
-                                   const koksma__reference_row *row); /* all references are rendered again */
+                                   const koksma__reference_row *row); /* whether all references are rendered again */
 } koksma__sink;
 
 struct koksma_study {
     koksma__plan plan;
     char *folder;
     koksma__store *store;
-    bool is_written; /* the store was opened for a run */
+    bool is_written; /* whether the store was opened for a run */
     size_t n_scenes;
     koksma__study_scene *scenes;
     size_t n_references;
@@ -33,7 +34,7 @@ struct koksma_study {
     const koksma__sink *sink; /* NULL: results go into the store */
 };
 
-/* Opens a scene unless it is open. `name` must remain valid as long as the study. Errors: those of
+/* Opens a scene unless it is open already. `name` must remain valid as long as the study. Errors: those of
    koksma_scene_open.  */
 koksma_status koksma__study_open_scene(koksma_study *study, const char *name);
 

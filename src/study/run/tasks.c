@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Tasks and jobs. The blocks of a plan become tasks (a pattern at one size, with all its measures or references),
-   sorted by descending number of trials. Job i is found by binary search among groups of rounds, in each of which
-   the same tasks have trials left. A job generates and measures one point set, or renders one image and compares it
-   with its references. */
+   sorted by descending number of trials. Rounds of trials in which the same tasks have trials left form a group, and
+   job i is found by binary search among these groups. A job generates and measures one point set, or renders one
+   image and compares it with its references. */
 #include "study/run/tasks.h"
 
 #include <math.h>
@@ -23,11 +23,11 @@
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
-/* The maximum number of jobs in a plan. Two bits per job (done; in the store) then take 256 MiB. */
+/* The maximum number of jobs in a plan. With this number, two bits per job (done; in the store) take 256 MiB. */
 static const long long MOST_JOBS = 1 << 30;
 
-/* A job's seed is the hash of the task's key and the trial. The options are not part of it, so that different options
-   use the same points. */
+/* A job's seed is the hash of the task's key and the trial. The options are not part of the seed, so that different
+   options use the same points. */
 static uint64_t key_of(const koksma__task *t)
 {
     char text[8192]; /* a path, a pattern and numbers */
@@ -226,7 +226,7 @@ koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KO
 /* The task that owns a series, and the trials of the series in the store. */
 typedef struct owner {
     koksma__task *task;
-    unsigned char *bits; /* one bit per trial: the store has it */
+    unsigned char *bits; /* one bit per trial, which tells whether the store has the trial */
 } owner;
 
 typedef struct owners {
@@ -335,7 +335,7 @@ static koksma_status check_value(const koksma_spec *measure, const koksma_value 
     char text[KOKSMA_MAX_SPEC];
     if (!isfinite(value->value)) {
         koksma_spec_text(measure, text);
-        return koksma__fail(KOKSMA_IMPOSSIBLE, "%s: its value is %g; a study takes finite values only", text,
+        return koksma__fail(KOKSMA_IMPOSSIBLE, "%s: its value is %g, but a study can store only finite values", text,
                             value->value);
     }
     if (value->exact || measure->measure->answer != KOKSMA_ANSWER_EXACT ||
@@ -344,8 +344,8 @@ static koksma_status check_value(const koksma_spec *measure, const koksma_value 
     }
     koksma_spec_text(measure, text);
     return koksma__fail(KOKSMA_IMPOSSIBLE,
-                        "%s: only known to be from %.9g to %.9g, as the search was cut short; a study takes exact "
-                        "values: leave out that measure or n",
+                        "%s: the value is only known to be from %.9g to %.9g, because the search was cut short, but "
+                        "a study needs exact values; leave out that measure or n",
                         text, value->lower, value->upper);
 }
 
@@ -361,7 +361,7 @@ static koksma_status integrate(const char *spec, const koksma_points *points, co
     koksma_integral_close(integral);
     *error = fabs(mean - facts.value);
     KOKSMA__FAIL_IF(!status && !isfinite(*error), KOKSMA_IMPOSSIBLE,
-                    "%s: its error is %g; a study takes finite values only", spec, *error);
+                    "%s: its error is %g, but a study can store only finite values", spec, *error);
     return status;
 }
 
@@ -403,8 +403,8 @@ static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, const 
     return status;
 }
 
-/* The coherence of one image's error. An error that is equal in all pixels, or an image too small to have two
-   frequencies, has no peak; its coherence is stored as 0, which all noise exceeds. */
+/* The coherence of one image's error. An error that is equal in all pixels has no peak, and neither has an image too
+   small for two frequencies; the coherence is then stored as 0, which is below that of any noise. */
 static koksma_status find_coherence(const koksma_image *image, const koksma_image *reference,
                                     double values[KOKSMA__RESULT_VALUES])
 {
@@ -478,6 +478,6 @@ koksma_status koksma__task_do(const koksma_study *study, const koksma__task *t, 
     const koksma_status status =
         t->image ? do_image(study, t, seed, run, results) : do_discrepancy(t, seed, run, results);
     const bool by_itself =
-        !status || status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY; /* not caused by this job */
+        !status || status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY; /* not a failure of this job */
     return by_itself ? status : fail_job(study, t, trial, status);
 }

@@ -18,14 +18,15 @@ typedef struct koksma__task {
     const koksma__study_scene *scene;
     long long n, trials; /* n: points, or samples per pixel */
     int width, height;
-    uint64_t key; /* the hash of what the seeds of its jobs have in common (core/hash.h), without an end */
+    /* the hash of the common beginning of the texts from which the jobs' seeds are made (core/hash.h) */
+    uint64_t key;
     size_t place; /* index of the task in the plan's order */
     /* Number of results of a job: one per measure; or, for an image, its error against each reference and the
        coherence of its error against the last reference. */
     size_t n_series;
     size_t *references;    /* for an image: indices into study->references, one per result */
     long long *series;     /* ids of the series in the store, set by koksma__tasks_look_up */
-    unsigned char *done;   /* one bit per trial: done before this run */
+    unsigned char *done;   /* one bit per trial, which tells whether the trial was done before this run */
     long long done_before; /* number of trials done before this run */
 } koksma__task;
 
@@ -45,7 +46,7 @@ typedef struct koksma__tasks {
     koksma__rounds *rounds;
 } koksma__tasks;
 
-/* Whether the pattern is deterministic: all its trials give one point set, so one trial is enough. */
+/* Whether the pattern is deterministic: all its trials give the same point set, so that one trial is enough. */
 bool koksma__has_one_set(const char *pattern);
 
 /* Lists all tasks of one kind in the plan. Errors: ARGUMENT (more than 2^30 jobs), MEMORY. */
@@ -55,8 +56,8 @@ void koksma__tasks_close(koksma__tasks *tasks);
 /* Finds or creates the series of all tasks in the store, and finds which trials are done. */
 koksma_status koksma__tasks_look_up(koksma__tasks *tasks);
 
-/* koksma__tasks_job: the task and trial of job i < n_jobs. koksma__task_is_done: whether a trial was done before
-   this run. */
+/* koksma__tasks_job finds the task and trial of job i < n_jobs. koksma__task_is_done tells whether a trial was done
+   before this run. */
 const koksma__task *koksma__tasks_job(const koksma__tasks *tasks, size_t i, long long *trial);
 bool koksma__task_is_done(const koksma__task *task, long long trial);
 
@@ -66,9 +67,9 @@ koksma__series koksma__task_series(const koksma__task *task, size_t k, char name
 /* The seed of a job. */
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
 
-/* Does one job: n_series results. The references must have their pixels. Errors: INTERRUPTED, when `run`
-   stops it; MEMORY; those of generating, measuring and rendering, whose text begins with the job's block, pattern,
-   n and trial. */
+/* Does one job, which gives n_series results. The references must have their pixels. Errors: INTERRUPTED, if `run`
+   stops the job; MEMORY; those of generating, measuring and rendering, whose text begins with the job's block,
+   pattern, n and trial. */
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *task, long long trial,
                               const koksma_run *run, koksma__result *results);
 
@@ -78,8 +79,8 @@ koksma_status koksma__task_put(const koksma_study *study, const koksma__task *ta
 /* Whether a failure is caused by the machine or the caller, not by one job; the run then ends. */
 bool koksma__ends_all(koksma_status status);
 
-/* Whether the other jobs continue when a job has failed with this status: if the job is impossible and, in an audit,
-   for any other failure that does not end all jobs. */
+/* Whether the other jobs continue after a job has failed with this status. They continue if the job is impossible
+   and, in an audit, after any failure that does not end all jobs. */
 bool koksma__task_failed_alone(const koksma_study *study, koksma_status status);
 
 #endif

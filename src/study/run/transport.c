@@ -18,7 +18,7 @@ const koksma__transport *koksma__transport_load(const char **problem)
 {
     static char text[4200];
     char path[4096];
-    *problem = "this build has no MPI support: every rank would do the whole work";
+    *problem = "this build has no MPI support, so that every rank would do the whole work";
     if (!koksma__module_path("mpi", path, sizeof path)) {
         return NULL;
     }

@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Raised with every change of the struct, so that a module of an incompatible build is rejected. */
+/* The version of the struct, raised with every change, so that a module of an incompatible build is rejected. */
 enum { KOKSMA__TRANSPORT_VERSION = 1 };
 #define KOKSMA__TRANSPORT_SYMBOL "koksma__transport_mpi"
 
@@ -18,7 +18,7 @@ typedef struct koksma__transport {
     unsigned version;
     bool (*start)(int *size, int *rank);
     bool (*send)(int to, int tag, const void *bytes, size_t size);
-    /* Waits for a message of at most `room` bytes; *size, unless size is NULL, is the number of bytes received. */
+    /* Waits for a message of at most `room` bytes; *size gets the number of bytes received, unless size is NULL. */
     bool (*receive)(int from, int tag, void *bytes, size_t room, size_t *size);
     /* Whether a message of any rank has arrived, with its sender, tag and size; does not wait. */
     bool (*probe)(int *from, int *tag, size_t *size);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The queue keeps two bits for each number: taken, and put back. A cursor skips the taken numbers, so that taking is
-   O(1) unless numbers are not ready; a second cursor cycles through the numbers that are taken but not put back when
-   all are taken. */
+/* The queue has two bits for each number: whether it is taken, and whether it was put back. A cursor skips the taken
+   numbers, so that taking is O(1) unless numbers are not ready; a second cursor cycles through the numbers that are
+   taken but not put back when all are taken. */
 #include "study/run/work_queue.h"
 
 #include <stdlib.h>

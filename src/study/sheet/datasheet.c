@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Writes datasheets: runs all parts in order and puts the sections together. Everything is computed before any
- * section is written, because the verdict, the first section, depends on all results. The format is that of a
- * report (docs/report-format.md) with other members before the content, and the page that shows reports also
- * shows datasheets. Only the member "seconds" depends on the clock.
+ * section is written, because the first section, the verdict, depends on all results. The format is that of a report
+ * (docs/report-format.md) with other members before the content, and the page that shows reports also shows
+ * datasheets. Only the member "seconds" depends on the clock.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,8 +47,8 @@ static void put_origin(koksma__sheet *sheet, koksma__document *d)
     koksma__doc_section(d, "origin", "How this was made");
     koksma__doc_paragraph(
         d,
-        "koksma %s. Every number above follows from the commands below it; seeds start at the %s of each command, "
-        "one for each set. Sets of the sampler: up to %zu of each size; images: up to %zu.",
+        "koksma %s. The commands below each number compute it again; seeds start at the %s of each command, one for "
+        "each set. Sets of the sampler: up to %zu of each size; images: up to %zu.",
         koksma_version(), "--seed", sheet->trials, sheet->max_trials);
     if (sheet->n_notes) {
         koksma__doc_paragraph(d, "Left out:");
@@ -96,15 +96,16 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
 static koksma_status check_options(const koksma_datasheet_options *o)
 {
     if (!o->sampler || !*o->sampler) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "sampler: it takes a pattern's spec, a file of points or my_{n}_{seed}.npy");
+        return koksma__fail(
+            KOKSMA_ARGUMENT,
+            "sampler: it must be a pattern's spec, a file of points, or a family of files such as my_{n}_{seed}.npy");
     }
     if (o->beside && o->n_beside > KOKSMA_MAX_BESIDE) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n_beside: %zu samplers to compare with; at most %d", o->n_beside,
+        return koksma__fail(KOKSMA_ARGUMENT, "n_beside: %zu samplers to compare with; the maximum is %d", o->n_beside,
                             KOKSMA_MAX_BESIDE);
     }
     if (o->scenes && o->n_scenes > KOKSMA_MAX_SHEET_SCENES) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n_scenes: %zu scenes; at most %d", o->n_scenes,
+        return koksma__fail(KOKSMA_ARGUMENT, "n_scenes: %zu scenes; the maximum is %d", o->n_scenes,
                             KOKSMA_MAX_SHEET_SCENES);
     }
     for (size_t i = 0; o->beside && i < o->n_beside; i++) {
@@ -160,7 +161,7 @@ koksma_status koksma_datasheet_page(const char *json, char **page)
     const size_t size = strlen(before) + strlen(json) + strlen(after) + 1;
     *page = NULL;
     if (strncmp(json, "{\"format\":\"koksma-datasheet\"", 27) != 0 || strstr(json, "</")) {
-        return koksma__fail(KOKSMA_ARGUMENT, "json: it takes the text of koksma_datasheet");
+        return koksma__fail(KOKSMA_ARGUMENT, "json: it must be the text that koksma_datasheet returned");
     }
     *page = malloc(size);
     if (!*page) {

@@ -31,8 +31,8 @@ typedef struct koksma__sheet_sampler {
     bool same;     /* whether the set is the same for every seed */
 } koksma__sheet_sampler;
 
-/* A measure in two or more dimensions. left_out: a sampler has no value at some size, so that the sheet omits the
-   measure. */
+/* A measure in two or more dimensions. left_out: whether the sheet omits the measure, because a sampler has no value
+   at some size. */
 typedef struct koksma__sheet_measure {
     koksma_spec spec;
     char name[KOKSMA_MAX_SPEC];
@@ -40,8 +40,8 @@ typedef struct koksma__sheet_measure {
     size_t n_bounds; /* number of values that are only bounds, because a search was cut short */
 } koksma__sheet_measure;
 
-/* Values of measures at several sizes; tallies[(s * n_measures + m) * n_sizes + i] is of sampler s, measure m and
-   size i. */
+/* Values of measures at several sizes; tallies[(s * n_measures + m) * n_sizes + i] belongs to sampler s, measure m
+   and size i. */
 typedef struct koksma__sheet_values {
     int dim;
     size_t n_samplers, n_measures, n_sizes;
@@ -64,8 +64,9 @@ typedef struct koksma__sheet_ranking {
 typedef struct koksma__sheet {
     const koksma_datasheet_options *options;
     const koksma_run *run;
-    double done, share;                  /* fractions of the whole work: before the current part, and of this part */
-    double passed, pass_share, fraction; /* fractions of the current part (koksma__sheet_part) */
+    /* as fractions of the whole work: the parts before the current one, and the current part */
+    double done, share;
+    double passed, pass_share, fraction; /* as fractions of the current part (koksma__sheet_part) */
     koksma__sheet_sampler all[KOKSMA__SHEET_SAMPLERS];
     koksma__sheet_sampler *samplers[KOKSMA__SHEET_SAMPLERS];
     size_t n_samplers;
@@ -73,7 +74,7 @@ typedef struct koksma__sheet {
     int spp[KOKSMA__SHEET_SPP];
     size_t n_spp;
     int max_dim;               /* highest dimension that samplers[0] supports */
-    size_t trials;             /* number of sets of each size */
+    size_t trials;             /* number of sets measured at each size */
     size_t max_trials;         /* largest number of images of each sampler in a scene */
     koksma_metric_spec metric; /* metric of the images' errors */
     char metric_text[KOKSMA_MAX_SPEC];
@@ -81,15 +82,15 @@ typedef struct koksma__sheet {
     size_t n_scenes;
     char *commands[KOKSMA__SHEET_COMMANDS];
     size_t n_commands;
-    koksma__document notes; /* list items: what is left out, and why */
+    koksma__document notes; /* notes for a list: what is left out, and why */
     size_t n_notes;
     koksma__sheet_values plane;
     koksma__sheet_ranking *rankings; /* a ranking's index is scene * n_spp + spp */
     size_t n_rankings;
 } koksma__sheet;
 
-/* Returns the run for the next part, whose work is `share` of the whole. A part may consist of several passes,
-   each of which begins when the reported fraction falls; the pass before counts as pass_share of what was left of
+/* Returns the run for the next part, whose work is `share` of the whole. A part may consist of several passes; a new
+   pass begins when the reported fraction falls. A finished pass counts as the fraction pass_share of what remained of
    the part (1 for a part of one pass). The returned run's context is the sheet. */
 koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_share);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Errors of integration of all samplers over the integrands of Christensen et al. (2018), which later papers on
- * sampling use as well: RMSE against n with intervals, slopes, and how many times more random points give the
- * same error. The numbers are those of `koksma integrate`.
+ * sampling use as well: the RMSE against n with intervals, slopes, and the factor by which more random points are
+ * needed for the same error. The numbers are those of `koksma integrate`.
  */
 #include "study/sheet/sheet_integrals.h"
 
@@ -21,7 +21,7 @@ enum { N_INTEGRANDS = 5 };
 static const char *const integrands[N_INTEGRANDS] = {"quarter-disk", "triangle", "step-pi", "quarter-gaussian",
                                                      "bilinear"};
 
-/* Integrates; results[i * n_samplers + s] is of integrand i and sampler s. */
+/* Integrates all functions; results[i * n_samplers + s] belongs to integrand i and sampler s. */
 static koksma_status compute(const koksma__sheet *sheet, const koksma_run *run, koksma_integration *results)
 {
     koksma_status status = KOKSMA_OK;
@@ -50,7 +50,7 @@ static koksma__estimate rmse_of(const koksma_integration_row *row)
 static void put_chart(const koksma__sheet *sheet, const char *name, const koksma_integration *results,
                       koksma__document *d)
 {
-    bool positive = true; /* a logarithmic axis cannot show 0, the error of exact estimates */
+    bool positive = true; /* a logarithmic axis cannot show 0, which is the error of an exact estimate */
     for (size_t k = 0; k < sheet->n_samplers * sheet->n_sizes; k++) {
         positive = positive && results[k / sheet->n_sizes].rows[k % sheet->n_sizes].rmse > 0;
     }

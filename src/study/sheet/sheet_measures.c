@@ -27,7 +27,7 @@ typedef struct evaluation {
     koksma__sheet_values *values;
     size_t trials;         /* the largest number of trials of any sampler */
     double *found;         /* a value's index is ((sampler * sizes + size) * trials + trial) * measures + measure */
-    unsigned char *status; /* indexed as `found`; 0: a value, 1: a bound, 2: no value */
+    unsigned char *status; /* has the same indices as `found`; 0: a value, 1: a bound, 2: no value */
 } evaluation;
 
 static koksma_status evaluate_set(void *context, size_t job)
@@ -52,7 +52,7 @@ static koksma_status evaluate_set(void *context, size_t job)
     return status;
 }
 
-/* Adds a note why a measure is left out: the error of the first set for which it has no value. */
+/* Adds a note that says why a measure is left out: the error of the first set for which the measure has no value. */
 static void note_missing(koksma__sheet *sheet, const evaluation *e, size_t m)
 {
     koksma__sheet_values *v = e->values;
@@ -136,7 +136,8 @@ int koksma__sheet_compare(const koksma__sheet_values *v, size_t a, size_t b, siz
     const double ex = v->samplers[a]->same ? 0 : koksma_tally_error(x),
                  ey = v->samplers[b]->same ? 0 : koksma_tally_error(y);
     const double variance = ex * ex + ey * ey;
-    if (!(variance > 0)) { /* a single set of a random sampler gives no error (NaN): not decided */
+    /* the comparison is undecided if a random sampler has a single set, whose standard error is NaN */
+    if (!(variance > 0)) {
         return variance == 0 ? sign : 0;
     }
     const double fourth =
@@ -240,7 +241,7 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
     char title[256];
     snprintf(title, sizeof title, "%s%s", v->measures[m].name,
              measure->larger_is_better ? " (larger is better)" : "");
-    bool positive = true; /* a logarithmic axis cannot show 0, which the t-values of nets may be */
+    bool positive = true; /* a logarithmic axis cannot show 0, a possible t-value of nets */
     for (size_t k = 0; k < v->n_samplers * v->n_sizes; k++) {
         positive &= koksma__sheet_tally(v, k / v->n_sizes, m, k % v->n_sizes)->mean > 0;
     }

@@ -14,11 +14,11 @@ const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *values, size
 void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *values, const char *name,
                               koksma__document *d);
 
-/* Whether sampler a is better than b by measure m at size i, in a test at the level 5 % / tests: 1: a is better,
-   -1: b is, 0: not decided. */
+/* Whether sampler a is better than b by measure m at size i, in a test at the level 5 % / tests: 1: a is better, -1:
+   b is better, 0: not decided. */
 int koksma__sheet_compare(const koksma__sheet_values *values, size_t a, size_t b, size_t m, size_t i, size_t tests);
 
-/* Evaluate the measures in the plane; write their section. */
+/* The first function evaluates the measures in the plane, the second writes their section. */
 koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet);
 void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d);
 

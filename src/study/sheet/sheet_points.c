@@ -38,7 +38,8 @@ static void draw(koksma__document *d, const koksma_points *points, int a, int b,
     koksma__doc_figure_end(d);
 }
 
-/* Draws a set; with `first`, for the sheet's own sampler, the caption does not repeat the sampler's name. */
+/* Draws a set. If `first`, the set belongs to the sampler that the sheet describes, and the caption does not repeat
+   its name. */
 static koksma_status draw_set(const koksma__sheet_sampler *sampler, size_t n, bool first, koksma__document *d)
 {
     char what[KOKSMA_MAX_SPEC + 64];
@@ -163,7 +164,10 @@ koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
     }
     if (!status) {
         koksma__doc_section(d, "properties", "Verified properties");
-        koksma__doc_paragraph(d, "Found by looking at the points of the first set of %zu, not claimed.", n);
+        koksma__doc_paragraph(d,
+                              "These properties were found by checking the points of the first set of %zu; the "
+                              "sampler's claims were not used.",
+                              n);
         put_matrix(sheet, findings, d);
         koksma__doc_section_begin(d, "findings", true);
         koksma__doc_say(d, "Every finding about %s", sheet->samplers[0]->text);

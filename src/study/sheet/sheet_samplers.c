@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Chooses which samplers a sheet compares, and at which sizes. A text that names a file or contains {n} or {seed}
- * stands for files of points; any other text is the spec of a pattern. If the sheet's sampler is given by files,
- * they decide the sizes: a family of files is measured at its own sizes and seeds, a single file at its own size,
- * and all other samplers at the same sizes.
+ * stands for files of points; any other text is the spec of a pattern. If the sheet's sampler is given by files, the
+ * files determine the sizes: a family of files is measured at its sizes and seeds, a single file at its size, and all
+ * other samplers at the same sizes.
  */
 #include "study/sheet/sheet_samplers.h"
 
@@ -73,7 +73,8 @@ static size_t count_from(const koksma__file_set *sets, size_t count, size_t n, u
     return found;
 }
 
-/* Keeps at most KOKSMA__SHEET_SIZES sizes, evenly spread on a logarithmic axis, including the first and the last. */
+/* Keeps at most KOKSMA__SHEET_SIZES sizes, spread evenly on a logarithmic axis; the first and the last are always
+   kept. */
 static size_t thin(size_t *sizes, size_t n)
 {
     size_t kept = 0;
@@ -92,8 +93,8 @@ static size_t thin(size_t *sizes, size_t n)
     return kept;
 }
 
-/* Chooses sizes of a family of files: those with at least half as many sets as the size with the most, and no
-   more points than can be measured quickly, unless all sizes have more. */
+/* Chooses the sizes of a family of files: those that have at least half as many sets as the size with the most sets,
+   and not too many points to be measured quickly, unless all sizes have too many. */
 static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_sampler *sampler,
                                             const koksma__file_set *sets, size_t count)
 {
@@ -145,8 +146,8 @@ static koksma_status fail_none(const char *path)
     const koksma_status status = koksma__file_name(path, 256, 0, first);
     return status ? status
                   : koksma__fail(KOKSMA_MISSING,
-                                 "%s: no file %s with whole numbers in place of the stars, such as %s%s%s", path,
-                                 looked_for, first, koksma__file_has(path, "{n}") ? " of 256 points" : "",
+                                 "%s: there is no file %s with whole numbers in place of the stars, such as %s%s%s",
+                                 path, looked_for, first, koksma__file_has(path, "{n}") ? " of 256 points" : "",
                                  koksma__file_has(path, "{seed}") ? " for seed 0" : "");
 }
 
@@ -251,8 +252,8 @@ static koksma_status try_sizes(const koksma__sheet *sheet, const koksma__sheet_s
     return status;
 }
 
-/* Adds a sampler. One that cannot make the points of some size is an error if it is the first, the sheet's subject; a
-   later one, with which the first is compared, is left out with a note. Missing and malformed files are errors. */
+/* Adds a sampler. If the first sampler, which the sheet describes, cannot make the points of some size, that is an
+   error; any other sampler that cannot is left out with a note. Missing and malformed files are errors. */
 static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by_default)
 {
     koksma__sheet_sampler *sampler = &sheet->all[sheet->n_samplers];
@@ -293,7 +294,7 @@ static void choose_spp(koksma__sheet *sheet)
             sheet->spp[sheet->n_spp++] = usual[k];
         }
     }
-    const bool none = sheet->n_spp == 0; /* the sampler has none of the usual numbers */
+    const bool none = sheet->n_spp == 0; /* if the sampler has none of these numbers of points */
     for (size_t i = 0; i < sheet->n_sizes && none && sheet->n_spp < (sheet->options->quick ? 1 : KOKSMA__SHEET_SPP);
          i++) {
         if (sheet->sizes[i] <= MOST_SPP) {
@@ -321,7 +322,7 @@ koksma_status koksma__sheet_choose(koksma__sheet *sheet)
     for (size_t i = 0; !status && i < n; i++) {
         status = add_sampler(sheet, o->beside ? o->beside[i] : beside_by_default[i], !o->beside);
     }
-    /* check scenes before the measures, which take minutes */
+    /* the scenes are checked before the measures are computed, which takes minutes */
     for (size_t i = 0; !status && i < sheet->n_scenes; i++) {
         koksma_scene *scene = NULL;
         status = koksma_scene_open(sheet->scenes[i], &scene);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Errors of the samplers in scenes, from koksma_rank_patterns at one size without a time limit, so that the
- * numbers depend on nothing but the scene and the samplers.
+ * Errors of the samplers in scenes, computed by koksma_rank_patterns at one size without a time limit, so that the
+ * numbers depend only on the scene and the samplers.
  */
 #include "study/sheet/sheet_scenes.h"
 
@@ -12,7 +12,7 @@
 
 #include "core/status.h"
 
-/* The most samples of an image, over all pixels: 64 samples in each of 160 x 120 pixels. */
+/* The maximum number of samples of an image, over all its pixels: 64 samples in each of 160 x 120 pixels. */
 enum { MOST_SAMPLES = 64 * 160 * 120 };
 
 /* Chooses the size of a scene's images, the same for all numbers of samples per pixel: 0 x 0, which means the
@@ -71,7 +71,7 @@ koksma_status koksma__sheet_rank(koksma__sheet *sheet)
     return status;
 }
 
-/* The decision of the ranking about a row, in words. */
+/* Writes in words what the ranking decides about a row. */
 static const char *decision_of(const koksma_rank_row *row)
 {
     static const char *const words[] = {"undecided", "best", "equal to the first", "worse than the first"};

@@ -23,7 +23,7 @@ enum { POINTS = 1024, QUALITY_PER_ROOT = 7, RADIAL_PER_ROOT = 2, BINS = 100, WHI
 typedef struct spectra {
     const koksma__sheet_sampler *sampler;
     size_t n, trials;
-    /* radial: frequencies up to 2 sqrt(n); wide: up to 7 sqrt(n), for the blue noise numbers */
+    /* radial: the power at frequencies up to 2 sqrt(n); wide: up to 7 sqrt(n), for the two numbers on blue noise */
     koksma_spectrum radial, wide;
     koksma_tally pairs[BINS];
     double r_max;
@@ -58,8 +58,8 @@ static koksma_status compute(void *context, size_t i)
     return status;
 }
 
-/* Draws the power on a grid of frequencies with ky = half at the top, enlarged to at least SIDE pixels. The
-   frequency 0 has the power 0. */
+/* Draws the power on a grid of frequencies, enlarged to at least SIDE pixels, with the largest ky at the top. The
+   frequency 0 is drawn with the power 0. */
 static koksma_status put_picture(const spectra *s, koksma__document *d)
 {
     const int half = s->radial.half, side = 2 * half + 1, scale = side >= SIDE ? 1 : (SIDE + side - 1) / side;

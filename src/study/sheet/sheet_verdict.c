@@ -2,8 +2,8 @@
 /*
  * The verdict of a datasheet: where the sampler is best, where it is beaten, and how certain that is. A measure
  * is won if the sampler is better than every other one at the largest n, lost if another one is better, equal if
- * it is better than or equal to every other one, and otherwise undecided. Scenes are won or lost by the decisions
- * of their ranking at the most samples per pixel.
+ * it is better than or equal to every other one, and otherwise undecided. The ranking of a scene at the largest
+ * number of samples per pixel decides whether the scene is won or lost.
  */
 #include "study/sheet/sheet_verdict.h"
 
@@ -19,7 +19,7 @@ typedef enum outcome { OPEN, WON, LOST, EQUAL } outcome;
 typedef struct score {
     size_t n[4], tests;
     outcome of[KOKSMA__SHEET_MEASURES];
-    size_t winner[KOKSMA__SHEET_MEASURES]; /* where result is LOST: the best of the samplers that are better */
+    size_t winner[KOKSMA__SHEET_MEASURES]; /* if result is LOST: the best of the samplers that are better */
 } score;
 
 static outcome judge_measure(const koksma__sheet_values *v, size_t m, size_t tests, size_t *winner)
@@ -83,8 +83,8 @@ static void say_count(koksma__document *d, size_t measures, size_t of_measures, 
     }
 }
 
-/* Writes a list item with the measures that have this outcome, for lost ones only those won by `winner`; writes
-   nothing if there are none. */
+/* Writes a list item with the measures that have this outcome (for the outcome LOST only those that `winner` wins);
+   writes nothing if there are none. */
 static void put_measures(const koksma__sheet_values *v, const score *result, outcome which, size_t winner,
                          const char *head, koksma__document *d)
 {
@@ -108,7 +108,7 @@ static void put_measures(const koksma__sheet_values *v, const score *result, out
     }
 }
 
-/* Writes one list item for each scene, at the most samples per pixel. */
+/* Writes one list item for each scene, with the result at the largest number of samples per pixel. */
 static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
 {
     for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {

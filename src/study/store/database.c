@@ -7,11 +7,11 @@
  * "defensive", does not trust the schema, and has triggers and views switched off
  * (https://sqlite.org/security.html).
  *
- * To read, a second handle that only locks takes the shared lock that SQLite's readers take. The file then can't
- * change and is opened as immutable: without further locks or a new write-ahead log, also in a folder that can't
- * be written. If a killed run has left a write-ahead log, SQLite needs an index of the log, and keeps the index
- * in memory only in exclusive mode, in which it would lock the file for writing. The VFS "unix-none", which has
- * no locks, prevents that write lock; the second handle's shared lock still protects the file.
+ * To read a file, a second handle, which is used only for locking, takes the shared lock that SQLite's readers take.
+ * The file then can't change and is opened as immutable: SQLite takes no further locks and makes no write-ahead log,
+ * so that the folder need not be writable. If a killed run has left a write-ahead log, SQLite needs an index of the
+ * log. It keeps that index in memory only in exclusive mode, in which it would lock the file for writing. The VFS
+ * "unix-none", which has no locks, prevents that write lock; the second handle's shared lock still protects the file.
  */
 #include "study/store/database.h"
 
@@ -31,24 +31,24 @@ enum { MAX_PATH = 4096, HEADER = 100 };
 /* A file opened through SQLite's VFS, which refers to the name until the file is closed. */
 typedef struct held_file {
     char *name;
-    sqlite3_file file; /* its VFS allocates further bytes after this member */
+    sqlite3_file file; /* must be last: the VFS needs further bytes after this member */
 } held_file;
 
 struct koksma__database {
     sqlite3 *file;
-    held_file *lock;             /* when reading: holds SQLite's shared lock */
-    char *path;                  /* the path for error messages */
+    held_file *lock;             /* the second handle, which holds SQLite's shared lock while the file is read */
+    char *path;                  /* the path, for error messages */
     char real[MAX_PATH];         /* the absolute path, which SQLite cannot take for a URI */
     char uri[3 * MAX_PATH + 64]; /* the URI that opens the file for reading */
 };
 
-/* How long to wait for a lock, and how often to try. A lock ends with its process, but a killed process holds it
-   until the system has ended the process. */
+/* How long to wait for a lock, and how often to try. A lock ends with its process, but a killed process may hold it
+   for a while, until the system has removed the process. */
 enum { LAST_BREATH_MS = 1500, LOOK_AGAIN_MS = 10 };
 
 static koksma_status fail_busy(const char *path)
 {
-    return koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
+    return koksma__fail(KOKSMA_IO, "%s: another run is using it", path);
 }
 
 static koksma_status fail(koksma__database *database)
@@ -161,7 +161,8 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
     if (status || !size) {
         return status;
     }
-    char *real = realpath(path, NULL); /* SQLite's VFS does not follow symbolic links here */
+    /* symbolic links are resolved first, because SQLite's VFS does not follow them here */
+    char *real = realpath(path, NULL);
     if (real && strlen(real) < MAX_PATH) {
         status = look_beside(real, "-journal", &journal);
         header->has_journal = journal > 0;
@@ -228,10 +229,10 @@ static koksma_status prepare_to_read(koksma__database *database)
     status = status ? status : look_beside(database->real, "-journal", &journal);
     status = status ? status : look_beside(database->real, "-wal", &log);
     if (!status && journal) {
-        status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s-journal: another program left a journal of the database, and has to "
-                              "end it first",
-                              database->path);
+        status = koksma__fail(
+            KOKSMA_MALFORMED,
+            "%s-journal: another program left a journal of the database and must complete its work first",
+            database->path);
     }
     if (!status && log) {
         write_uri(database, "?mode=ro&vfs=unix-none");

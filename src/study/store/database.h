@@ -12,7 +12,7 @@ typedef struct sqlite3_stmt koksma__statement;
 
 /* Facts about a file from its first 100 bytes, read before SQLite opens it. */
 typedef struct koksma__database_header {
-    bool exists, is_empty, has_journal; /* has_journal: another program was killed while it wrote */
+    bool exists, is_empty, has_journal; /* has_journal: whether another program was killed while it wrote */
     uint32_t application_id, version;   /* values of PRAGMA application_id and user_version */
 } koksma__database_header;
 
@@ -21,20 +21,21 @@ typedef struct koksma__database_header {
 koksma_status koksma__database_look(const char *path, koksma__database_header *header);
 
 typedef enum koksma__database_mode {
-    /* reads without changing any byte of the file or its folder, which need not be writable; no run can begin
+    /* reads the file and changes no byte of it or of its folder, which need not be writable; no run can begin
        meanwhile */
     KOKSMA__DATABASE_READ,
-    KOKSMA__DATABASE_WRITE, /* writes an existing file alone, with a write-ahead log */
-    /* opens an existing file alone; writes nothing but what its write-ahead log or journal holds */
+    KOKSMA__DATABASE_WRITE, /* writes an existing file, with exclusive access and a write-ahead log */
+    /* opens an existing file with exclusive access; writes only what its write-ahead log or journal holds */
     KOKSMA__DATABASE_LOCK,
-    KOKSMA__DATABASE_BUILD /* fills an empty file that no other program knows; path "": a database in memory */
+    /* fills an empty file that no other program knows, or, with path "", a database in memory */
+    KOKSMA__DATABASE_BUILD
 } koksma__database_mode;
 
 koksma_status koksma__database_open(const char *path, koksma__database_mode mode, koksma__database **out);
 /* Closes a database whose statements are closed; what was not committed is lost. */
 void koksma__database_close(koksma__database *database);
 
-/* Attaches the file `old`, which must stay open, as it is now: its tables are then called old.NAME. */
+/* Attaches the file `old` in its present state: its tables are then called old.NAME. The file must remain open. */
 koksma_status koksma__database_attach(koksma__database *database, const koksma__database *old);
 
 /* Whether the path now leads to another file than when the database was opened. */
@@ -46,7 +47,8 @@ const char *koksma__database_path(const koksma__database *database);
 /* Runs one or more SQL statements without parameters and ignores the rows that they return. */
 koksma_status koksma__database_execute(koksma__database *database, const char *sql);
 
-/* How many rows the last statement inserted before it ended or failed; whether it failed because a row existed. */
+/* The first function returns how many rows the last statement inserted before it ended or failed, the second whether
+   it failed because a row existed. */
 int koksma__database_changes(koksma__database *database);
 bool koksma__database_had_conflict(koksma__database *database);
 
@@ -68,7 +70,7 @@ koksma_status koksma__statement_run(koksma__database *database, koksma__statemen
 bool koksma__next_row(koksma__database *database, koksma__statement *statement, koksma_status *status);
 void koksma__statement_reset(koksma__statement *statement);
 
-/* Columns of the current row, counted from 0. A damaged database may have NULL where the schema forbids it: NULL
+/* Columns of the current row, counted from 0. A damaged database may contain NULL where the schema forbids it: NULL
    is returned as an empty text, 0, or NaN. */
 const char *koksma__column_text(koksma__statement *statement, int column);
 long long koksma__column_whole(koksma__statement *statement, int column);

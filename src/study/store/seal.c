@@ -2,11 +2,11 @@
 /*
  * The seal of a store: the number of rows of its tables (except `run`, on which no result depends) and the sum
  * modulo 2^64 of their checksums, kept in table meta. Writing a row adds its checksum in the same transaction, so
- * that the seal is right even after a kill; a program that reads all rows compares them with the seal. If
- * anything but a run has changed, removed or added one row, the seal differs with certainty, because the checksum
- * is a bijection of each word of the row; changes of several rows are missed with probability 2^-64. The seal
- * protects against damage and edits by hand, not against forgery, as a forger can write a new seal: `koksma study
- * audit` recomputes the rows.
+ * that the seal is right even after a kill; a program that reads all rows compares them with the seal. If one row was
+ * changed, removed or added by anything other than a run, the seal certainly differs, because the checksum is a
+ * bijection of each word of the row; changes of several rows are missed with probability 2^-64. The seal protects
+ * against damage and edits by hand, not against forgery, because a forger can write a new seal; `koksma study audit`
+ * detects forged rows by computing them again.
  *
  * Checksum of the words x: h = 0, and for each h = (h + x) c mod 2^64, h ^= h >> 32, with c = 0x9e3779b97f4a7c15.
  * The first word is the table's number; a text's word is its hash (core/hash.h), a number's are the bits of the

@@ -175,7 +175,7 @@ static void bind_reference(koksma__store *store, koksma__statement *s, int *colu
                            koksma__series *key)
 {
     koksma__store_bind_key(store, series, key);
-    /* A series of image errors has in measured_by the revisions that made its reference; this row is of the
+    /* In a series of image errors, measured_by has the revisions that made the reference; this row belongs to the
        reference itself. */
     key->made_by = key->measured_by;
     koksma__bind_text(s, column, key->scene);

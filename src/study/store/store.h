@@ -18,7 +18,7 @@ typedef struct koksma__series {
     /* revisions (made_by.h) of a series that was read; ignored when a series is looked up or added: this
        program's are used */
     const char *made_by, *measured_by;
-    long long id; /* of a series that was read; 0: unknown */
+    long long id; /* id of a series that was read; 0: unknown */
 } koksma__series;
 
 /* The values of a result. A discrepancy has one value; an image the mean, SD, maximum and RMSE of its error; a
@@ -46,13 +46,13 @@ typedef struct koksma__run_record {
 typedef enum koksma__store_mode {
     KOKSMA__STORE_WRITE, /* opens a store to write, or creates it */
     KOKSMA__STORE_READ,  /* opens an existing store; changes no byte of the folder, which need not be writable */
-    KOKSMA__STORE_AUDIT  /* as KOKSMA__STORE_READ, but rows that no run wrote are no error */
+    KOKSMA__STORE_AUDIT  /* like KOKSMA__STORE_READ, but rows that no run wrote are not an error */
 } koksma__store_mode;
 
-/* Opens a store; with plan_name NULL it may belong to any plan. A store of an older schema is upgraded: to write,
-   in a copy that replaces the file when complete; to read, in memory. Errors: MISSING (to read), IO (can't be
-   written, or another run holds it), MALFORMED (not a store, of a newer schema, or of another plan; the file is
-   not changed). */
+/* Opens a store; if plan_name is NULL, the store may belong to any plan. A store of an older schema is upgraded: to
+   write, in a copy that replaces the file when complete; to read, in memory. Errors: MISSING (to read), IO (can't be
+   written, or another run holds it), MALFORMED (not a store, of a newer schema, or of another plan; the file is not
+   changed). */
 koksma_status koksma__store_open(const char *path, koksma__store_mode mode, const char *plan_name,
                                  koksma__store **store);
 koksma_status koksma__store_close(koksma__store *store);
@@ -71,8 +71,8 @@ koksma_status koksma__store_get_text(koksma__store *store, const char *key, char
 /* Finds the id of a series. If the series does not exist, `add` creates it; otherwise *id is 0. */
 koksma_status koksma__store_series(koksma__store *store, const koksma__series *series, bool add, long long *id);
 
-/* Writes results, each to its series, unless the series has a result of that trial. Results are gathered before
-   they are written, so that an error may be returned by a later call. */
+/* Writes results, each to its series, unless the series already has a result of that trial. Results are gathered
+   before they are written, so that an error may be returned by a later call. */
 koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
                                 size_t n);
 
@@ -109,7 +109,7 @@ typedef koksma_status (*koksma__row_visitor)(void *context, const koksma__series
                                              const koksma__result *result);
 koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visit, void *context);
 
-/* Write and read a reference. Of `series` they use the scene, its hash, the options, the size, and `what`. */
+/* Write and read a reference. From `series` they use the scene, its hash, the options, the size, and `what`. */
 koksma_status koksma__store_put_reference(koksma__store *store, const koksma__series *series,
                                           const koksma__reference_row *row);
 koksma_status koksma__store_reference(koksma__store *store, const koksma__series *series, koksma__reference_row *row);

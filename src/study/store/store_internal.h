@@ -64,7 +64,7 @@ typedef struct koksma__rows {
 /* The rows of table result as a scan has read them, in the order of their ids. Only a store of few rows has them in
    memory: a report reads them several times, which SQLite does at about 1 us a row. */
 typedef struct koksma__kept_rows {
-    bool all; /* `rows` are all rows of the table */
+    bool all; /* whether `rows` has all rows of the table */
     koksma__rows rows;
     size_t capacity;
     koksma__seal seal; /* of the rows */
@@ -73,20 +73,20 @@ typedef struct koksma__kept_rows {
 typedef struct koksma__known_series {
     /* true: the four values of a row are one result; false: a row has one value each of up to four series */
     bool alone;
-    long long end, count; /* index of the last trial, plus 1; number of trials in the store */
+    long long end, count; /* 1 + the index of the last trial; number of trials in the store */
 } koksma__known_series;
 
 struct koksma__store {
     koksma__database *database;
     koksma__statement *queries[KOKSMA__N_QUERIES];
     pthread_mutex_t lock;        /* guards the database and the members below */
-    bool in_transaction, failed; /* failed: a write has failed, and nothing more is written */
-    koksma__seal seal, sealed;   /* seal: of all rows written so far; sealed: the seal in table meta */
+    bool in_transaction, failed; /* failed: whether a write has failed, so that nothing more is written */
+    koksma__seal seal, sealed;   /* seal: seal of all rows written so far; sealed: the seal in table meta */
     koksma__seal found;          /* seal of the rows that the last scan read */
-    bool for_audit;              /* no error if `found` differs from `seal` */
+    bool for_audit;              /* whether it is accepted that `found` differs from `seal` */
     double began_s, entered_s, seconds;
     koksma__rows spare;
-    size_t n_known;              /* length of `known`, whose index is the id of a series */
+    size_t n_known;              /* length of `known`, which is indexed by the ids of series */
     koksma__known_series *known; /* NULL until it is needed */
     bool knows_ends;
     koksma__kept_rows kept;
@@ -94,20 +94,20 @@ struct koksma__store {
     koksma__rows gathered;
     double written_s; /* when rows were last written, in seconds */
     koksma__point_files files;
-    char hash[KOKSMA__HASH_TEXT]; /* the hash is bound to statements, as is made_by */
+    char hash[KOKSMA__HASH_TEXT]; /* the hash and made_by are bound to statements, and so must outlive them */
     koksma__made_by made_by;
 };
 
 /* ---- store.c: the lock must be held for all of these but koksma__store_enter
    ----------------------------------- */
 
-/* Enter takes the lock and starts to count processor time; leave stops counting, releases the lock and returns
-   `status`. */
+/* koksma__store_enter takes the lock and starts to count processor time; koksma__store_leave stops counting, releases
+   the lock and returns `status`. */
 void koksma__store_enter(koksma__store *store);
 koksma_status koksma__store_leave(koksma__store *store, koksma_status status);
 
-/* Sets *key to the key of the series' row, which adds to `series` the hash of a points file that its pattern or
-   reference names, and the revisions of this program. *key is valid until the next call. */
+/* Sets *key to the key of the series' row: `series`, the hash of a points file that its pattern or reference names,
+   and the revisions of this program. *key is valid until the next call. */
 void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key);
 
 /* Records the status of a statement that writes, and returns it. After a failure nothing more is written, because
@@ -162,7 +162,8 @@ koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s,
 /* ---- store_series.c ---------------------------------------------------------------------------------------------
  */
 
-/* Reads all series into `known` unless that is done; forget frees `known` and `kept`, after a change of the tables. */
+/* The first function reads all series into `known`, unless it did so before; the second frees `known` and `kept`
+   after a change of the tables. */
 koksma_status koksma__store_know_series(koksma__store *store);
 void koksma__store_forget(koksma__store *store);
 

@@ -115,8 +115,8 @@ static koksma_status mark_as_logged(const char *temporary, const char *path)
     return done ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: writing failed: %s", path, strerror(errno));
 }
 
-/* Builds a store under a temporary name and moves it to `path` when complete. An upgrade replaces `old`; a new
-   store replaces nothing, so that the store of a run that was faster stays. */
+/* Builds a store under a temporary name and moves it to `path` when complete. An upgrade replaces `old`; a new store
+   replaces nothing, so that it cannot destroy the store of another run that was faster. */
 static koksma_status put_in_place(const char *path, const koksma__database *old, int schema)
 {
     koksma__atomic_file file;
@@ -129,7 +129,7 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
     status = status ? status : closed;
     status = status ? status : mark_as_logged(temporary, path);
     bool keep = !status;
-    /* the file system may have no hard links: then rename */
+    /* the file system may have no hard links; the file is then renamed */
     if (keep && !old && (!link(temporary, path) || errno == EEXIST)) {
         keep = false;
     }
@@ -137,14 +137,13 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
     return status ? status : placed;
 }
 
-/* Upgrades a file. Opening it first moves the write-ahead log of an older, killed run into the file, and locks
-   the file. */
+/* Upgrades a file. Opening the file moves the write-ahead log of an older, killed run into it and locks it. */
 static koksma_status upgrade_file(const char *path, int schema)
 {
     koksma__database *old;
     koksma_status status = koksma__database_open(path, KOKSMA__DATABASE_LOCK, &old);
     if (!status && koksma__database_has_moved(old)) {
-        status = koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
+        status = koksma__fail(KOKSMA_IO, "%s: another run is using it", path);
     }
     status = status ? status : put_in_place(path, old, schema);
     koksma__database_close(old);
@@ -264,15 +263,15 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     status = status ? status : make_store(database, out);
     status = status ? status : koksma__store_begin(*out);
     if (!status && koksma__database_has_moved(database)) {
-        status = koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
+        status = koksma__fail(KOKSMA_IO, "%s: another run is using it", path);
     }
-    /* look again, now that no other program can write */
+    /* check again, now that no other program can write */
     status = status ? status : koksma__database_look(path, &header);
     status = status ? status : koksma__schema_of(database, &header, &schema);
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
-    if (!status) {                      /* report damage before any byte is written */
-        (*out)->in_transaction = false; /* a scan would end the open transaction */
+    if (!status) {                      /* damage must be reported before any byte is written */
+        (*out)->in_transaction = false; /* no scan here, because it would end the open transaction */
         status = koksma__store_scan(*out, pass, NULL);
         (*out)->in_transaction = true;
     }

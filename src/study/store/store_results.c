@@ -11,7 +11,7 @@
 /* 24 MiB */
 enum { MOST_KEPT = 1 << 19 };
 
-/* Keeps a row; false: there are too many, or there is no memory for it. */
+/* Keeps a row in memory; false if there are too many rows, or no memory is left. */
 static bool keep(koksma__kept_rows *kept, const koksma__row *row)
 {
     if (kept->rows.n == kept->capacity) {
@@ -111,9 +111,10 @@ static koksma_status find_ends(koksma__store *store)
         for (size_t i = 0; !status && i < store->n_known; i++) {
             const koksma__known_series *k = &store->known[i];
             if (k->end > MOST_HOLES + MOST_HOLES * k->count) {
-                status = koksma__fail(KOKSMA_MALFORMED,
-                                      "%s: series %zu has a trial %lld of %lld; move it away to begin anew",
-                                      koksma__database_path(store->database), i, k->end - 1, k->count);
+                status = koksma__fail(
+                    KOKSMA_MALFORMED,
+                    "%s: series %zu has the trial number %lld, but only %lld trials; move it away to begin anew",
+                    koksma__database_path(store->database), i, k->end - 1, k->count);
             }
         }
         store->knows_ends = !status;
@@ -134,7 +135,8 @@ typedef struct wanted {
     void *context;
 } wanted;
 
-/* Passes on the series' result in a row, unless the row only has results of other series of its group. */
+/* Passes on the result that a row has for the series, unless the row only has results of other series of its
+   group. */
 static koksma_status pass_result(const koksma__store *store, const wanted *w, const koksma__row *row)
 {
     koksma__result result = {row->id >> 32, row->seed, {row->values[w->series % KOKSMA__GROUP], NAN, NAN, NAN}};
@@ -195,7 +197,7 @@ static koksma_status each_in_memory(const koksma__store *store, const wanted *w,
     return status;
 }
 
-/* Looking up one row by its id takes about as long as reading this many rows in sequence. */
+/* Looking up one row by its id takes as long as reading about this many rows in sequence. */
 static const long long ROWS_A_LOOKUP = 8;
 
 /* Calls `visit` for the results in the order of trials; looks trials up one by one, or filters all rows where that is

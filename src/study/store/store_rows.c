@@ -55,7 +55,7 @@ static koksma_status find_row(koksma__store *store, koksma__row *row, bool *foun
     return status;
 }
 
-/* Writes one row. If the row exists, its values stay, and only missing ones are taken from `from`. */
+/* Writes one row. If the row exists, its values are kept, and only missing values are taken from `from`. */
 static koksma_status put_one(koksma__store *store, const koksma__row *from)
 {
     koksma__row row = {.id = from->id};
@@ -96,7 +96,7 @@ static koksma_status put_many(koksma__store *store, const koksma__row *from, siz
     return conflict ? put_one(store, &from[(*done)++]) : KOKSMA_OK;
 }
 
-/* The store's lock is held, so that no other thread uses the spare buffer. */
+/* The caller holds the store's lock, so that no other thread uses the spare buffer. */
 koksma_status koksma__store_write_rows(koksma__store *store)
 {
     pthread_mutex_lock(&store->gather_lock);
@@ -105,7 +105,7 @@ koksma_status koksma__store_write_rows(koksma__store *store)
     store->spare.at = taken.at;
     store->written_s = koksma__now_s();
     pthread_mutex_unlock(&store->gather_lock);
-    if (taken.n) { /* what was read about series before is out of date */
+    if (taken.n) { /* the data read about series before are now out of date */
         koksma__store_forget(store);
     }
     koksma_status status = taken.n || store->in_transaction ? koksma__store_begin(store) : KOKSMA_OK;

@@ -18,8 +18,8 @@ static const uint32_t APPLICATION = 0x4b6b736d;
 
 enum { OLDEST = 3, MAX_STATEMENTS = 16, STATEMENTS = 6 };
 
-/* Writes one statement to `out` without comments and with one blank for each white space; the statement ends at a
-   ';' outside of quotes, or at the end. Returns the rest of the SQL. */
+/* Writes one statement to `out` without comments and with one blank for each stretch of white space. The statement
+   ends at the first ';' outside quotes, or at the end of the text. Returns the rest of the SQL. */
 static const char *normal_form(const char *sql, char *out)
 {
     char *to = out;
@@ -54,8 +54,8 @@ static int find_statement(const char *schema, const char *sql, char *out, char *
     return -1;
 }
 
-/* Checks that every entry of the file's schema is a statement of `schema`, each once; *n is the number of
-   entries. */
+/* Checks that every entry of the file's schema is a statement of `schema` and that none is repeated; *n is the number
+   of entries. */
 static koksma_status compare(koksma__database *database, const char *schema, int *n)
 {
     koksma__statement *s;
@@ -67,7 +67,7 @@ static koksma_status compare(koksma__database *database, const char *schema, int
         const char *sql = koksma__column_text(s, 0), *type = koksma__column_text(s, 1);
         const char *name = koksma__column_text(s, 2);
         if (koksma__column_is_null(s, 0) && !strcmp(type, "index") && !strncmp(name, "sqlite_autoindex_", 17)) {
-            continue; /* an index that SQLite makes for UNIQUE and PRIMARY KEY */
+            continue; /* skips the indices that SQLite makes for UNIQUE and PRIMARY KEY */
         }
         free(out);
         out = malloc(strlen(sql) + 1);
@@ -75,10 +75,10 @@ static koksma_status compare(koksma__database *database, const char *schema, int
         if (!out || !known) {
             status = koksma__fail_memory(strlen(sql));
         } else if (i < 0 || i >= MAX_STATEMENTS || seen[i]) {
-            status = koksma__fail(KOKSMA_MALFORMED,
-                                  "%s: not results of koksma study: its %.20s '%.100s' is another "
-                                  "program's; choose another folder",
-                                  koksma__database_path(database), type, name);
+            status = koksma__fail(
+                KOKSMA_MALFORMED,
+                "%s: not a store of koksma study: its %.20s '%.100s' is another program's; choose another folder",
+                koksma__database_path(database), type, name);
         } else {
             seen[i] = true;
             ++*n;
@@ -90,7 +90,7 @@ static koksma_status compare(koksma__database *database, const char *schema, int
     return status;
 }
 
-/* Reads the schema's number from the table meta of an old store. */
+/* Reads the number of the schema from the table `meta` of an old store. */
 static koksma_status old_schema(koksma__database *database, int *schema)
 {
     koksma__statement *s;
@@ -111,7 +111,7 @@ koksma_status koksma__schema_of(koksma__database *database, const koksma__databa
     const bool ours = koksma__schema_is_ours(header);
     int n = 0;
     KOKSMA__FAIL_IF(ours && header->version != KOKSMA__SCHEMA, KOKSMA_MALFORMED,
-                    "%s: its schema is %u and this program's is %d; choose another folder", path,
+                    "%s: the file has schema %u, but this program has schema %d; choose another folder", path,
                     (unsigned)header->version, KOKSMA__SCHEMA);
     *schema = KOKSMA__SCHEMA;
     koksma_status status = ours || !header->application_id
@@ -121,7 +121,7 @@ koksma_status koksma__schema_of(koksma__database *database, const koksma__databa
         status = old_schema(database, schema);
     }
     if (!status && (n != STATEMENTS || *schema < OLDEST || (!ours && *schema >= KOKSMA__SCHEMA))) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: not results of koksma study; choose another folder", path);
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: not a store of koksma study; choose another folder", path);
     }
     return status;
 }

@@ -7,7 +7,7 @@
 #include "core/status.h"
 #include "study/store/store_internal.h"
 
-/* More series would not fit into memory, where a plan's tasks are kept as well. */
+/* The maximum number of series: more would not fit into memory, which must also hold a plan's tasks. */
 static const long long MOST_SERIES = 1 << 26;
 
 /* Binds the part of the key that all series of a group share: everything up to the height, and the points'
@@ -33,12 +33,13 @@ static void bind_series(koksma__statement *s, int *column, const koksma__series 
     koksma__bind_text(s, column, key->measured_by);
 }
 
-/* Checks the number of a series: a number out of range is damage. */
+/* Checks the number of a series; a number out of range is a sign of damage. */
 static koksma_status check_number(const koksma__store *store, long long number)
 {
     return number >= 0 && number <= MOST_SERIES
                ? KOKSMA_OK
-               : koksma__fail(KOKSMA_MALFORMED, "%s: a series with the number %lld; move it away to begin anew",
+               : koksma__fail(KOKSMA_MALFORMED,
+                              "%s: a series has the invalid number %lld; move it away to begin anew",
                               koksma__database_path(store->database), number);
 }
 

@@ -10,7 +10,7 @@
 static koksma_status fail_row(const koksma__store *store, const char *table, long long id)
 {
     return koksma__fail(KOKSMA_MALFORMED,
-                        "%s: row %lld of table %s has a value of the wrong kind; move it away to begin anew",
+                        "%s: row %lld of table %s has a value of the wrong type; move it away to begin anew",
                         koksma__database_path(store->database), id, table);
 }
 
@@ -120,10 +120,11 @@ koksma_status koksma__seal_rest(koksma__store *store, koksma__seal *seal)
 
 koksma_status koksma__seal_fail(const koksma__store *store)
 {
-    return koksma__fail(KOKSMA_MALFORMED,
-                        "%s: damaged or changed by hand: %lld rows with the checksum %016" PRIx64
-                        " are stored, but runs wrote %lld with %016" PRIx64 "; 'koksma study audit' names what "
-                        "differs; restore a copy, or move it away to begin anew",
-                        koksma__database_path(store->database), store->found.rows, store->found.sum, store->seal.rows,
-                        store->seal.sum);
+    return koksma__fail(
+        KOKSMA_MALFORMED,
+        "%s: damaged or changed by hand: %lld rows with the checksum %016" PRIx64
+        " are stored, but runs wrote %lld with %016" PRIx64
+        "; 'koksma study audit' names the rows that differ; restore a copy, or move the file away to begin anew",
+        koksma__database_path(store->database), store->found.rows, store->found.sum, store->seal.rows,
+        store->seal.sum);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Upgrades stores of schemas 3 to 5 into a new database of the current schema (schema_upgrade*.sql). Old rows
    have no revisions and get those with which schema 6 began. Schemas 3 and 4 lack the coherence of errors, so
-   that the next run renders their images again. No old reference has a hash of its pixels, so that a run renders
-   a reference again before it compares anything with it. */
+   that the next run renders their images again. References in old stores have no hash of their pixels, so that a run
+   renders a reference again before it compares anything with it. */
 #include <string.h>
 
 #include "core/status.h"
@@ -81,7 +81,8 @@ koksma_status koksma__store_upgrade(int schema, koksma__store *store)
     for (int i = 0; i < N; i++) {
         koksma__statement_close(s[i]);
     }
-    if (status && status != KOKSMA_IO && status != KOKSMA_MEMORY) { /* the series names a spec that does not exist */
+    /* the series names a pattern or measure that does not exist */
+    if (status && status != KOKSMA_IO && status != KOKSMA_MEMORY) {
         return koksma__fail_in(KOKSMA_MALFORMED, koksma__database_path(store->database));
     }
     store->for_audit = true;

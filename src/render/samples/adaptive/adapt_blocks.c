@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The method `blocks` lets whole blocks of the image continue or stop together (Dammertz, Hanika, Keller & Lensch
- * 2010). With I the mean of all sets of a pixel and A that of every other set, the error of a block of N pixels in an
- * image of M pixels is
+ * The method `blocks` decides for whole blocks of the image whether their pixels get more samples (Dammertz, Hanika,
+ * Keller & Lensch 2010). Let I be the mean of all sets of a pixel, and A the mean of every second set. The error of a
+ * block of N pixels in an image of M pixels is
  *
  *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (absolute values and I summed over channels)
  *
- * A block stops when e is below the threshold. Below 256 times the threshold a block is cut across its longer side,
- * at the position where the errors of the two parts are most nearly equal, unless a part would have fewer than `side`
- * pixels. Without a threshold every block is cut after each round in which it was selected, and the budget goes to
- * the blocks with the largest error per pixel.
+ * A block stops when e is below the threshold. When its error is below 256 times the threshold, a block is cut across
+ * its longer side, at the position where the errors of the two parts are most nearly equal, unless a part would have
+ * fewer than `side` pixels. Without a threshold every block is cut after each round in which it was selected, and the
+ * budget goes to the blocks with the largest error per pixel.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static const koksma_param params[] = {
 
 typedef struct block {
     int x, y, width, height;
-    uint32_t sets; /* number of sets of its first pixel at the time of the cut */
+    uint32_t sets; /* number of sets that its first pixel had when the block was cut */
     bool stopped;
 } block;
 
@@ -149,7 +149,7 @@ static void plan(koksma__adaptive *run)
 
 static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
-    (void)run; /* demands are set by plan() */
+    (void)run; /* plan() sets the demands */
     (void)pixel;
     (void)scratch;
     (void)demand;

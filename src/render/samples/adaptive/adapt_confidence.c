@@ -18,7 +18,7 @@
 #include "stats/quantiles.h"
 
 enum { TEST = KOKSMA__SETS_THRESHOLD + 1, LEVEL };
-/* The factors are tabulated for up to FACTORS sets; beyond, they hardly change and the last factor is used. */
+/* The factors are tabulated for up to FACTORS sets; for more sets they hardly change, and the last factor is used. */
 enum { FACTORS = 1024 };
 
 static const char *const tests[] = {"t", "chi2", NULL};
@@ -82,7 +82,7 @@ static const koksma__adaptive_method method = {.open = open,
 
 const koksma_adaptive koksma__adaptive_confidence = {
     .name = "confidence",
-    .title = "more samples until a confidence interval is narrow",
+    .title = "more samples until a confidence interval of the pixel's luminance is narrow",
     .cite = "lee1985 purgathofer1987",
     .params = params,
     .functions = &method,

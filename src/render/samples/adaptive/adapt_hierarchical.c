@@ -2,9 +2,10 @@
 /*
  * The method `hierarchical`: strata are split where neighbours differ (Kajiya 1986), in all uses together (Shirley
  * 1991, section 5.6). With pairing=aligned, neighbours in the pixel are neighbours in every use. With
- * pairing=shuffled they are not, and strata are also split because they differ in uses where they lie far apart
- * (figure 5.36). Where values do not vary no stratum is split. The estimate is biased, because the values that decide
- * also count; it is unbiased with reuse=fresh, if aligned strata also have phase=shifted or phase=folded.
+ * pairing=shuffled they are not: strata that are neighbours in one use can be far apart in another, and are then
+ * split although no neighbours differ there (figure 5.36). Where the values are constant, no stratum is split. The
+ * estimate is biased, because the values that decide about splits are also averaged. It is unbiased with reuse=fresh;
+ * aligned strata also need phase=shifted or phase=folded.
  */
 #include "render/samples/adaptive/adaptive_strata.h"
 
@@ -17,7 +18,8 @@ static const char *const phases[] = {
 static const koksma_param params[] = {
     KOKSMA__STRATA_PARAMS,
     {"pairing", "how the strata of different uses are paired", 0, 0, 1, pairings, true},
-    {"phase", "how the other uses are moved with aligned pairing", KOKSMA__PHASE_FIXED, 0, 2, phases, true},
+    {"phase", "how the strata of all uses but the pixel are moved with aligned pairing", KOKSMA__PHASE_FIXED, 0, 2,
+     phases, true},
     {0},
 };
 

@@ -3,8 +3,9 @@
  * The method `relative-error`: a pixel gets more samples while the standard error of its luminance is above threshold
  * x (mean + floor). The standard error is estimated from the variance between the means of the sets, which are
  * independent replicates of the pattern. The samples of one stratified set are not independent, and their variance
- * over n overestimates the error. Sets of a sequence are also drawn independently, not continued. With k sets the
- * estimate has k - 1 degrees of freedom: with fewer than 4 sets in the first round many pixels stop by chance.
+ * over n overestimates the error. For the same reason a sequence is not continued: each set is drawn independently.
+ * With k sets the estimate has k - 1 degrees of freedom: with fewer than 4 sets in the first round many pixels stop
+ * by chance.
  */
 #include <math.h>
 
@@ -14,7 +15,8 @@ enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1 };
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(4, 2),
-    {"threshold", "standard error over (mean + floor); 0: only the budget limits", 0, 0, 1e6, NULL, false},
+    {"threshold", "largest standard error divided by (mean + floor); 0: only the budget limits", 0, 0, 1e6, NULL,
+     false},
     {"floor", "luminance below which errors count as absolute", 0.01, 1e-9, 1e9, NULL, false},
     {0},
 };

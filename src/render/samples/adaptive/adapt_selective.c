@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The method `selective` splits strata only in the use that causes most of the pixel's variance, a choice that
- * Shirley 1991, section 5.6, leaves open. Random permutations pair the uses, so neighbouring strata of one use are
- * not neighbours in another, and only in the use that causes the variance do neighbours have similar values. Geary's
- * contiguity ratio (1954) measures this similarity from the first m x m values v, without further samples. Over the P
- * pairs of neighbouring cells (columns and rows) of a use the ratio is
+ * Shirley 1991, section 5.6, leaves open. The uses are paired by random permutations, so that neighbouring strata of
+ * one use are not neighbours in another. Therefore neighbours have similar values only in the use that causes the
+ * variance. Geary's contiguity ratio (1954) measures this similarity from the first m x m values v, without further
+ * samples. Over the P pairs of neighbouring cells (columns and rows) of a use the ratio is
  *
  *     c = (sum over pairs (v_i - v_j)^2 / P)  /  (2 s^2),     s^2 the variance of all values
  *
  * The ratio c has mean 1 if the values lie on the cells in random order, and tends to 0 if the use explains the
  * values. The base use of a pixel is the one with the smallest c, if c is at most the parameter `below`; else no
  * stratum is split. The method then works like `hierarchical`, but compares neighbours and quarters cells in the base
- * use only. In the other uses each part keeps the whole cell, so that the parts cover the stratum, which four parts
- * quartered in several uses at once would not. The candidates for the base use are the pixel, the lens and time, and
- * the first lights and the lobe of the first two vertices.
+ * use only. In the other uses each part keeps the whole cell, so that the four parts together cover the stratum; they
+ * would not if cells were quartered in several uses at once. The candidates for the base use are the pixel, the lens
+ * and time, and the first lights and the lobe of the first two vertices.
  */
 #include "render/samples/adaptive/adaptive_strata.h"
 #include "render/vector3.h"

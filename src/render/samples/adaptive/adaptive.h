@@ -15,7 +15,7 @@
 /* The demand of a pixel for more samples. */
 typedef struct koksma__sample_demand {
     uint32_t now;   /* samples in the next round; 0: the pixel is done */
-    uint32_t later; /* number of samples in the last round that these samples make necessary */
+    uint32_t later; /* number of samples that the last round will need because of these samples */
     float score;    /* priority of the pixel; under a budget the highest scores are selected first */
     bool selected;  /* true: the next round draws samples of this pixel */
 } koksma__sample_demand;
@@ -32,8 +32,8 @@ typedef struct koksma__sample_values {
 /* An adaptive method. Any thread may call the functions that take a pixel, but only one thread at a time for each
    pixel. */
 typedef struct koksma__adaptive_method {
-    bool fresh; /* sets are drawn independently, even from patterns that could be continued */
-    bool pilot; /* the samples of the first sets only determine the demands */
+    bool fresh; /* whether sets are drawn independently, even from patterns that could be continued */
+    bool pilot; /* whether the samples of the first sets only determine the demands and are not averaged */
     /* Allocates the state and sets the demands of the first round, which selects all pixels. */
     koksma_status (*open)(koksma__adaptive *run);
     void (*close)(koksma__adaptive *run);
@@ -68,7 +68,7 @@ struct koksma__adaptive {
     const koksma_adaptive_options *options;
     const koksma__adaptive_method *method;
     size_t pixels, scratch;
-    uint64_t budget, spent; /* both count samples; budget UINT64_MAX: no budget */
+    uint64_t budget, spent; /* numbers of samples; a budget of UINT64_MAX means no budget */
     koksma__sampler base;   /* the sampler that draws sets of the pattern */
     koksma__sample_demand *demands;
     uint32_t *taken; /* number of samples of each pixel so far */

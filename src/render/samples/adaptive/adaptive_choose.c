@@ -19,7 +19,8 @@ static int by_score(const void *a, const void *b)
     if (p->score != q->score) {
         return p->score > q->score ? -1 : 1;
     }
-    /* equal scores are ordered without a visible pattern: by the pixel times an odd number modulo 2^32 */
+    /* pixels with equal scores are ordered by the pixel's number times an odd number modulo 2^32, so that no pattern
+       is visible */
     return p->pixel * 2654435761u < q->pixel * 2654435761u ? -1 : 1;
 }
 

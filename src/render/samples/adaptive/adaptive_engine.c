@@ -26,7 +26,8 @@ typedef struct job {
     atomic_ullong rays;
     const koksma_run *how;
     pthread_t caller; /* the only thread that may call how->keep_going */
-    double fraction;  /* of the tasks of a round, as koksma__parallel last reported it to the caller */
+    /* fraction of the tasks of a round that are done, as koksma__parallel last reported it to the caller */
+    double fraction;
     atomic_bool stop;
 } job;
 
@@ -125,7 +126,8 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
     return status;
 }
 
-/* keep_going of the caller, also within a task, which may take minutes; what stops the caller stops the helpers. */
+/* Asks the caller's keep_going, within a task, too, because a task may take minutes; if the caller is stopped, the
+   helper threads are stopped. */
 static bool goes_on(void *context, double fraction)
 {
     job *j = context;
@@ -158,7 +160,7 @@ static koksma_status render_task(void *context, size_t task)
     if (!selected) {
         return KOKSMA_OK;
     }
-    size_t samples = 0; /* since the last look */
+    size_t samples = 0; /* time since keep_going was last called */
     room r = {.scratch = malloc(run->scratch + 1)};
     koksma__group group;
     status = koksma__task_scratch_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);
@@ -272,7 +274,7 @@ static void write_results(const job *j)
 
 static koksma_status check(const koksma_render_options *options, const koksma_adaptive_options *adaptive)
 {
-    KOKSMA__FAIL_IF(!adaptive->method, KOKSMA_ARGUMENT, "adaptive sampling takes a method");
+    KOKSMA__FAIL_IF(!adaptive->method, KOKSMA_ARGUMENT, "adaptive sampling needs a method");
     const char *name = adaptive->method->name;
     const koksma_param *params = adaptive->method->params;
     for (int i = 0; params && params[i].name; i++) {
@@ -281,31 +283,30 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
                         adaptive->params[i], params[i].min, params[i].max);
     }
     KOKSMA__FAIL_IF(options->splat || options->scope == KOKSMA_SCOPE_IMAGE, KOKSMA_ARGUMENT,
-                    "%s: adaptive sampling keeps samples in their pixels, without %s", name,
+                    "%s: adaptive sampling keeps samples in their pixels, and so can't be used with %s", name,
                     options->splat ? "splatting" : "scope image");
     for (int g = 0; adaptive->method->own_samples && g < KOKSMA_MAX_USE_GROUPS; g++) {
         if (options->groups[g].n_uses) {
             char group[KOKSMA_MAX_SPEC];
             koksma_use_group_text(&options->groups[g], group);
-            return koksma__fail(
-                KOKSMA_ARGUMENT,
-                "%s: it draws from strata of its own, without a pattern for %s; methods that draw sets "
-                "of the pattern take one, such as two-stage",
-                name, group);
+            return koksma__fail(KOKSMA_ARGUMENT,
+                                "%s: this method divides pixels into strata itself and takes no pattern for %s; "
+                                "methods such as two-stage, which draw sets of the pattern, take one",
+                                name, group);
         }
     }
     KOKSMA__FAIL_IF(!(adaptive->budget >= 0 && adaptive->budget <= KOKSMA_MAX_SPP), KOKSMA_ARGUMENT,
-                    "budget = %.9g: it takes 0 to %d samples a pixel", adaptive->budget, KOKSMA_MAX_SPP);
+                    "budget = %.9g: it must be 0 to %d samples a pixel", adaptive->budget, KOKSMA_MAX_SPP);
     KOKSMA__FAIL_IF(adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES, KOKSMA_ARGUMENT,
                     "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
     const koksma__adaptive_method *method = adaptive->method->functions;
     KOKSMA__FAIL_IF(adaptive->probes && !method->probes, KOKSMA_ARGUMENT,
-                    "%s splits no strata, so that probes have no effect; leave them out", name);
+                    "%s splits no strata, so that probes have no effect; leave out the probes", name);
     const koksma_strata *strata = adaptive->strata;
     KOKSMA__FAIL_IF(strata && !method->show, KOKSMA_ARGUMENT, "%s: it has no strata to show", name);
     KOKSMA__FAIL_IF(
         strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height),
-        KOKSMA_ARGUMENT, "pixel %d,%d is outside of %d x %d pixels", strata->x, strata->y, options->width,
+        KOKSMA_ARGUMENT, "pixel %d,%d is outside the image of %d x %d pixels", strata->x, strata->y, options->width,
         options->height);
     return KOKSMA_OK;
 }
@@ -325,8 +326,8 @@ static koksma_status open_run(koksma__adaptive *run)
         run->report.first += run->demands[p].now;
     }
     KOKSMA__FAIL_IF(!status && run->spent > run->budget, KOKSMA_ARGUMENT,
-                    "%s: a budget of %.9g samples a pixel: the first round takes %.9g", run->options->method->name,
-                    run->options->budget, (double)run->spent / (double)run->pixels);
+                    "%s: a budget of %.9g samples a pixel is too small: the first round takes %.9g",
+                    run->options->method->name, run->options->budget, (double)run->spent / (double)run->pixels);
     return status;
 }
 

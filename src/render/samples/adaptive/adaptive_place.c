@@ -5,14 +5,14 @@
  * where a node is a current or former stratum, so that no positions need to be stored.
  *
  * With reuse=kept, a stratum that is split into four passes its sample on to the part that contains it: part b in the
- * base use, and quarter c in another use. In the other use part k gets quarter k ^ b ^ c, so that part b gets c and
- * the other three parts get the other three quarters. With shuffled pairing those three quarters are permuted at
- * random.
+ * base use, and quarter c in another use. In the other use part k gets quarter k ^ b ^ c (exclusive or), so that part
+ * b gets quarter c and the other three parts get the other three quarters. With shuffled pairing those three quarters
+ * are permuted at random.
  *
- * With reuse=fresh, the samples of the last stage must be independent of those by which strata were split. k ^ b ^ c
- * would always pair the quarters (b, c) again, which contain the sample that caused the split. So in the last stage
- * part k gets one of the four quarters with equal probability, drawn again. The mean over the parts is then unbiased
- * for the stratum, whatever the tree.
+ * With reuse=fresh, the samples of the last stage must be independent of those by which strata were split. The rule k
+ * ^ b ^ c would always pair quarter b with quarter c again, which together contain the sample that caused the split.
+ * So in the last stage part k gets one of the four quarters with equal probability, drawn again. The mean over the
+ * parts is then unbiased for the stratum, whatever the tree.
  */
 #include <math.h>
 #include <string.h>

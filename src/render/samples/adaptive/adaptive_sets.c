@@ -52,7 +52,7 @@ static koksma_status check_patterns(const koksma__adaptive *run)
 {
     const koksma_render_options *options = run->frame->options;
     koksma_status status = KOKSMA_OK;
-    bool seen = false; /* whether the common pattern has been checked */
+    bool seen = false; /* whether the pattern that several uses share has been checked */
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const koksma__place_of_use place = koksma__place_of_use_at(options, u);
         const bool own = place.group >= 0 || options->patterns[u].pattern;
@@ -70,7 +70,7 @@ static koksma_status check_patterns(const koksma__adaptive *run)
             status = compare_sets(spec, (size_t)options->spp, dim, &same);
         }
         KOKSMA__FAIL_IF(same, KOKSMA_ARGUMENT,
-                        "%s: every set of pattern %s is the same; with shift=1 they would differ",
+                        "%s: all sets of pattern %s are the same; with shift=1 they would differ",
                         run->options->method->name, p->name);
     }
     return status;
@@ -88,7 +88,7 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
                     "at most %d samples",
                     name, first, most, run->frame->options->spp, KOKSMA_MAX_SPP);
     KOKSMA__FAIL_IF(!run->options->budget && !(params[KOKSMA__SETS_THRESHOLD] > 0), KOKSMA_ARGUMENT,
-                    "%s: it takes a threshold, or a budget, or both", name);
+                    "%s: give a threshold, or a budget, or both", name);
     run->state = calloc(run->pixels, sizeof(koksma__pixel_sets));
     KOKSMA__REQUIRE_MEMORY(run->state, run->pixels * sizeof(koksma__pixel_sets));
     if (run->frame->aovs) {
@@ -121,8 +121,8 @@ size_t koksma__set_size(const koksma__adaptive *run)
 
 /* ---- Samples ---------------------------------------------------------------------------------------------- */
 
-/* Draws the sets first .. first + count - 1 as blocks of one two-dimensional sequence; each block is shuffled
-   separately. */
+/* Draws the sets number `first` to first + count - 1 as blocks of one two-dimensional sequence; each block is
+   shuffled separately. */
 static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint32_t use, size_t first, size_t count,
                                  koksma__sample_scratch *room, float *pairs)
 {

@@ -15,7 +15,7 @@
 #include "render/aov.h"
 #include "render/vector3.h"
 
-/* The largest number of strata in the image: 3.5 GiB. */
+/* The largest number of strata in the image; they take 3.5 GiB. */
 #define MAX_STRATA ((size_t)1 << 27)
 
 const char *const koksma__reuse_names[] = {
@@ -247,7 +247,7 @@ koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uin
     const koksma__tree *tree = &s->trees[pixel];
     const uint32_t probes = (uint32_t)run->options->probes;
     koksma__use_cells base, cells;
-    /* only the cells of `base` are used, to place samples in the base use */
+    /* only the member `base` is used, which places samples in the base use */
     koksma__use_cells_init(run, pixel, tree->base, NULL, &base);
     koksma__use_cells_init(run, pixel, use, room->words, &cells);
     for (uint32_t i = 0; i < tree->n; i++) {

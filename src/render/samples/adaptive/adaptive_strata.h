@@ -11,10 +11,10 @@
  * intervals of a line with shuffled pairing, and the columns of the square with aligned pairing.
  *
  * Aligned pairing leaves most of the product of the spaces unsampled: for example, samples in the left of the pixel
- * never see the right of a light. The parameter `phase` can correct this. With phase=fixed the other uses stay in
- * place. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s uniform; the mean of
- * each pixel is then right, but neighbouring strata across the seam differ. With phase=folded the coordinates
- * of all uses but the pixel are mapped by x -> |2 frac(x + s) - 1|, s uniform in [0,1), which has no seam.
+ * never see the right of a light. The parameter `phase` can correct this. With phase=fixed the other uses are not
+ * moved. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s uniform; the mean of
+ * each pixel is then right, but neighbouring strata across the seam differ. With phase=folded the coordinates of all
+ * uses but the pixel are mapped by x -> |2 frac(x + s) - 1|, s uniform in [0,1), which has no seam.
  *
  * The parameter `reuse` decides which samples the parts of a split stratum get. With reuse=kept the old sample stays
  * in the part that contains it, and the other parts get new samples. With reuse=renewed all four parts get new
@@ -51,7 +51,7 @@ typedef struct koksma__tree {
     koksma__stratum *strata;
     float *parts; /* 3 numbers for each AOV of light for each stratum; NULL: there are none */
     uint32_t n, marked, splits, needless;
-    uint32_t base;  /* the use in which neighbouring strata are compared */
+    uint32_t base;  /* the base use, in which neighbouring strata are compared */
     uint32_t stage; /* KOKSMA__STAGE_TREE or KOKSMA__STAGE_LAST */
     /* in the method `selective`: whether the base use was searched for, and whether it was found */
     bool searched, carried;
@@ -73,8 +73,8 @@ typedef struct koksma__use_cells {
     uint32_t use;
     uint64_t seed;
     const uint32_t *permutation; /* permutation of the cells; NULL: identity */
-    /* line: the cells lie on a line; split: the cells are split with the stratum; turned: the phase moves the
-       samples */
+    /* line: whether the cells lie on a line; split: whether they are split with the stratum; turned: whether the
+       phase moves the samples */
     bool line, split, turned;
 } koksma__use_cells;
 

@@ -18,7 +18,8 @@ enum { MAX_POINTS = 4096 };
 
 /* The summary of all rows. */
 typedef struct verdict {
-    size_t cases, beyond, no_use, infinite; /* no_use: V(f) D* is finite, but exceeds every error that f can have */
+    /* no_use: the bound V(f) D* is finite, but larger than any error that f can have */
+    size_t cases, beyond, no_use, infinite;
     double closest;
     char where[KOKSMA_MAX_SPEC + 128];
 } verdict;
@@ -111,7 +112,7 @@ static koksma_status add_set(koksma__document *d, verdict *all, const char *patt
     koksma_points_fini(&points);
     koksma_points_fini(&line);
     return status == KOKSMA_FORBIDDEN ? KOKSMA_OK
-                                      : status; /* leaves out patterns that the user did not allow to run code */
+                                      : status; /* patterns that run code are left out unless the user allowed that */
 }
 
 static void add_heads(koksma__document *d)

@@ -17,8 +17,9 @@
 /* The comparisons of one option with option 0, counted over all rows (pattern, number of points or samples,
    case). */
 typedef struct comparison {
-    size_t cases, better, worse, equal, unknown; /* equal: bit for bit in every trial; unknown: without an interval */
-    double logs;                                 /* sum of the logarithms of the ratios */
+    /* equal: number of rows that are equal bit for bit in every trial; unknown: number of rows without an interval */
+    size_t cases, better, worse, equal, unknown;
+    double logs; /* sum of the logarithms of the ratios */
 } comparison;
 
 typedef struct side {
@@ -44,7 +45,7 @@ static koksma_status pair(const side *base, const side *other, double **values, 
         i += a->trial <= b->trial;
         k += b->trial <= a->trial;
     }
-    if (*n < room) { /* close the gap between the two lists */
+    if (*n < room) { /* move the second list directly behind the first */
         memmove(*values + *n, *values + room, *n * sizeof **values);
     }
     return KOKSMA_OK;

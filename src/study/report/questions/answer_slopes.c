@@ -2,8 +2,8 @@
 /*
  * Answers how fast measures and errors fall with n: by average slopes in log-log over the larger half of the sizes,
  * with intervals, and with the known lower bound of a measure for comparison. The page sorts the patterns by the
- * widths of the intervals, the narrowest first. A bound with a logarithm is no power law, so its row has the average
- * slope of the bound over the same sizes.
+ * widths of the intervals, the narrowest first. A bound that contains a logarithm is not a power law; its row has the
+ * average slope of the bound over the same sizes.
  */
 #include <math.h>
 #include <stdio.h>
@@ -81,7 +81,7 @@ static koksma__trend trend_of(const curve *c)
     return koksma__trend_of(c->x + (c->n - n), c->y + (c->n - n), n);
 }
 
-/* Computes the lower bound of a measure over the sizes of a curve. Returns the bound's source; NULL: no bound is
+/* Computes the lower bound of a measure over the sizes of a curve. Returns the bound's source; NULL if no bound is
    known. */
 static const char *bound_of(const subject *s, const curve *like, curve *out)
 {

@@ -2,10 +2,10 @@
 /*
  * Tables of the means of every pattern, with their intervals: one for each measure (and warp) of a block of points,
  * and one for each scene and options of a block of images. The patterns are sorted by the last column, the best
- * first. A sentence reports whether the best pattern differs from all others in that column, by the intervals of the
- * differences, at 95 % for all of them together (Bonferroni); if not, how many trials might separate it from the
- * next. A table of images has the numbers of samples at which a pattern's error is in visible bands
- * (coherence_rows.h), and the sentence names the best pattern without bands.
+ * first. A sentence reports whether the best pattern differs from all others in that column, which the intervals of
+ * the differences decide, at 95 % for all of them together (Bonferroni). If it does not, the sentence says how many
+ * trials might separate it from the next. A table of images has the numbers of samples at which a pattern's error is
+ * in visible bands (coherence_rows.h), and the sentence names the best pattern without bands.
  */
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@ typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
     const char *scene, *variant; /* for images */
-    const char *measure, *warp;  /* for measures of points; warp "": the points are not warped */
+    const char *measure, *warp;  /* set for measures of points; if warp is "", the points are not warped */
     const koksma__texts *patterns;
     const koksma__wholes *n;
     const char *name, *last; /* heading of the table; head of its last column */
@@ -35,7 +35,8 @@ typedef struct subject {
 /* The patterns by their means in the last column, the best first. */
 typedef struct standing {
     koksma__summary *means; /* in the order of the patterns */
-    size_t *by, known;      /* by: indices of the patterns in order; known: number with a mean, which come first */
+    /* by: indices of the patterns in order; known: number of patterns with a mean, which come first */
+    size_t *by, known;
 } standing;
 
 static koksma_status cell_of(koksma_study *study, const subject *c, size_t pattern, size_t k, koksma__summary *mean)

@@ -9,7 +9,7 @@
 
 typedef struct koksma__topic {
     const char *id;                                  /* id of the question, part of the names of its CSV files */
-    const koksma__discrepancy_block **discrepancies; /* room for all of the plan's blocks */
+    const koksma__discrepancy_block **discrepancies; /* has capacity for all blocks of the plan */
     const koksma__image_block **images;
     size_t n_discrepancies, n_images;
     size_t n_groups; /* number of the question's groups of scenes */

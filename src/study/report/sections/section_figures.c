@@ -39,7 +39,7 @@ static koksma_status add_points(koksma__document *d, const koksma__figure *f, ch
     }
     status = koksma_generate(&spec, koksma__job_seed("figure|%s|%lld", f->pattern, f->n), NULL, &points);
     koksma_scatter_options options = {.size = POINTS_WIDTH, .warp = f->warp ? koksma_warp_find(f->warp) : NULL};
-    if (f->cells) { /* show the strata: n columns and n rows, or the cells of a sqrt n x sqrt n grid */
+    if (f->cells) { /* how to show the strata: as n columns and n rows, or as the cells of a sqrt n x sqrt n grid */
         options.columns = options.rows =
             spec.pattern->claims & KOKSMA_CLAIM_LATIN ? (size_t)f->n : (size_t)sqrt((double)f->n);
     }
@@ -50,8 +50,8 @@ static koksma_status add_points(koksma__document *d, const koksma__figure *f, ch
         koksma__doc_svg(d, svg, size, POINTS_WIDTH, f->title);
         free(svg);
     }
-    if (status == KOKSMA_FORBIDDEN) { /* a report runs foreign code only if the user allows it */
-        snprintf(note, NOTE, " (not drawn: the pattern runs code, which takes --allow-exec)");
+    if (status == KOKSMA_FORBIDDEN) { /* a report runs code of others only if the user allows it */
+        snprintf(note, NOTE, " (not drawn: the pattern runs code, which needs --allow-exec)");
         status = KOKSMA_OK;
     }
     koksma_points_fini(&points);
@@ -197,7 +197,7 @@ static koksma_status add_scene(const koksma_study *study, koksma__document *d, c
 
 static const double MOST_SLOPE = 3; /* largest |m| of the lines that are shown as points (m, b) */
 
-/* Finds the two points where the line a x + b y = c meets the border of the unit square; false: there are fewer. */
+/* Finds the two points where the line a x + b y = c meets the border of the unit square; false if there are fewer. */
 static bool meet_square(double a, double b, double c, double ends[2][2])
 {
     int n = 0;

@@ -83,7 +83,7 @@ static void add_cell(koksma__document *d, const koksma__cell *cell)
 
 /* The means of a table's rows against the first [0] and the last [1] reference of the block. */
 typedef struct row_means {
-    size_t *order[2]; /* indices of the rows, best first */
+    size_t *order[2]; /* indices of the rows in ascending order of their means */
     double *mean[2];
 } row_means;
 
@@ -205,9 +205,9 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const k
 
 /* ---- The overall order ------------------------------------------------------------------------------------- */
 
-/* Adds the rank of every row of table t, by its mean against the first reference, to ranks[k], where row k of table
-   `first` has the same pattern. Sets *whole to false if a row has no trials yet or no row of `first` has its
-   pattern. */
+/* Adds the rank of every row of table t, by its mean against the first reference, to ranks[k], where row k of the
+   table `first` is the row with the same pattern. Sets *whole to false if a row has no trials yet or no row of
+   `first` has its pattern. */
 static koksma_status add_ranks(koksma_study *study, const koksma__table *t, const koksma__table *first, double *ranks,
                                bool *whole)
 {

@@ -29,7 +29,7 @@ static bool is_shown(const koksma__report_scope *scope)
     return scope->study->plan.n_images > 0;
 }
 
-/* Whether a block has pattern p at the middle one of its numbers of samples, which the pictures show. */
+/* Whether a block has pattern p at the middle one of its numbers of samples, with which the pictures are rendered. */
 static bool is_served(const koksma__image_block *block, size_t p)
 {
     return !koksma__is_left_out(&block->left_out, p, block->spp.n, block->spp.n / 2);

@@ -32,8 +32,8 @@ static bool is_shown(const koksma__report_scope *scope)
 
 /* ---- Tables of one number of points ------------------------------------------------------------------------ */
 
-/* Adds the columns for the mean, SD and largest value of a measure. beside: the measure is the table's second one,
-   of which the page shows only the mean. */
+/* Adds the columns for the mean, SD and largest value of a measure. beside: whether the measure is the table's second
+   one, of which the page shows only the mean. */
 static void add_cell_columns(koksma__document *d, const char *measure, const char *group, size_t sets, bool beside)
 {
     char name[KOKSMA_MAX_SPEC + 64], largest[64];
@@ -160,8 +160,8 @@ static void add_printed_line(sizes_table *s, const koksma__table_row *row)
     koksma__doc_number(s->document, row->rate);
 }
 
-/* Adds a row with our means of a measure. own: it is the table's first measure, whose means get verdicts and a
-   curve. */
+/* Adds a row with our means of a measure. own: whether it is the table's first measure, whose means get verdicts and
+   a curve. */
 static koksma_status add_our_line(sizes_table *s, const koksma__table_row *row, const char *measure, bool own)
 {
     const koksma__wholes *n = &s->table->n;

@@ -46,13 +46,13 @@ static void topic_fini(koksma__topic *topic)
     free(topic->images);
 }
 
-/* Whether a question about blocks called `wanted` (NULL: none) is about a block of this id. */
+/* Whether a block with this id belongs to a question about the blocks called `wanted` (NULL: no blocks). */
 static bool is_asked(const char *wanted, const char *id)
 {
     return wanted && id && !strcmp(id, wanted);
 }
 
-/* Collects the blocks of a plan that a question names; q = NULL: all blocks. */
+/* Collects the blocks of a plan that the question q names, or all blocks if q is NULL. */
 static void choose_blocks(const koksma__plan *plan, const koksma__plan_part *part, const koksma__question *q,
                           koksma__topic *topic)
 {
@@ -85,7 +85,7 @@ static koksma_status answer_question(koksma_study *study, koksma__document *d, c
         koksma__doc_section_body(d);
         status = answers[q->kind - koksma__question_kinds](study, &content, &topic);
         if (koksma__doc_is_empty(&content)) {
-            koksma__doc_paragraph(d, "No answer: it takes %s.", q->kind->rows);
+            koksma__doc_paragraph(d, "No answer: this needs %s.", q->kind->rows);
         }
         koksma__doc_append(d, &content);
         koksma__doc_end(d);
@@ -107,7 +107,7 @@ static koksma_status answer_all(koksma_study *study, koksma__document *d, size_t
     for (size_t k = 0; !status && k < sizeof answers / sizeof *answers; k++) {
         const koksma__question_kind *kind = &koksma__question_kinds[k];
         koksma__document content = {0};
-        char id[48]; /* "1.2" for answer 2 of plan 1; "2" if there is only one plan */
+        char id[48]; /* the number of an answer: "1.2" for answer 2 of plan 1, or "2" if there is only one plan */
         if (kind->fields & KOKSMA__ASKED_BY_NAME) {
             continue;
         }
