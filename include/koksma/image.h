@@ -188,7 +188,7 @@ typedef struct koksma_coherence {
 } koksma_coherence;
 
 typedef struct koksma_coherence_values {
-    size_t images;      /* number of images used; if it is 0, the numbers below are NaN */
+    size_t images;      /* number of images used; if it is 0, all other numbers of this struct are NaN */
     double coherence;   /* the peak of P */
     double low, high;   /* 95 % interval (Student's t) of the mean over the images of P at the frequency of the
                            peak, or NaN if there is one image */
@@ -197,10 +197,10 @@ typedef struct koksma_coherence_values {
                            the image */
     double common;      /* fraction, 0 .. 1, of the squared error that all images have in common: 1 for a pattern
                            without random numbers, NaN if there is one image */
-    double noise_low, noise_high; /* interval that contains the coherence of 95 % of white-noise errors with the
-                                     same `common` */
-    double p;                     /* probability that white-noise errors with the same `common` have at least this
-                                     coherence */
+    double noise_low, noise_high; /* interval that contains the coherence of 95 % of the white-noise errors that have
+                                     the same value of `common` */
+    double p;                     /* probability that white-noise errors with the same value of `common` have at least
+                                     this coherence */
     bool coherent;                /* true if p < KOKSMA_COHERENT_P and the coherence is at least
                                      KOKSMA_COHERENT_LEAST */
 } koksma_coherence_values;

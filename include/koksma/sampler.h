@@ -422,9 +422,8 @@ KOKSMA_INLINE uint32_t koksma_shuffled(uint32_t i, uint32_t order)
     return koksma_mirror(koksma_owen_hash(koksma_mirror(i), order));
 }
 
-/* Returns the row of a table of a digital sequence that half byte n of the index selects; n = 0 is the lowest half
-   byte of the index, the uppermost of j, which has the bits of the index in reverse order. Rows have `width` (2 or
-   4) words. */
+/* Returns the row of a table of a digital sequence that half byte n of an index selects; half byte 0 is the lowest. j
+   is the index with its 32 bits in reverse order. Rows have `width` (2 or 4) words. */
 KOKSMA_INLINE koksma__four koksma__row(const uint32_t *table, uint32_t width, uint32_t n, uint32_t j)
 {
     const uint32_t fourfold = n < 7 ? j >> (26 - 4 * n) : j << 2;
@@ -470,7 +469,7 @@ KOKSMA_INLINE koksma__four koksma__digital(const uint32_t *table, uint32_t width
     uint32_t j = koksma_owen_hash(koksma_mirror(i), order);
     koksma__four x;
 #if defined(KOKSMA_VECTOR)
-    /* Keeps gcc from computing j and its first row twice, the second time for the next iteration of a loop. */
+    /* Without this barrier gcc computes j and its first table row a second time, for the next iteration of a loop. */
     __asm__("" : "+r"(j));
 #endif
     x = koksma__xor(koksma__xor(koksma__row(table, width, 0, j), koksma__row(table, width, 1, j)),

@@ -196,8 +196,8 @@ typedef struct koksma_study_row {
     koksma_study_verdict verdict; /* verdict on the mean */
 } koksma_study_row;
 
-/* Computes row i of a published table from the results so far. A table over several n has one row for each pattern
-   and n.
+/* Computes row i of a published table from the results so far. A table over several numbers of points n has one row
+   for each pattern and n.
      id     id of the table, such as "5.1"; if several plans have this id, the table of the first plan
      found  receives false past the last row
    Errors: UNKNOWN (id), IO, MEMORY. */
