@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* CSV as in RFC 4180: a field has quotes only where a reader needs them, so that plain tables stay plain. */
+/* Writes CSV (RFC 4180). A field gets quotes only if readers need them. */
 #include "core/csv.h"
 
 #include <math.h>

@@ -15,7 +15,7 @@
 /* What a random number is used for. Numbers with different purposes are independent. Add new purposes at the end
    only: the bits of every pattern depend on these numbers. */
 typedef enum koksma__purpose {
-    KOKSMA__PURPOSE_SEED = 1, /* deriving a seed from a seed */
+    KOKSMA__PURPOSE_SEED = 1, /* derives a seed from another seed */
     KOKSMA__PURPOSE_POINT,    /* the position of a point in the cube or in its cell */
     KOKSMA__PURPOSE_SHUFFLE,  /* a random permutation */
     KOKSMA__PURPOSE_DART,     /* a candidate point that may be rejected */

@@ -8,8 +8,8 @@
 
 #include "core/visibility.h"
 
-/* Parses "key=value,key=value" with a table of parameters (NULL: there are none); values are set to the defaults
-   first. */
+/* Parses "key=value,key=value" with a table of parameters (NULL: there are no parameters); all values start with
+   their defaults. */
 KOKSMA__LAB koksma_status koksma__params_parse(const char *member, const koksma_param *params, const char *text,
                                                double *values);
 
@@ -27,7 +27,7 @@ KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *v
    ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
 
-/* The arguments for the functions of a pattern or measure, from its spec. */
+/* Makes the arguments for the functions of a pattern or measure from its spec. */
 koksma_args koksma__spec_arguments(const koksma_spec *spec, const koksma_run *run);
 
 #endif

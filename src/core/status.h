@@ -11,17 +11,18 @@
    the text one line of UTF-8. */
 KOKSMA__LAB koksma_status koksma__fail(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* The number of bytes of the UTF-8 character (RFC 3629) at the text's start; 0 if the bytes are not valid UTF-8. */
+/* Returns the number of bytes of the UTF-8 character (RFC 3629) at the start of the text; 0 if the bytes are not
+   valid UTF-8. */
 size_t koksma__utf8_length(const unsigned char *text);
 
-/* Fails with MEMORY and the text for a block of `bytes` that malloc or realloc did not give. */
+/* Sets the error text for a block of `bytes` that malloc or realloc could not allocate, and returns MEMORY. */
 KOKSMA__LAB koksma_status koksma__fail_memory(size_t bytes);
 
 /* Puts a name in front of the text of the last failure ("PATH: reason") and returns status. */
 KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name);
 
 /* The checks that a public function begins with: KOKSMA__REQUIRE(points, out) returns ARGUMENT and names the first
-   NULL pointer in the error text; KOKSMA__REQUIRE_OR(result, ...) returns another result, or nothing, as in
+   NULL pointer in the error text; KOKSMA__REQUIRE_OR(result, ...) returns `result` instead; in a void function write
    KOKSMA__REQUIRE_OR(, text); KOKSMA__REQUIRE_RUN(run) accepts NULL, or a run whose values are in range. */
 #define KOKSMA__REQUIRE_OR(result, ...)                                                                              \
     do {                                                                                                             \

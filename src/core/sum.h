@@ -21,7 +21,7 @@ static inline double koksma__sum_value(const koksma__sum *sum)
     return sum->total + sum->lost;
 }
 
-/* Returns 0 for a negative value, as of a square that rounding made negative. NaN stays NaN, unlike with fmax. */
+/* Returns 0 for a negative value, for squares that rounding made negative. Unlike fmax it returns NaN for NaN. */
 static inline double koksma__not_below_0(double square)
 {
     return square < 0 ? 0 : square;
