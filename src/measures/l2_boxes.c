@@ -6,10 +6,10 @@
  *     c^d - (2/n) sum_i prod_k a(x_ik) + (1/n^2) sum_ij prod_k K(x_ik, x_jk),
  *     a(u) = int_0^1 K(u, v) dv,  c = int_0^1 a(u) du.
  *
- * They differ in K alone, whose coefficients are in the row (see measures/shared/l2.h); shared/l2.c chooses the
- * method by n and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or have 106 bits,
- * and the relative error of the value is 1e-11 at 10^6 points; in more dimensions the error of the square is about
- * 1e-16 of its terms (l2-star: 1e-17).
+ * They differ only in the kernel K, whose coefficients are in the table row (see measures/shared/l2.h); shared/l2.c
+ * chooses the method by n and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or
+ * have 106 bits, and the relative error of the value is 1e-11 at 10^6 points; in more dimensions the error of the
+ * square is about 1e-16 of its terms (l2-star: 1e-17).
  */
 #include "measures/l2_boxes.h"
 
@@ -66,8 +66,8 @@ L2(star, "L2 star discrepancy (root mean square over anchored boxes)",
  * Source: Morokoff and Caflisch 1994, who call it T_N.
  * Known exactly: one point at the centre of the square, square = 11/288; random points, E = (6^-d - 12^-d)/n.
  */
-L2(extreme, "L2 discrepancy over all boxes lo < hi, not divided by their measure", "morokoff1994 hickernell1998",
-   false, 1, .a24 = {3, 0, -12, 0}, .g = {0.125, 0, -0.5, 0}, .q = -0.5, .r = 0.5);
+L2(extreme, "L2 discrepancy over all boxes [lo, hi): root of the integral, not of the mean",
+   "morokoff1994 hickernell1998", false, 1, .a24 = {3, 0, -12, 0}, .g = {0.125, 0, -0.5, 0}, .q = -0.5, .r = 0.5);
 
 /*
  * l2-periodic: the root mean square, over boxes on the torus whose start and length in each coordinate are uniform,

@@ -26,7 +26,7 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_min_distance = {
     .name = "min-distance",
-    .title = "smallest distance between two points (larger is better)",
+    .title = "smallest distance between two points (larger values are better)",
     .cite = "lagae2008",
     .cost = "n, or n log n for clustered points; above 2D n log n to n^2",
     .min_dim = 2,

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Bounds for the discrepancy of half-planes. Within distance rho of a centre, turning a line about a point by up to
- * eta moves it by at most s = 2 rho sin(eta/2). So a half-plane whose direction is within eta of the middle one lies,
- * within the domain, between the half-planes of the middle direction that are moved inward and outward by s, which
- * bound its count and its mass. Over all lines of an interval of directions this gives
+ * Bounds for the discrepancy of half-planes. The domain lies within distance rho of a centre. Turning a line about a
+ * point of the domain by up to eta moves it there by at most s = 2 rho sin(eta/2). So a half-plane whose direction
+ * differs by up to eta from a middle direction lies, within the domain, between two half-planes of the middle
+ * direction that are shifted inward and outward by s. These bound its count and its mass. Over all lines of an
+ * interval of directions this gives
  *
  *     excess <= max_c #{x below c}/n - mass(below c - 2s),    deficit <= max_c mass(below c + 2s) - #{x below c}/n,
  *
@@ -22,12 +23,12 @@
 enum { FIRST_CUTS = 32, MAX_CUTS = 1 << 20 };
 
 static const double finest =
-    1e-9; /* narrowest interval; near a smooth maximum about width^-1/2 intervals cannot be excluded */
+    1e-9; /* smallest width of an interval; near a smooth maximum about width^-1/2 intervals cannot be excluded */
 
 /* An interval of directions, within half a width of the middle one, and the bound for its lines. */
 typedef struct cut {
     double middle, bound;
-    koksma__edge_line line; /* the best one found in the middle direction */
+    koksma__edge_line line; /* the best half-plane found in the middle direction */
 } cut;
 
 typedef struct cover {
@@ -38,7 +39,7 @@ typedef struct cover {
     cut *cuts;
 } cover;
 
-/* The mass below the line with unit normal (a, b) at signed distance c from the origin. */
+/* Returns the mass below the line with unit normal (a, b) at signed distance c from the origin. */
 static double mass_below(const cover *v, double a, double b, double c)
 {
     return v->domain->area_below_through(a, b, (double[2]){a * c, b * c});

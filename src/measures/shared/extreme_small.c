@@ -18,7 +18,7 @@ typedef struct search {
     size_t n;
     int dim;
     double *lists[3];  /* lists[k]: the points between the sides in coordinates above k, dim numbers each */
-    double *levels[3]; /* distinct coordinates of all points in order; for deficits with 0 and 1 */
+    double *levels[3]; /* sorted distinct coordinates of all points; for deficits also 0 and 1 */
     size_t n_levels[3];
     double lo[3], hi[3];
     const koksma_run *run;
@@ -80,7 +80,8 @@ static void best_deficit(search *s, const double *list, size_t count, double wid
     while (i < count && list[i * (size_t)s->dim] <= 0) {
         i++;
     }
-    double low = -(double)i / n, low_at = 0, best = s->out->value; /* low = min of width lo - #{z <= lo}/n */
+    double low = -(double)i / n, low_at = 0, best = s->out->value; /* low = the least value so far of width lo - #{z
+                                                                      <= lo}/n */
     size_t low_index = i;
     for (;;) {
         const double z = i < count ? list[i * (size_t)s->dim] : 1;

@@ -20,7 +20,7 @@ koksma_status koksma__torus_cells_init(koksma__torus_cells *cells, const koksma_
                                        bool wrap)
 {
     const size_t n = points->n;
-    const double outside = wrap ? 1 : 2; /* coordinates from here on become 0 */
+    const double outside = wrap ? 1 : 2; /* coordinates of at least this value become 0 */
     *cells = (koksma__torus_cells){.n = n, .columns = columns > 1 ? (size_t)columns : 1};
     const size_t n_cells = cells->columns * cells->columns;
     cells->xs = malloc(2 * n * sizeof(double));
