@@ -57,9 +57,9 @@ const cli_command *cli_command_find(const char *name);
 /* Options that most commands have, for the end of an option table. */
 #define CLI_ROW_OPTIONS                                                                                              \
     {0, "json", NULL, "print rows as JSON, one object per line, instead of aligned text"},                           \
-        {0, "long", NULL, "all columns, also those that do not fit the terminal"},                                   \
+        {0, "long", NULL, "print all columns, also those that do not fit the terminal"},                             \
     {                                                                                                                \
-        0, "digits", "N", "significant digits of numbers as text, 1 to 17 (default: 5; JSON has all)"                \
+        0, "digits", "N", "significant digits of numbers in text output, 1 to 17 (default: 5; JSON has all)"         \
     }
 #define CLI_RUN_OPTIONS                                                                                              \
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
@@ -70,11 +70,11 @@ const cli_command *cli_command_find(const char *name);
         'q', "quiet", NULL, "print only errors to stderr"                                                            \
     }
 
-/* Read before a command runs, as it applies to every scene that the command opens. */
+/* This option is read before the command runs, because it applies to every scene that the command opens. */
 #define CLI_UNKNOWN_OPTION                                                                                           \
     {                                                                                                                \
         0, "unknown", "approximate|refuse",                                                                          \
-            "what an unknown part of a pbrt or Mitsuba scene gives: a warning (approximate, default) or an error"    \
+            "unknown parts of pbrt or Mitsuba scenes cause a warning (approximate, default) or an error (refuse)"    \
     }
 
 /* cli_text returns the text of an option, or `fallback` when the option is not given; cli_flag returns whether a flag
@@ -135,7 +135,7 @@ typedef struct cli_work {
 /* Reads CLI_RUN_OPTIONS and starts the clock of the progress line. Returns false after an error. From this call on
    the first Ctrl-C makes keep_going return false. */
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
-/* the work that follows is part i (0..) of n equal parts of the progress bar */
+/* Begins part i (0..) of n equal parts of the progress bar. */
 void cli_work_part(cli_work *work, size_t i, size_t n);
 /* Clears the progress line if one is shown. Printing a message or a row clears it, too. */
 void cli_work_end(void);

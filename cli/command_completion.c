@@ -235,8 +235,8 @@ static void put_commands(void)
 static const char names_function[] = "_koksma_names() { koksma list \"$1\" 2>/dev/null | sed 1d | cut -d' ' -f1; }\n";
 
 /* Bash code that completes a word with a colon by means of `koksma completion spec`. Bash splits words at colons and
-   equals signs and replaces only the part after the last of these, so the code removes the part before from the
-   completions. */
+   equals signs and replaces only the part after the last of these. The code therefore removes the part before it from
+   the completions. */
 static const char bash_specs[] =
     "  local word=${COMP_LINE:0:COMP_POINT}; word=${word##* }\n"
     "  if [[ $word = *:* ]]; then\n"
@@ -255,7 +255,7 @@ static void put_bash(void)
            "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W '",
            names_function);
     put_commands();
-    /* bash makes an equals sign a word, so the option may be two words before the cursor */
+    /* bash treats an equals sign as a word, so the option may be two words before the cursor */
     printf("' -- \"$current\"))\n    return\n  fi\n%s"
            "  if [ \"$current\" = = ]; then current=''; "
            "elif [ \"$before\" = = ]; then before=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
@@ -436,7 +436,8 @@ const cli_command cli_command_completion = {
     .name = "completion",
     .summary = "print a shell's completion script",
     .synopsis = "bash|zsh|fish\nspec WORD",
-    .details = "In bash: source <(koksma completion bash). 'make install' puts the scripts where the shells look.\n"
+    .details = "To use it in bash, run: source <(koksma completion bash). 'make install' installs the scripts in the "
+               "folders in which the shells search.\n"
                "spec: prints what may follow behind the colon of a pattern or measure, for the scripts.",
     .examples = "koksma completion bash >koksma.bash\n",
     .options = options,

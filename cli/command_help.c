@@ -14,7 +14,7 @@ void cli_print_overview(FILE *stream)
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         fprintf(stream, "  %-10s %s\n", command->name, command->summary);
     }
-    fputs("\n'koksma COMMAND --help' prints options and examples. Exit codes: 0 done; 1 it\n"
+    fputs("\n'koksma COMMAND --help' prints the options of a command and examples. Exit codes: 0 done; 1 it\n"
           "ran and the answer is no; 2 the command line is wrong; 3 a named file is\n"
           "missing, malformed or of a kind that is not read; 4 the system failed; 130\n"
           "interrupted, finished results are kept.\n",
@@ -24,7 +24,8 @@ void cli_print_overview(FILE *stream)
 static int run(const cli_arguments *arguments)
 {
     if (arguments->n_operands > 1) {
-        return cli_usage_error(arguments, "it takes the name of one command, or nothing for what all of them do");
+        return cli_usage_error(arguments,
+                               "it takes the name of one command, or nothing for an overview of all commands");
     }
     if (arguments->n_operands == 0) {
         cli_print_overview(stdout);
@@ -44,9 +45,9 @@ static const cli_option options[] = {{0}};
 
 const cli_command cli_command_help = {
     .name = "help",
-    .summary = "print what the commands do, or all about one of them",
+    .summary = "describe all commands in one line each, or one command in full",
     .synopsis = "[COMMAND]",
-    .details = "The same as koksma --help, and koksma COMMAND --help or -h.",
+    .details = "Prints the same text as koksma --help, or as koksma COMMAND --help.",
     .examples = "koksma help rank\n",
     .options = options,
     .run = run,

@@ -107,7 +107,7 @@ static const char *scene_title(const char *name)
     return title;
 }
 
-/* Returns what the text after the colon of a pattern's spec gives, itself or as the path of a file. */
+/* Returns what a pattern takes from the text after the colon of its spec, which may be the path of a file. */
 static const char *reads(const koksma_pattern *p)
 {
     return !p->operand                  ? "-"
@@ -117,8 +117,8 @@ static const char *reads(const koksma_pattern *p)
                                         : "parameters";
 }
 
-/* Defines the function list_TABLE. The function prints a row for each x that the expression `next` finds as item i:
-   its name, its meaning, and `columns`. */
+/* Defines the function list_TABLE. It prints one row for each item x of the table, with x->name, its meaning, and
+   `columns`. The expression `next` sets x to item i and is false past the end. */
 #define LIST(table, noun, type, next, name, meaning, columns)                                                        \
     static void list_##table(cli_rows *rows)                                                                         \
     {                                                                                                                \

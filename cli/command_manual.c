@@ -121,8 +121,8 @@ static void put_overview(void)
     }
     put_exit_status();
     printf(".SH ENVIRONMENT\n.TP\n.B KOKSMA_KERNELS\nthe instruction set of the inner loops: ref, baseline, avx2 or "
-           "avx512.\nBy default it is the fastest that the processor has. Results of the last three have equal "
-           "bits.\n");
+           "avx512.\nThe default is the fastest one that the processor supports. baseline, avx2 and avx512 give "
+           "results with equal bits.\n");
 }
 
 static int run(const cli_arguments *arguments)
@@ -143,7 +143,7 @@ static const cli_option options[] = {{0}};
 
 const cli_command cli_command_manual = {
     .name = "manual",
-    .summary = "print a manual page, as man reads it",
+    .summary = "print a manual page in the format of man",
     .synopsis = "[COMMAND]",
     .examples = "koksma manual rank | man -l -\n",
     .options = options,

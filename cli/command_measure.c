@@ -2,8 +2,8 @@
 /*
  * `koksma measure`: evaluates measures of points from files and patterns. With one set per source, a row has the
  * exact value or bounds, and the witness if the measure finds one. --trials, --prefixes, --sizes and --paired are
- * handled in measuring.c, which computes means, standard errors and slopes. A search that --time-limit cuts short
- * gives bounds, with a warning.
+ * handled in measuring.c, which computes means, standard errors and slopes. If --time-limit ends a search early, the
+ * row has bounds, and a warning is printed.
  */
 #include <math.h>
 #include <stdio.h>
@@ -328,17 +328,22 @@ static const cli_option options[] = {
     {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those of its domain)"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
-    {'t', "trials", "T", "T sets of each pattern, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
+    {'t', "trials", "T",
+     "measure T sets of each pattern, with seeds S, S+1, ..; print mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "K,..|powers",
-     "measure the first K points for each K, as in 16,64,256, and the log-log slope; powers: all powers of two"},
+     "measure the first K points for each K, as in 16,64,256 (powers: all powers of two), and print the log-log "
+     "slope"},
     {0, "at", "X,Y..",
-     "only the local discrepancy at this corner x: the share of the points in [0, x) less its volume"},
+     "print only the local discrepancy at this corner x: the fraction of the points in the box [0, x) minus the "
+     "volume of the box"},
     {0, "sizes", "N,..",
-     "measure a set of each N, as in 16,64,256, and the log-log slope; a file gives its first N points"},
+     "measure a set of N points for each N, as in 16,64,256 (of a file the first N points), and print the log-log "
+     "slope"},
     {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
     {0, "paired", NULL,
-     "with --trials: every further source or warp minus the first, set by set, with 95 % interval"},
-    {0, "time-limit", "SECONDS", "time for each value; a measure that is cut short gives bounds"},
+     "with --trials: also print the difference of every further source or warp from the first, set by set, with its "
+     "95 % interval"},
+    {0, "time-limit", "SECONDS", "time limit for each value; a measure that exceeds it gives bounds"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -350,15 +355,17 @@ const cli_command cli_command_measure = {
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-p PATTERN,..|all -n N,..] [-m MEASURE,..|all] [--json]",
     .details =
         "FILE holds points as text, .csv or .npy. SPEC@N measures N points of a pattern, without a file.\n"
-        "The witness is the region where the supremum is reached: count its points and compare with its volume.\n"
+        "The witness is the region where the supremum is reached. To check a value, compare the fraction of the "
+        "points in this region with its volume.\n"
         "\n"
-        "--prefixes needs a sequence: the first points of other patterns, such as n-rooks, are a strip of the set.\n"
+        "--prefixes needs a sequence, because the first points of other patterns, such as n-rooks, fill only a strip "
+        "of the square.\n"
         "--sizes measures a new set for each N instead, whatever N the source has. 'powers' leaves out sizes that\n"
         "a measure does not accept, such as one point for min-distance.\n"
         "--prefixes and --sizes print the fitted slope beside the proven exponent for the pattern and the best "
         "possible one (up to\n"
-        "powers of logarithms). The standard error of a slope comes from the trials; with one set there is none,\n"
-        "and residual_error is the scatter of the values about the line.\n"
+        "powers of logarithms). The standard error of a slope comes from the trials. With one set it is replaced by "
+        "residual_error, the scatter of the values about the fitted line.\n"
         "\n"
         "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row that ran\n"
         "out of time has proven bounds: lower and upper. Rows of trials, differences and slopes count how many of\n"

@@ -49,7 +49,7 @@ int measure_local(const cli_arguments *arguments)
         koksma_points points = {0};
         code = cli_source_points(arguments, arguments->operands[i], seed, &work.run, &points);
         if (!code && points.dim != dim) {
-            code = cli_usage_error(arguments, "%s: its points have %d dimensions, and --at %s has %d",
+            code = cli_usage_error(arguments, "%s: the points have %d dimensions, but --at %s has %d",
                                    arguments->operands[i], points.dim, list, dim);
         }
         const koksma_status status = code ? KOKSMA_OK : koksma_local_discrepancy(&points, corner, &value);

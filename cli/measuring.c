@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Evaluates measures over many sets or several sizes, for `koksma measure`: running statistics for each measure and
- * size, differences from the first source with equal seeds (--paired), and slopes. A trial is one set, whose first
- * points are measured for --prefixes, or one set of each size for --sizes. After an interruption the statistics of
- * the completed trials are printed.
+ * size, differences from the first source with equal seeds (--paired), and slopes. In a trial --prefixes measures the
+ * first points of one set, and --sizes measures one set of each size. After an interruption the statistics of the
+ * completed trials are printed.
  */
 #include "measuring.h"
 
@@ -118,8 +118,8 @@ bool measuring_check_prefixes(const measuring *j)
         }
         if (parts.is_pattern && !prefixes_are_sets(parts.spec.pattern)) {
             cli_usage_error(j->arguments,
-                            "--prefixes: %s is no sequence, its first points are a part of a set; --sizes 16,64,256 "
-                            "measures a set of each n",
+                            "--prefixes: %s is no sequence, so its first points are no set of the pattern; use "
+                            "--sizes 16,64,256 to measure a set of each n",
                             parts.spec.pattern->name);
             return false;
         }
@@ -189,8 +189,8 @@ static void put_tallies(measuring *j, const char *source, int dim)
     }
 }
 
-/* Chooses the prefixes for a set of n points. Without --prefixes and --sizes there is one, the whole set. Returns the
-   exit code. */
+/* Chooses the prefixes for a set of n points. Without --prefixes and --sizes the only prefix is the whole set.
+   Returns the exit code. */
 static int choose_prefixes(measuring *j, size_t n)
 {
     if (j->powers || !measuring_by_size(j)) {
@@ -256,8 +256,8 @@ typedef struct trial_values {
     bool whole[MAX_MEASURES];
 } trial_values;
 
-/* Evaluates the measures for prefix i. With `--prefixes powers` a measure that does not accept so few points, such as
-   min-distance for one point, is left out. */
+/* Evaluates the measures for prefix i. With `--prefixes powers` it leaves out a measure that needs more points, such
+   as min-distance for one point. */
 static koksma_status tally_set(measuring *j, const koksma_points *points, size_t i, uint64_t trial, bool first,
                                trial_values *v)
 {

@@ -241,7 +241,7 @@ static int read_shared_options(cli_arguments *arguments)
             return CLI_USAGE;
         }
         if (!allowed && cli_text(arguments, "exec-seconds", NULL)) {
-            return cli_usage_error(arguments, "--exec-seconds takes --allow-exec");
+            return cli_usage_error(arguments, "--exec-seconds needs --allow-exec");
         }
         koksma_allow_exec(allowed ? seconds : 0);
     }
@@ -281,7 +281,7 @@ const char *cli_text(const cli_arguments *arguments, const char *name, const cha
             return arguments->values[i] ? arguments->values[i] : fallback;
         }
     }
-    abort(); /* the option table lacks the name, which is a bug */
+    abort(); /* a bug: the option table lacks this name */
 }
 
 bool cli_flag(const cli_arguments *arguments, const char *name)

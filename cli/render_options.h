@@ -19,12 +19,14 @@
     {0, "pairing", "shuffled|aligned|native", "how the point sets of a pixel are combined (default: shuffled)"},     \
         {0, "scope", "pixel|image", "what one point set covers (default: pixel)"},                                   \
         {0, "lights", "all|one|power|uniform|auto",                                                                  \
-         "lights that get a shadow ray: all, or one by estimate (one), by power or uniformly; auto: one for path "   \
-         "among more than 8 lights, else all (default: auto)"},                                                      \
+         "lights that get a shadow ray: all, or one chosen by its estimated contribution (one), by its power, or "   \
+         "uniformly; auto: one for path with "                                                                       \
+         "more than 8 lights, else all (default: auto)"},                                                            \
         CLI_INTEGRATOR_OPTION, {0, "depth", "D", "the most bounces (default: the integrator's)"}, CLI_FILTER_OPTION, \
     {                                                                                                                \
         0, "splat", NULL,                                                                                            \
-            "add each sample to all pixels that the filter reaches, instead of sampling the filter: less error"      \
+            "add each sample to all pixels that the filter reaches, instead of sampling the filter; this has less "  \
+            "error"                                                                                                  \
     }
 
 /* Reads --integrator and --filter; *integrator and *filter hold the defaults before. Returns false after an error

@@ -137,7 +137,7 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
         const char *text = arguments->operands[i];
         n_stdin += strcmp(text, "-") ? 0 : n_warps > 1 ? n_warps : 1;
         if (n_stdin > 1) {
-            cli_usage_error(arguments, "-: stdin can be read once");
+            cli_usage_error(arguments, "-: stdin can be read only once");
             return false;
         }
         if (trials > 1 && !cli_source_is_pattern(text)) {
@@ -159,8 +159,8 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
-/* Whether a pattern has sets of n points in dim dimensions. koksma_generate checks this before it starts, and is then
-   stopped at once. */
+/* Whether a pattern has sets of n points in dim dimensions. The function starts koksma_generate, which checks this
+   first, and stops it at once. */
 static bool can_serve(const koksma_spec *spec, size_t n, int dim)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
@@ -284,7 +284,8 @@ bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n)
         }
         const uint64_t count = at > spec && at < end && at[-1] == '@' ? strtoull(at, NULL, 10) : 0;
         if (count && *n && *n != count) {
-            cli_usage_error(arguments, "-p: @%llu and @%llu; all patterns have one number of samples a pixel",
+            cli_usage_error(arguments,
+                            "-p: @%llu and @%llu differ; all patterns need the same number of samples a pixel",
                             (unsigned long long)*n, (unsigned long long)count);
             return false;
         }

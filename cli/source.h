@@ -7,7 +7,8 @@
 
 /* Options of commands that take points, in addition to their operands. */
 #define CLI_SOURCE_OPTIONS                                                                                           \
-    {'p', "patterns", "PATTERN,..|all", "more patterns, as operands PATTERN or SPEC@N; all: those with such sets"},  \
+    {'p', "patterns", "PATTERN,..|all",                                                                              \
+     "further patterns, PATTERN or SPEC@N; all: every pattern that accepts N and DIM"},                              \
         {'n', "n", "N,..", "number of points of patterns without @N"},                                               \
     {                                                                                                                \
         'd', "dim", "DIM", "number of dimensions of patterns without @N (default: 2)"                                \

@@ -94,7 +94,7 @@ static bool put_numbers(FILE *out, const cli_arguments *arguments, const char *k
     fprintf(out, "\"%s\": [", key);
     for (size_t i = 0; cli_list_item(list, i, item, sizeof item); i++) {
         if (!*item || item[strspn(item, "0123456789")]) {
-            cli_usage_error(arguments, "--%s %s: '%s' is no whole number", option, list, item);
+            cli_usage_error(arguments, "--%s %s: '%s' is not a whole number", option, list, item);
             return false;
         }
         fprintf(out, "%s%s", i ? ", " : "", item);
@@ -183,8 +183,8 @@ int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cha
         code = cli_usage_error(arguments, "%s: can't be made: %s", folder, strerror(errno));
     } else if (!may_write(folder, path, text, size)) {
         code = cli_usage_error(arguments,
-                               "%s: there is another plan; take another folder, or 'koksma study run %s -o %s'", path,
-                               path, folder);
+                               "%s: the folder has another plan; use another folder, or 'koksma study run %s -o %s'",
+                               path, path, folder);
     } else {
         const koksma_status status = koksma_plot_write(path, (const unsigned char *)text, size);
         code = status ? cli_fail(arguments, status) : CLI_YES;

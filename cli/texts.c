@@ -74,7 +74,7 @@ const char *cli_image_formats(const char *comma, const char *last, char *text, s
     return text;
 }
 
-/* Appends the text that a placeholder, without its braces, is replaced by. Returns false if there is no such
+/* Appends the text that replaces a placeholder, which is given without its braces. Returns false if there is no such
    placeholder. */
 static bool put_placeholder(const char *name)
 {

@@ -26,7 +26,8 @@ static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
 }
 
 /* Chooses the sizes of a source: those of --sizes, or else the powers of four from 16 to n for which the source has a
-   set (powers of four are squares, which patterns with cells need), or else only n. Returns false after an error. */
+   set, or else only n. Patterns with cells need square numbers, and powers of four are squares. Returns false after
+   an error. */
 static bool choose_sizes(const cli_curves *c, const cli_source *source, size_t n, size_t *sizes, size_t *count)
 {
     const char *text = cli_text(c->arguments, "sizes", NULL);
@@ -173,7 +174,7 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
         const double rate = source.is_pattern ? koksma_rate(&source.spec, measure->measure, dim) : (double)NAN;
         const bool known = isfinite(rate);
         push_slopes(s, &line, known ? rate : koksma_best_rate(measure->measure, dim),
-                    known ? "theory, without logarithms" : "fastest possible, without logarithms");
+                    known ? "theory, without logarithms" : "fastest possible decay, without logarithms");
     }
     return CLI_YES;
 }
