@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * dart-throwing: exactly n points by dart throwing on the torus, no two closer than a fraction f of the distance of
- * the densest packing, the hexagonal one:
+ * dart-throwing: exactly n points by dart throwing on the torus. No two points are closer than f times the smallest
+ * distance in the densest (hexagonal) packing:
  *
  *     d = f sqrt(2 / (sqrt 3 n))
  *
@@ -70,7 +70,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             return status;
         }
         if (restart >= 5 && (double)most < 0.97 * (double)out->n - 1) {
-            break; /* far from n after 6 tries: further ones would not succeed */
+            break; /* after 6 tries that end far from n points, further tries would fail, too */
         }
     }
     return koksma__fail(KOKSMA_IMPOSSIBLE,
@@ -79,7 +79,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"f", "smallest distance as a fraction of the densest packing's", 0.75, 0.01, 1, NULL, false},
+    {"f", "smallest distance as a fraction of that of the densest packing", 0.75, 0.01, 1, NULL, false},
     {0},
 };
 

@@ -28,7 +28,7 @@ typedef struct vector {
     const uint64_t *z;
 } vector;
 
-/* The multiple of z / N that point i is: the m digits of i in base b, in reverse order. */
+/* Returns the number j for which point i is j z / N: the m digits of i in base b, in reverse order. */
 static uint64_t mirrored(const vector *v, uint64_t i)
 {
     uint64_t place = v->points, at = 0;
@@ -47,7 +47,7 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
     }
 }
 
-/* The prime b where `points` is b^m with m > 1, else `points`, with which point i is the multiple i of z / N. */
+/* Returns the prime b if `points` is b^m with m > 1. Otherwise it returns `points`; point i is then i z / N. */
 static uint64_t base_of(uint64_t points)
 {
     uint64_t base = 2, left = points;
@@ -66,8 +66,8 @@ static koksma_status read_head(koksma__number_lines *lines, int dim, vector *v)
     v->points = UINT64_C(1) << 32;
     if (*lines->kind) {
         KOKSMA__FAIL_IF(strcmp(lines->kind, "lattice") != 0, KOKSMA_MALFORMED,
-                        "%s: a file of the kind '%s'; it reads '# lattice', and net-file reads nets", lines->name,
-                        lines->kind);
+                        "%s: the file is of the kind '%s'; this pattern reads '# lattice', and net-file reads nets",
+                        lines->name, lines->kind);
         KOKSMA__TRY(koksma__number_lines_take(lines, "the number of dimensions", 1, &dims));
         KOKSMA__TRY(koksma__number_lines_take(lines, "the number of points", 1, &v->points));
         KOKSMA__FAIL_IF(v->points < 1 || v->points > UINT64_C(1) << 32, KOKSMA_MALFORMED,
@@ -92,7 +92,7 @@ static koksma_status read_vector(koksma__number_lines *lines, int dim, vector *v
         KOKSMA__FAIL_IF(!count, KOKSMA_MALFORMED, "%s: it ends before coordinate %d of its vector", lines->name,
                         k + 1);
         KOKSMA__FAIL_IF(count == 2 && line[0] != (uint64_t)k + 1, KOKSMA_MALFORMED,
-                        "%s: line %zu: dimension %llu where %d is next", lines->name, lines->number,
+                        "%s: line %zu: dimension %llu, but dimension %d is expected", lines->name, lines->number,
                         (unsigned long long)line[0], k + 1);
         z[k] = line[count - 1] % v->points;
     }
@@ -104,10 +104,10 @@ static koksma_status check_count(const koksma__number_lines *lines, const vector
 {
     KOKSMA__FAIL_IF(n > v->points, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name,
                     (unsigned long long)v->points, (unsigned long long)n);
-    KOKSMA__FAIL_IF(
-        v->base == v->points && n < v->points, KOKSMA_N,
-        "%s: its %llu points are no sequence (their number is not b^m with a prime b and m > 1): n = %llu would do",
-        lines->name, (unsigned long long)v->points, (unsigned long long)v->points);
+    KOKSMA__FAIL_IF(v->base == v->points && n < v->points, KOKSMA_N,
+                    "%s: its %llu points are not a sequence, because their number is not b^m with a prime b and m > "
+                    "1; n = %llu would do",
+                    lines->name, (unsigned long long)v->points, (unsigned long long)v->points);
     return KOKSMA_OK;
 }
 
@@ -129,8 +129,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_lattice_file = {
     .name = "lattice-file",
-    .title =
-        "the rank-1 lattice of a file's generating vector: lattice-file:PATH (LatNet Builder's and Kuo's formats)",
+    .title = "rank-1 lattice whose generating vector is read from a file: lattice-file:PATH (LatNet Builder's and "
+             "Kuo's formats)",
     .cite = "hickernell2000 lecuyer2022 cools2006",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

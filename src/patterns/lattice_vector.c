@@ -16,7 +16,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/lattice.h"
 
-/* The most components that fit into a spec: each takes at least two characters, a digit and a colon. */
+/* Largest number of components that fit into a spec: each needs at least two characters, a digit and a colon. */
 enum { MOST = KOKSMA_MAX_SPEC / 2 };
 
 static const uint64_t LIMIT = UINT64_C(1) << 52;
@@ -56,7 +56,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_lattice_vector = {
     .name = "lattice-vector",
-    .title = "the rank-1 lattice of the spec's own generating vector: lattice-vector:1:182667:469891",
+    .title = "rank-1 lattice whose generating vector is part of the spec: lattice-vector:1:182667:469891",
     .cite = "sloan2002",
     .min_dim = 1,
     .max_dim = MOST,

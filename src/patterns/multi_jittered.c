@@ -58,7 +58,7 @@ static const koksma_param params[] = {KOKSMA__PARAM_DIVISOR, {0}};
 
 const koksma_pattern koksma__pattern_multi_jittered = {
     .name = "multi-jittered",
-    .title = "jittered and n-rooks at once",
+    .title = "points that are both jittered and n-rooks",
     .cite = "chiu1994",
     .min_dim = 2,
     .max_dim = 2,

@@ -23,7 +23,8 @@
 
 enum { FEW = 256 };
 
-/* The context of `place`. In 2D each jitter u has 32 bits, so that one draw of 128 random bits makes two points. */
+/* The arguments that the callback `place` needs. In 2D each jitter u has 32 bits, so that one draw of 128 random bits
+   makes two points. */
 typedef struct plane {
     uint64_t seed;
     const uint32_t *rows;

@@ -65,8 +65,9 @@ static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels
         snprintf(other, sizeof other, " or %zu", power(high, strength));
     }
     return koksma__fail(
-        KOKSMA_N, "orthogonal-array: n = %zu is not s^%d with s prime and enough for dim = %d; n = %zu%s would do", n,
-        strength, dim, power(low, strength), other);
+        KOKSMA_N,
+        "orthogonal-array: n = %zu is not s^%d with a prime s that is large enough for dim = %d; n = %zu%s would do",
+        n, strength, dim, power(low, strength), other);
 }
 
 static size_t level(size_t i, size_t s, int k, int strength)
@@ -118,7 +119,7 @@ const koksma_pattern koksma__pattern_orthogonal_array = {
     .title = "all 2D (or 3D) projections stratified",
     .cite = "bose1938 bush1952 owen1992 jarosz2019",
     .min_dim = 2,
-    .max_dim = 644, /* s = 643 levels; larger primes s exceed KOKSMA_MAX_COORDINATES */
+    .max_dim = 644, /* sets with s = 643 levels; larger primes s exceed KOKSMA_MAX_COORDINATES */
     .claims = KOKSMA_CLAIM_LATIN | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_OA3 | KOKSMA_CLAIM_UNBIASED,
     .params = params,
     .generate = generate,

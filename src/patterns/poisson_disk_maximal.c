@@ -83,14 +83,14 @@ static double distance_of(double n, int dim)
     return fmin(d, farthest(dim));
 }
 
-/* The most points, in a round number, whose cover of the free volume stays within KOKSMA__BALL_BYTES. */
+/* Returns, rounded, the largest number of points whose cover of the free volume needs at most KOKSMA__BALL_BYTES. */
 static size_t feasible(int dim)
 {
     static const size_t most[] = {5000000, 800000, 40000, 5000};
     return most[dim - 3];
 }
 
-/* Explains to users that the cover of `n` points outgrew its limit. */
+/* Fails with a message that the cover of `n` points has exceeded its limit. */
 static koksma_status explain(koksma_status status, const cover *c, double n)
 {
     return status != KOKSMA_IMPOSSIBLE
@@ -102,12 +102,12 @@ static koksma_status explain(koksma_status status, const cover *c, double n)
 }
 
 /* Extends a maximal set of fewer than n points, of distance `high`, to one of n points by shrinking the distance. The
-   distance searched for is between `low`, at which there were more than n points, and `high`. Each try gives an
-   estimate of how much the distance has to shrink for one point more. */
+   wanted distance is between `low`, at which there were more than n points, and `high`. Each try gives an estimate of
+   how much the distance has to shrink for one more point. */
 static koksma_status shrink_to(cover *c, double high, size_t n, const koksma_run *run)
 {
     const double guess = 0.5 / c->dim / (double)n;
-    double low = 0, step = guess; /* step: fraction by which d shrinks for one point more */
+    double low = 0, step = guess; /* step: fraction by which d shrinks for one more point */
     size_t kept = cover_n(c);
     koksma_status status = KOKSMA_OK;
     for (int try = 0; try < TRIES && !status; try++) {
@@ -129,8 +129,8 @@ static koksma_status shrink_to(cover *c, double high, size_t n, const koksma_run
             high = d;
             kept = found;
         }
-        if (low > 0 && high - low < 1e-12 * high) { /* `low` was found when fewer points were kept; it no longer gives
-                                                       too many */
+        if (low > 0 && high - low < 1e-12 * high) { /* `low` was found with fewer fixed points and is no longer a
+                                                       lower bound */
             low = 0;
             step = guess;
         }
@@ -142,7 +142,7 @@ static koksma_status shrink_to(cover *c, double high, size_t n, const koksma_run
                               n, kept);
 }
 
-/* Searches for a maximal set of n points; the restarts use the seeds number first to first + TRIES - 1. */
+/* Searches for a maximal set of n points. The restarts use seeds number first .. first + TRIES - 1. */
 static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksma_run *run, cover *c)
 {
     double d = distance_of(fmax((double)n - 0.6 * sqrt((double)n) - 0.4, 0.9), c->dim);
@@ -161,9 +161,9 @@ static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksm
     return status || cover_n(c) >= n ? status : shrink_to(c, d, n, run);
 }
 
-/* A search may end without n points: two points on the torus are symmetric about two others, so that free area may
-   appear for two points at once. Whether this happens does not depend on the position of the set, so repeating the
-   search does not bias it. */
+/* A search may end without n points, because free area can appear for two points at the same distance: two positions
+   on the torus can be symmetric about two points of the set. Whether this happens does not depend on the position of
+   the set, so repeating the search does not bias it. */
 static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, cover *c)
 {
     koksma_status status = search(seed, 0, n, run, c);
@@ -178,17 +178,18 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
 {
     const double most = (double)(KOKSMA_MAX_COORDINATES / (size_t)c->dim),
                  expected = per_volume(c->dim) / pow(d, c->dim);
-    KOKSMA__FAIL_IF(expected > most, KOKSMA_N,
-                    "poisson-disk-maximal: d=%g has about %.2g points; d=%.2g or more would do", d, expected,
-                    1.01 * distance_of(most, c->dim));
+    KOKSMA__FAIL_IF(
+        expected > most, KOKSMA_N,
+        "poisson-disk-maximal: d=%g would give about %.2g points, which is too many; d=%.2g or more would do", d,
+        expected, 1.01 * distance_of(most, c->dim));
     koksma_status status = cover_init(c, seed, d);
     return status ? status : explain(cover_fill(c, SIZE_MAX, run), c, expected);
 }
 
-/* Whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus and those of
-   radius d/2 do not overlap, so that n is between that of the thinnest covering, 2/(sqrt(27) d^2), and that of the
-   densest packing, 2/(sqrt(3) d^2); in more dimensions balls of these radii have at least and at most the volume of
-   the torus. For many points any other n fails before the first dart is thrown. */
+/* Whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus, and its disks
+   of radius d/2 do not overlap. Therefore n is at least 2/(sqrt(27) d^2), as in the thinnest covering, and at most
+   2/(sqrt(3) d^2), as in the densest packing. In more dimensions n balls of radius d have at least, and n balls of
+   radius d/2 at most, the volume of the torus. For many points any other n fails before the first dart is thrown. */
 static bool is_possible(double d, size_t n, int dim)
 {
     const double area = (double)n * pow(d, dim), packed = koksma__packing_distance(n, dim, true) / d;
@@ -200,7 +201,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const double d = args->params[0], expected = per_volume(out->dim) / pow(d, out->dim);
     cover c = {.dim = out->dim};
     KOKSMA__FAIL_IF(d > 0 && expected > MANY && !is_possible(d, out->n, out->dim), KOKSMA_N,
-                    "poisson-disk-maximal: d=%g has about %.3g points, not %zu; no d would do", d, expected, out->n);
+                    "poisson-disk-maximal: d=%g gives about %.3g points, not %zu; leave out d to get n points", d,
+                    expected, out->n);
     koksma_status status = d > 0 ? by_distance(seed, d, args->run, &c) : by_number(seed, out->n, args->run, &c);
     if (!status && cover_n(&c) != out->n) {
         status = koksma__fail(KOKSMA_N,
@@ -231,13 +233,13 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
 }
 
 static const koksma_param params[] = {
-    {"d", "smallest distance; 0: whichever gives n points", 0, 0, 0.7, NULL, false},
+    {"d", "smallest distance; 0: the distance that gives n points", 0, 0, 0.7, NULL, false},
     {0},
 };
 
 const koksma_pattern koksma__pattern_poisson_disk_maximal = {
     .name = "poisson-disk-maximal",
-    .title = "dart throwing on the torus until nothing fits",
+    .title = "dart throwing on the torus until no further point fits",
     .cite = "ebeida2012 cook1986 zhang2013",
     .min_dim = 2,
     .max_dim = KOKSMA__BALL_DIMS,

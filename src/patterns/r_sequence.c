@@ -25,7 +25,7 @@
 
 enum { MAX_DIM = 64 };
 
-/* The product of two fractions in units of 2^-64, cut off to 64 bits. */
+/* Returns the product of two fractions in units of 2^-64, truncated to 64 bits. */
 static uint64_t product(uint64_t a, uint64_t b)
 {
     const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
@@ -102,7 +102,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"shuffle", "1: points in random order; aligned blocks of 2^m points stay together", 0, 0, 1, NULL, true},
+    {"shuffle", "1: put the points in random order; aligned blocks of 2^m points stay together", 0, 0, 1, NULL, true},
     {0},
 };
 

@@ -25,13 +25,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"factor", "points to begin with, for each that is kept", 5, 2, 20, NULL, true},
+    {"factor", "number of candidates for each remaining point", 5, 2, 20, NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_sample_elimination = {
     .name = "sample-elimination",
-    .title = "the points left when the most crowded are taken out",
+    .title = "points that remain when the most crowded candidates are removed one by one",
     .cite = "yuksel2015",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

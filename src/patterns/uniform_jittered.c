@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * uniform-jittered: one random position, the same in all cells of a grid: the regular grid, shifted by a random
- * offset. The points are unbiased like jittered ones, but have the even spacing and the aliasing of the regular grid.
+ * uniform-jittered: a random position that is the same in all cells of a grid. This is the regular grid shifted by a
+ * random offset. The points are unbiased like jittered ones, but have the even spacing and the aliasing of the
+ * regular grid.
  *
  *     x_k = (c_k + u_k) / m,   c in {0 .. m-1}^dim, one u for all cells, uniform in [0,1)^dim
  *

@@ -21,8 +21,8 @@ typedef struct queue {
     uint32_t last[MOST_CELLS * MOST_CELLS]; /* last waiting dart in each cell whose bit in rows is set */
 } queue;
 
-/* The random words of darts that are drawn but not thrown yet, four words for each dart; draws more if there are none.
-   The first batch is small, because small sets need few darts. */
+/* Returns the random words of darts that were drawn but not thrown yet, four words for each dart. Draws more words if
+   there are none. The first batch is small, because small sets need few darts. */
 static size_t draw(koksma__disks *s, const uint32_t **words)
 {
     if (s->used == s->drawn) {
@@ -71,7 +71,7 @@ typedef struct target {
     koksma__tile tile;
     koksma__dart_cells cells;
     size_t first;
-    double side; /* side of a square, the torus having side 1 */
+    double side; /* side of a square if the torus has side 1 */
 } target;
 
 static target target_of(const koksma__disks *s, uint32_t number)
@@ -94,13 +94,13 @@ static size_t choose_far(const koksma__disks *s, const target *a, size_t count, 
     return count;
 }
 
-/* A coordinate of a dart as a fixed-point number, measured from the grid's corner. */
+/* Returns a coordinate of a dart as a fixed-point number, measured from the corner of the grid. */
 static inline uint32_t place_of(uint32_t square, uint32_t word, int level)
 {
     return (uint32_t)((((uint64_t)square << 32 | word) >> (level + 31 - KOKSMA__PLACE_BITS)) + 1) >> 1;
 }
 
-/* Makes a dart in a random square of a tile. False if rounding puts it outside the unit square. */
+/* Makes a dart in a random square of a tile. Returns false if rounding puts it outside the unit square. */
 static inline bool aim(const koksma__disks *s, const target *a, const uint32_t *w, koksma__dart *d)
 {
     const koksma__tile *t = &a->tile;
@@ -206,8 +206,8 @@ static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
     return KOKSMA_OK;
 }
 
-/* The current time in a Poisson process on [0, 1) with the given rate. The time multiplied by the rate is -log of a
-   product of uniform numbers; the logarithm is computed only for darts that need their time. */
+/* The current time in a Poisson process on [0, 1) with the given rate. Time multiplied by the rate is minus the
+   logarithm of a product of uniform numbers; the logarithm is computed only for darts whose time is needed. */
 typedef struct stopwatch {
     double rate, before, product;
     int factors;
@@ -219,7 +219,7 @@ static bool tick(stopwatch *c, uint32_t word)
     if (!c->factors) {
         c->before -= koksma__log(c->product);
         c->product = 1;
-        c->factors = 16; /* each is at least 2^-33, so their product is at least exp(-366) */
+        c->factors = 16; /* each factor is at least 2^-33, so the product is at least exp(-366) */
         c->last = c->rate - c->before > 400 ? 0 : koksma__exp(c->before - c->rate);
     }
     c->factors--;
@@ -227,7 +227,8 @@ static bool tick(stopwatch *c, uint32_t word)
     return c->product > c->last;
 }
 
-/* Prefetches a tile into the cache: darts hit it in random order, so that each would wait for its cache lines. */
+/* Prefetches a tile into the cache. Darts hit it in random order, so without this each dart would wait for its cache
+   lines. */
 static void fetch(const koksma__disks *s, const target *a)
 {
     for (size_t i = 0; i < s->block; i += 16) {

@@ -116,8 +116,8 @@ static double planar_kernel(uint64_t numerator, size_t n)
 }
 
 /* P_2 of the generating vector (1, z), where product[i] = planar_kernel(i, n). A multiplier ties with its inverse,
-   which swaps the axes, and sometimes with others. Which of them is taken depends on the last bit of the sum, so
-   that the order of summation, here and in added_sum, must not change: it would change the points. */
+   which swaps the axes, and sometimes with others. The last bit of the sum decides which of them is chosen. The order
+   of summation, here and in added_sum, must therefore never change, because the points would change. */
 static double planar_sum(const koksma__lattice_search *s, uint64_t z)
 {
     double sum = 0;
@@ -129,7 +129,8 @@ static double planar_sum(const koksma__lattice_search *s, uint64_t z)
     return sum / (double)s->n - 1;
 }
 
-/* What a further coordinate with the multiplier z would add to the minimised sum, up to a constant factor. */
+/* Returns the amount that another coordinate with the multiplier z would add to the minimised sum, up to a constant
+   factor. */
 static double added_sum(const koksma__lattice_search *s, uint64_t z)
 {
     double sum = 0;

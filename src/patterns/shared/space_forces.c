@@ -10,8 +10,8 @@
  *              Hermite pieces, 1,024 from 0 to 1/2, replace g; the error of the derivative is below 1e-7 of the
  *              largest.
  *
- * Sums run in the order of the sorted points, whatever the number of threads. Time of all n forces: n^2 with one cell
- * or the table, else in proportion to n.
+ * Sums run in the order of the sorted points, whatever the number of threads. Computing all n forces takes O(n^2)
+ * with one cell or with the table, else O(n).
  */
 #include "patterns/shared/space_forces.h"
 
@@ -96,7 +96,7 @@ void koksma__space_forces_sort(koksma__space_forces *f, const double *xs)
         sum += f->start[c];
         f->start[c] = (uint32_t)sum;
     }
-    for (size_t i = f->n; i-- > 0;) { /* backwards, so that points of a cell keep their order */
+    for (size_t i = f->n; i-- > 0;) { /* the loop runs backwards, so that points of a cell keep their order */
         const uint32_t at = --f->start[koksma__cell_index(xs + i * dim, f->dim, f->side)];
         memcpy(f->sorted + at * dim, xs + i * dim, dim * sizeof *xs);
         f->order[at] = (uint32_t)i;
@@ -115,7 +115,7 @@ static void add_cell(const koksma__space_forces *f, size_t cell, const double *x
             t[k] = koksma__torus_difference(y[k], x[k]);
             square += t[k] * t[k];
         }
-        if (square < cut2) { /* the point itself adds 0 */
+        if (square < cut2) { /* the point itself contributes 0 */
             const double w = koksma__exp(scale * square);
             for (size_t k = 0; k < dim; k++) {
                 force[k] += t[k] * w;

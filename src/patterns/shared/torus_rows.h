@@ -7,9 +7,9 @@
 #include <koksma/koksma.h>
 
 typedef struct koksma__torus_rows {
-    uint32_t cells;  /* cells on a side, with about one point in each cell */
+    uint32_t cells;  /* number of cells on a side; a cell has about one point */
     uint32_t *start; /* index of each cell's first sorted point, row by row; cells^2 + 1 numbers */
-    uint32_t *order; /* for each sorted point its number before sorting */
+    uint32_t *order; /* the original number of each sorted point */
     double *xs, *ys; /* the sorted points, followed by eight elements that kernels may read */
 } koksma__torus_rows;
 
