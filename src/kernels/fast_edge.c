@@ -33,7 +33,7 @@ double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double
     return lanes[0];
 }
 
-/* Treats two vectors of lines at a time, so that their coefficients and counts stay in registers. */
+/* Handles two vectors of lines at a time, so that their coefficients and counts stay in registers. */
 void KERNEL_NAME(count_below)(size_t n, const double *x, const double *y, const double a[16], const double b[16],
                               const double c[16], double counts[16])
 {
