@@ -182,7 +182,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_compare = {
     .name = "compare",
-    .summary = "compare images with a reference: size and kind (noise or bands) of the error",
+    .summary = "compare images with a reference: size and kind of the error",
     .synopsis = "IMAGE... REFERENCE [-m METRIC,..] [-o DIFFERENCE] [--max-mean E]",
     .details =
         "Prints mean, standard deviation and maximum of the absolute error in luminance, and the root mean square\n"

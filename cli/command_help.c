@@ -14,7 +14,7 @@ void cli_print_overview(FILE *stream)
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         fprintf(stream, "  %-10s %s\n", command->name, command->summary);
     }
-    fputs("\n'koksma COMMAND --help' prints the options of a command and examples. Exit codes: 0 done; 1 it\n"
+    fputs("\n'koksma COMMAND --help' prints options and examples. Exit codes: 0 done; 1 it\n"
           "ran and the answer is no; 2 the command line is wrong; 3 a named file is\n"
           "missing, malformed or of a kind that is not read; 4 the system failed; 130\n"
           "interrupted, finished results are kept.\n",

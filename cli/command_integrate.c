@@ -452,7 +452,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_integrate = {
     .name = "integrate",
-    .summary = "integrate functions with known integrals and print the errors against n",
+    .summary = "integrate functions with known integrals; print errors against n",
     .synopsis =
         "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]",
     .details =

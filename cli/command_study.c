@@ -518,7 +518,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_study = {
     .name = "study",
-    .summary = "evaluate all combinations of patterns, measures or scenes, and trials in a plan",
+    .summary = "evaluate patterns with measures or scenes, as a plan says",
     .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
                 "quick [-p LIST] [-m LIST] [-n LIST] [--scene LIST] -o DIR\n"
                 "new [FILE]\n"

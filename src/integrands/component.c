@@ -39,7 +39,7 @@ static koksma_status open_whole(const koksma_integral *integral, koksma_integral
     koksma_integral_facts facts;
     koksma_integral_about(integral, &facts);
     KOKSMA__FAIL_IF(!integral->factors, KOKSMA_UNSUPPORTED,
-                    "%s: it is no product of functions of one coordinate, whose components are known", facts.text);
+                    "%s: components are known only for products of functions of one coordinate", facts.text);
     return koksma_integral_open(facts.text, facts.dim, out);
 }
 
@@ -64,7 +64,7 @@ koksma_status koksma_integral_component(const koksma_integral *integral, const i
         return status;
     }
     koksma_integral *f = *out;
-    f->whole = whole; /* closed together with the component */
+    f->whole = whole; /* closed when the component is closed */
     f->function.context = f;
     f->chosen = calloc((size_t)whole->axes, sizeof *f->chosen);
     status = f->chosen ? KOKSMA_OK : koksma__fail_memory((size_t)whole->axes);
