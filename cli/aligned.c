@@ -228,7 +228,7 @@ static size_t columns_of(const cli_cell *row, size_t n)
     return columns;
 }
 
-/* Whether the cells begin with a row that has the same keys as the row `other`. */
+/* Returns whether the cells begin with a row that has the same keys as the row `other`. */
 static bool same_keys(const cli_cell *row, size_t n, const cli_cell *other, size_t columns)
 {
     for (size_t i = 0; i < columns; i++) {

@@ -120,8 +120,8 @@ static const char *usage_at(const cli_command *command, size_t i)
     return line;
 }
 
-/* Whether a usage begins with literal words to choose from, such as "run", that are followed by other operands.
-   *verbs: these words. */
+/* Returns whether a usage begins with literal words to choose from, such as "run", that are followed by other
+   operands. *verbs: these words. */
 static bool has_verbs(const char *usage, answer *verbs)
 {
     *verbs = (answer){.list = false};

@@ -38,7 +38,7 @@ const cli_curve *cli_curve_find(cli_curve_list list, const char *name)
     return NULL;
 }
 
-/* Whether `word` is one of the words in `words`, which have blanks between them. */
+/* Returns whether `word` is one of the words in `words`, which have blanks between them. */
 static bool has_word(const char *words, const char *word)
 {
     for (const char *at = words; *at; at += strcspn(at, " ")) {

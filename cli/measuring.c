@@ -99,9 +99,9 @@ bool measuring_by_size(const measuring *j)
     return cli_text(j->arguments, "prefixes", NULL) || cli_text(j->arguments, "sizes", NULL);
 }
 
-/* Whether the first k points are a set of the pattern for all k, so that a slope describes the pattern and theory
-   applies to it. Sequences, and independent points without cells, have this property. The first k points of other
-   patterns are only a part of a set, such as a strip of cells. */
+/* Returns whether the first k points are a set of the pattern for all k, so that a slope describes the pattern and
+   theory applies to it. Sequences, and independent points without cells, have this property. The first k points of
+   other patterns are only a part of a set, such as a strip of cells. */
 static bool prefixes_are_sets(const koksma_pattern *pattern)
 {
     const bool independent =

@@ -51,7 +51,7 @@ void measuring_close(measuring *j);
 koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value);
 koksma_status measuring_forgive(const measuring *j, koksma_status status);
 
-/* Whether --prefixes or --sizes asks for values at several sizes, with a slope. */
+/* Returns whether --prefixes or --sizes asks for values at several sizes, with a slope. */
 bool measuring_by_size(const measuring *j);
 
 /* Refuses --prefixes for a pattern whose first points are not a set of the pattern. Returns false after an error on

@@ -192,8 +192,8 @@ int cli_end_output(int code)
     return code;
 }
 
-/* Whether a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending; else it
-   prints an error. */
+/* Returns whether a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending; else
+   it prints an error. */
 static bool ending_fits(const cli_arguments *arguments, const char *argument, const char *path)
 {
     const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.');

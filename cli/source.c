@@ -159,8 +159,8 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
-/* Whether a pattern has sets of n points in dim dimensions. The function starts koksma_generate, which checks this
-   first, and stops it at once. */
+/* Returns whether a pattern has sets of n points in dim dimensions. The function starts koksma_generate, which checks
+   this first, and stops it at once. */
 static bool can_serve(const koksma_spec *spec, size_t n, int dim)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};

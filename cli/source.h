@@ -19,10 +19,10 @@
 int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
                       koksma_points *points);
 
-/* Whether an operand has the form "[pattern:]SPEC@N[@DIM]" and is no file. */
+/* Returns whether an operand has the form "[pattern:]SPEC@N[@DIM]" and is no file. */
 bool cli_source_is_pattern(const char *text);
 
-/* Whether a text begins with the name of a pattern. */
+/* Returns whether a text begins with the name of a pattern. */
 bool cli_names_pattern(const char *text);
 
 /* Copies pattern i (0..) of the -p list to `spec`; for "all" these are the patterns of the library that read no file.

@@ -145,7 +145,7 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
     return true;
 }
 
-/* Whether the plan may be written: the folder has no results, or its plan has exactly this text. */
+/* Returns whether the plan may be written: the folder has no results, or its plan has exactly this text. */
 static bool may_write(const char *folder, const char *path, const char *text, size_t size)
 {
     char results[CLI_QUICK_PATH + 32];

@@ -15,7 +15,7 @@
 
 enum { MAX_SIZES = KOKSMA_MAX_SIZES, PER_SOURCE = 3 };
 
-/* Whether a source has a set of n points. A file has prefixes of all sizes. */
+/* Returns whether a source has a set of n points. A file has prefixes of all sizes. */
 static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
 {
     koksma_points points = {0};

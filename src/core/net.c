@@ -67,7 +67,7 @@ typedef struct search {
     bool stopped;
 } search;
 
-/* Whether all intervals of the current shape hold the same number of points; also false when the run was
+/* Returns whether all intervals of the current shape hold the same number of points; also false when the run was
    cancelled. */
 static bool is_even(search *s)
 {

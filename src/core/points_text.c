@@ -159,8 +159,8 @@ static koksma_status append(reader *r, double x)
     return KOKSMA_OK;
 }
 
-/* Whether a first line is a CSV header: each field begins with a letter or _, perhaps after a quote. If the line has
-   commas or semicolons, names may contain blanks. */
+/* Returns whether a first line is a CSV header: each field begins with a letter or _, perhaps after a quote. If the
+   line has commas or semicolons, names may contain blanks. */
 static bool take_header(reader *r, const char *s)
 {
     const char *separators = strpbrk(s, ",;") ? ",;" : " \t";

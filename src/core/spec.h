@@ -13,11 +13,11 @@
 KOKSMA__LAB koksma_status koksma__params_parse(const char *member, const koksma_param *params, const char *text,
                                                double *values);
 
-/* Whether all values are in their ranges. Errors: ARGUMENT. */
+/* Fails unless all values are in their ranges. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__params_check(const char *member, const koksma_param *params, const double *values);
 koksma_status koksma__modifiers_check(const char *pattern, const double *values);
 
-/* Whether a pattern or measure supports a number of dimensions. Errors: DIM. */
+/* Fails unless a pattern or measure supports a number of dimensions. Errors: DIM. */
 koksma_status koksma__dim_check(const char *member, int dim, int min_dim, int max_dim);
 
 /* Appends ":key=value,…" with the parameters that differ from their defaults. */

@@ -58,8 +58,8 @@ KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name
         }                                                                                                            \
     } while (0)
 
-/* Whether one of n pointers is NULL; the error text then names it. `names` holds the pointers' names, separated by
-   commas. */
+/* Returns whether one of n pointers is NULL; the error text then names it. `names` holds the pointers' names,
+   separated by commas. */
 KOKSMA__LAB bool koksma__missing(const char *function, const char *names, const void *const *pointers, size_t n);
 
 /* Checks an array of n items of a given size: `array` must not be NULL, unless n is 0, and its size in bytes must fit

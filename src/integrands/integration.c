@@ -162,7 +162,7 @@ static bool estimates_are_equal(const koksma_integration_options *o, const doubl
     return equal;
 }
 
-/* Whether the pattern gives the same set for two seeds; not every pattern for which this holds claims it. */
+/* Returns whether the pattern gives the same set for two seeds; not every pattern for which this holds claims it. */
 static koksma_status has_one_set(const job *j, bool *one)
 {
     koksma_points sets[2] = {{0}, {0}};

@@ -37,7 +37,7 @@ typedef struct koksma__module {
    release). */
 koksma_status koksma__module_load(const koksma__module *module, const void **functions);
 
-/* Whether the module's file exists where koksma__module_load looks for it. */
+/* Returns whether the module's file exists where koksma__module_load looks for it. */
 bool koksma__module_exists(const koksma__module *module);
 
 /* Fails with UNSUPPORTED and a text on how to install the module. */

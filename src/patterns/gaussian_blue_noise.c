@@ -134,8 +134,8 @@ static void lay_out(const descent *d)
     }
 }
 
-/* Whether the descent may end. The squares are summed in the order of the points, so that the result does not depend on
-   the number of threads. */
+/* Returns whether the descent may end. The squares are summed in the order of the points, so that the result does not
+   depend on the number of threads. */
 static bool converged(descent *d)
 {
     double sum = 0;

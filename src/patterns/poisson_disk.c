@@ -62,7 +62,8 @@ static bool fits(const koksma_points *out, size_t placed, const double *dart, do
     return room;
 }
 
-/* Whether the search may go on; every LOOKS comparisons it reports progress to `run` and checks whether to stop. */
+/* Returns whether the search may go on; every LOOKS comparisons it reports progress to `run` and checks whether to
+   stop. */
 static bool may_go_on(search *s, double done, const koksma_run *run)
 {
     s->work += 64; /* the work of drawing a dart and of checking its neighbours in the grid */

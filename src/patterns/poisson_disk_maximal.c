@@ -186,10 +186,10 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
     return status ? status : explain(cover_fill(c, SIZE_MAX, run), c, expected);
 }
 
-/* Whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus, and its disks
-   of radius d/2 do not overlap. Therefore n is at least 2/(sqrt(27) d^2), as in the thinnest covering, and at most
-   2/(sqrt(3) d^2), as in the densest packing. In more dimensions n balls of radius d have at least, and n balls of
-   radius d/2 at most, the volume of the torus. For many points any other n fails before the first dart is thrown. */
+/* Returns whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus, and its
+   disks of radius d/2 do not overlap. Therefore n is at least 2/(sqrt(27) d^2), as in the thinnest covering, and at
+   most 2/(sqrt(3) d^2), as in the densest packing. In more dimensions n balls of radius d have at least, and n balls
+   of radius d/2 at most, the volume of the torus. For many points any other n fails before the first dart is thrown. */
 static bool is_possible(double d, size_t n, int dim)
 {
     const double area = (double)n * pow(d, dim), packed = koksma__packing_distance(n, dim, true) / d;

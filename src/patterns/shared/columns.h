@@ -44,7 +44,7 @@ typedef void (*koksma__rows)(const void *context, size_t first, size_t count, bo
 
 koksma_status koksma__fill_rows(const koksma_run *run, koksma_points *out, koksma__rows f, const void *context);
 
-/* Whether the set is larger than the caches, so that streaming stores should write it. */
+/* Returns whether the set is larger than the caches, so that streaming stores should write it. */
 bool koksma__is_large(const koksma_points *out);
 
 /* Stores a column as coordinate k of `count` points: out[i*dim + k] = xs[i] for i < count. */

@@ -35,7 +35,8 @@ static size_t draw(koksma__disks *s, const uint32_t **words)
     return s->drawn - s->used;
 }
 
-/* Whether a point is nearer than d, in double arithmetic, for points whose fixed-point distance does not decide. */
+/* Returns whether a point is nearer than d, in double arithmetic, for points whose fixed-point distance does not
+   decide. */
 static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 {
     const koksma__tile t = koksma__disks_tile(s, d->tile);
@@ -58,7 +59,7 @@ static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
     return false;
 }
 
-/* Whether there is a point nearer to the dart than d. */
+/* Returns whether there is a point nearer to the dart than d. */
 static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
 {
     const size_t corner = koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
@@ -166,7 +167,8 @@ static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
     return status;
 }
 
-/* Whether the dart has to wait: cells within d of it are outside the tile, or an earlier dart near it waits. */
+/* Returns whether the dart has to wait: cells within d of it are outside the tile, or an earlier dart near it waits.
+   */
 static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, const queue *q, const koksma__dart *d)
 {
     const uint32_t x = d->cell_x, y = d->cell_y;

@@ -8,13 +8,13 @@
 
 #include "core/visibility.h"
 
-/* Whether a pattern reads its points from a file instead of generating them. */
+/* Returns whether a pattern reads its points from a file instead of generating them. */
 static inline bool koksma__reads_points(const koksma_pattern *pattern)
 {
     return pattern->operand && pattern->whole;
 }
 
-/* Whether a path contains the placeholder `place`, "{n}" or "{seed}". */
+/* Returns whether a path contains the placeholder `place`, "{n}" or "{seed}". */
 KOKSMA__LAB bool koksma__file_has(const char *path, const char *place);
 
 /* Makes the path of the set of n points with this seed. Errors: ARGUMENT (the path is too long). */

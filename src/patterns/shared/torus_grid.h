@@ -27,7 +27,8 @@ void koksma__torus_grid_add(koksma__torus_grid *grid, uint32_t point);
    distance is at most `enough`, the function may return any value up to `enough`. */
 double koksma__torus_grid_nearest(const koksma__torus_grid *grid, double x, double y, double enough);
 
-/* Whether a point in the grid is closer than d to (x, y), on the torus or, with torus = false, in the square. */
+/* Returns whether a point in the grid is closer than d to (x, y), on the torus or, with torus = false, in the square.
+   */
 bool koksma__torus_grid_near(const koksma__torus_grid *grid, double x, double y, double d, bool torus);
 
 #endif
