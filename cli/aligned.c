@@ -43,7 +43,7 @@ static const cli_cell *cell_at(const block *b, size_t row, size_t column)
     return &b->cells[row * (b->columns + 1) + column];
 }
 
-/* The width of UTF-8 text in terminal columns: the number of bytes that begin a character. */
+/* Returns the width of UTF-8 text in terminal columns: the number of bytes that begin a character. */
 static int width_of(const char *text, size_t length)
 {
     int width = 0;

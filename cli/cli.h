@@ -40,7 +40,8 @@ struct cli_arguments {
     /* values[i] of option i: "" for a flag that is set, NULL when the option is not given */
     const char *values[CLI_MAX_OPTIONS];
     char *joined[CLI_MAX_OPTIONS]; /* owns the values of options that were repeated */
-    char **made;                   /* owns the operands where -p and -n may add some (cli/source.c) */
+    char **made;                   /* owns the operands of commands whose options -p and -n can add operands
+                                   (cli/source.c) */
     int n_made;
 };
 
@@ -128,7 +129,7 @@ typedef struct cli_work {
     koksma_run run;      /* the caller passes &work.run to the library */
     const char *what;    /* the text before the progress bar; may be changed while running */
     double begin, share; /* the progress of `run`, 0 to 1, is shown as begin to begin + share */
-    double fraction;     /* the progress that is shown, 0 to 1; it never decreases */
+    double fraction;     /* the progress shown so far, 0 to 1; it never decreases */
     double started_s, updated_s;
 } cli_work;
 

@@ -10,7 +10,8 @@
 
 #include "cli.h"
 
-/* The items of an option's list: copies in texts, and pointers to these in at. The list "none" has no items. */
+/* The items of an option that is a list: `texts` has copies of the items, and `at` has pointers to these. The list
+   "none" has no items. */
 typedef struct list {
     char texts[KOKSMA_MAX_SHEET_SCENES][KOKSMA_MAX_SPEC];
     const char *at[KOKSMA_MAX_SHEET_SCENES];

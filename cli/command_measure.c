@@ -257,7 +257,7 @@ static bool parse_options(measuring *j)
     return true;
 }
 
-/* The measures that are evaluated without -m. With --warp these are the measures that apply to its domain. */
+/* Returns the measures that are evaluated without -m. With --warp these are the measures that apply to its domain. */
 static const char *default_measures(const measuring *j)
 {
     static const char *const of_domains[] = {

@@ -77,7 +77,7 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
     }
 }
 
-/* The name of an AOV in files: with '-' for ':'. */
+/* Makes the name of an AOV in files: with '-' for ':'. */
 static void name_layer(const char *aov, char out[16])
 {
     snprintf(out, 16, "%s", aov);

@@ -428,8 +428,8 @@ static int images(const cli_arguments *arguments)
     size_t n = 0;
     const char *reference = cli_text(arguments, "reference", NULL);
     if (arguments->n_operands != 2 || !reference) {
-        return cli_usage_error(arguments, "images takes a path with places and a reference, as in "
-                                          "images 'out_{spp}_{trial}.exr' --reference ref.exr");
+        return cli_usage_error(arguments, "images takes a path with placeholders and a reference, as in images "
+                                          "'out_{spp}_{trial}.exr' --reference ref.exr");
     }
     cli_metrics metric = {.n = 0};
     if (!cli_one_metric(arguments, &metric) || !cli_work_begin(arguments, "comparing", &work)) {
@@ -475,7 +475,7 @@ static int run(const cli_arguments *arguments)
     static const struct {
         const char *name;
         int (*run)(const cli_arguments *arguments);
-        const char *options; /* the names of the options that the verb takes besides the common ones */
+        const char *options; /* names of the options that the verb accepts in addition to the common ones */
     } verbs[] = {
         {"run", run_plans, " output trials quick time-limit "},
         {"quick", run_quick, " output trials quick time-limit patterns measures integrands points scene spp "},

@@ -71,7 +71,8 @@ typedef struct scene_job {
 typedef struct verdict {
     const char *scene, *role;
     koksma_rank_row own, other;
-    double gain, low, high; /* 1 - error of the set / error of the other, with its interval */
+    double gain, low, high; /* the gain: 1 - (error of the set / error of the best listed pattern), with its interval
+                               */
     bool settled;
     int width, height;
 } verdict;

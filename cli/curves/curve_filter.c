@@ -17,7 +17,7 @@ enum { POSITIONS = 401, LABEL = 96 };
 /* Responses below this level, in decibels, are drawn at this level. */
 static const double floor_db = -80;
 
-/* The integral of a filter, by the midpoint rule. */
+/* Returns the integral of a filter, by the midpoint rule. */
 static double mass(const koksma_filter *filter)
 {
     const int n = 4096;

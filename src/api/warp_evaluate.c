@@ -63,7 +63,7 @@ static koksma_status l2_edge(job *j, const koksma_run *run, koksma_value *out)
     return status;
 }
 
-/* The squared local discrepancy of a random disk. */
+/* Computes the squared local discrepancy of a random disk. */
 static double sample_disk(const job *j, koksma__disk_law law, double r_max, uint64_t seed, uint64_t index)
 {
     double u[2], v[2];

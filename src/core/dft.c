@@ -81,7 +81,7 @@ static void split(const koksma__fourier *f, size_t quarter, double *re, double *
     }
 }
 
-/* The conjugate transpose of split(), which is 4 times its inverse. */
+/* Applies the conjugate transpose of split(), which is 4 times its inverse. */
 static void join(const koksma__fourier *f, size_t quarter, double *re, double *im)
 {
     const double *restrict cosines = f->cosines + quarter, *restrict sines = f->sines + quarter;

@@ -28,8 +28,8 @@ typedef struct koksma__dft {
     double *filter_re, *filter_im;
 } koksma__dft;
 
-/* The power of two up to which f must have tables for `length`, or 0. The scratch arrays below have as many
-   numbers. */
+/* Returns the power of two up to which f must have tables for `length`, or 0 if no tables are needed. The scratch
+   arrays below have as many numbers. */
 KOKSMA__LAB size_t koksma__dft_padded(size_t length);
 
 /* Plans transforms of `length` numbers by the tables f; koksma__dft_fini releases them. Errors: MEMORY. */

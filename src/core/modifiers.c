@@ -77,8 +77,8 @@ static uint64_t digits_in_base(double x, double scale)
     return floor + ((double)(floor + 1) / scale <= x) - ((double)floor / scale > x);
 }
 
-/* The image of a digit under the permutation at a node of the tree of digits: Fisher-Yates with one call of the
-   generator for each position. */
+/* Returns the image of a digit under the permutation at a node of the tree of digits: Fisher-Yates with one call of
+   the generator for each position. */
 static uint32_t permuted(uint64_t seed, uint32_t lane, uint64_t node, uint32_t base, uint32_t digit)
 {
     uint32_t order[MOST_BASE];
@@ -159,7 +159,7 @@ static void mirror(uint64_t seed, double value, koksma_points *points)
     }
 }
 
-/* x + u on the torus; never returns 1. */
+/* Shifts x by u on the torus; the result is never 1. */
 static void shift_by(uint64_t seed, koksma_points *points)
 {
     double u[KOKSMA_MAX_DIM + 1];

@@ -18,7 +18,7 @@ typedef koksma_status (*koksma__block_function)(void *context, size_t block);
 KOKSMA__LAB koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__block_function f,
                                            void *context);
 
-/* The number of threads that `run` requests. */
+/* Returns the number of threads that `run` requests. */
 KOKSMA__LAB int koksma__threads(const koksma_run *run);
 
 /* Returns false if run->keep_going returned false. */

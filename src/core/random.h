@@ -55,7 +55,7 @@ static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose,
     return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
 }
 
-/* A double in [0,1) with 53 random bits. */
+/* Returns a double in [0,1) with 53 random bits. */
 static inline double koksma__unit(uint32_t high, uint32_t low)
 {
     return (double)(((uint64_t)high << 21) | (low >> 11)) * 0x1p-53;
@@ -69,14 +69,15 @@ static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t
     pair[1] = koksma__unit(r.w[2], r.w[3]);
 }
 
-/* A seed for part `index` of the purpose that `seed` serves, derived from `seed`. */
+/* Returns a seed for part `index` of the work that `seed` was meant for, derived from `seed`. */
 static inline uint64_t koksma__random_seed(uint64_t seed, uint64_t index, uint32_t lane)
 {
     const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_SEED, index, lane);
     return (uint64_t)r.w[1] << 32 | r.w[0];
 }
 
-/* A whole number below n < 2^32 from 32 random bits (multiply-shift: the bias is below n / 2^32). */
+/* Returns a whole number below n < 2^32, computed from 32 random bits (multiply-shift: the bias is below n / 2^32).
+   */
 static inline uint32_t koksma__below(uint32_t word, uint32_t n)
 {
     return (uint32_t)(((uint64_t)word * n) >> 32);

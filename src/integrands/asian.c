@@ -85,9 +85,9 @@ static double explained(const koksma_integral *f, const bool *held)
     return explained_square(f, square / all) - f->value * f->value;
 }
 
-/* The weights of the bridge. A middle m between times l and r has W_m = ((r - m) W_l + (m - l) W_r) / (r - l) +
-   sqrt((m - l) (r - m) / ((r - l) d)) z. For each gap, from the last to the first, the weight of W_m in the mean is
-   distributed to z, W_l and W_r. */
+/* Computes the weights of the Brownian bridge. A middle m between times l and r has W_m = ((r - m) W_l + (m - l) W_r)
+   / (r - l) + sqrt((m - l) (r - m) / ((r - l) d)) z. For each gap, from the last to the first, the weight of W_m in
+   the mean is distributed to z, W_l and W_r. */
 static koksma_status bridge_weights(koksma_integral *f)
 {
     const size_t d = (size_t)f->dim;

@@ -26,7 +26,7 @@ static double polynomial(int r, double x)
     return value;
 }
 
-/* The root of B_r in (0, 1/2) for even r, by bisection: B_r is monotone on [0, 1/2]. */
+/* Returns the root of B_r in (0, 1/2) for even r, by bisection: B_r is monotone on [0, 1/2]. */
 static double root(int r)
 {
     double low = 0, high = 0.5;

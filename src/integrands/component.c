@@ -21,7 +21,7 @@ static double factor_at(const koksma_integral *f, int axis, double x)
     return f->factors[axis].at ? f->factors[axis].at(x) : f->factor(f, axis, x);
 }
 
-/* The value of the component; context points to the component. */
+/* Returns the value of the component at x; context points to the component. */
 static double at(const double *x, int dim, void *context)
 {
     const koksma_integral *f = context, *whole = f->whole;

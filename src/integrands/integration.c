@@ -44,8 +44,8 @@ static koksma_tally tally_of(const koksma_integration_options *o, const double *
     return tally;
 }
 
-/* The squared error of an estimate. If the integral is unknown, it is the squared difference from the mean of the
-   estimates, times T / (T - 1). */
+/* Returns the squared error of an estimate. If the integral is unknown, it is the squared difference from the mean of
+   the estimates, times T / (T - 1). */
 static double squared(double estimate, double value, const koksma_tally *tally)
 {
     const double error = estimate - (isnan(value) ? tally->mean : value);

@@ -88,7 +88,7 @@ static bool enter(walker *w, size_t index)
     return false;
 }
 
-/* The index of the member with this key in the text; jansson keeps members in the text's order. */
+/* Returns the index of the member with this key in the text; jansson keeps members in the text's order. */
 static size_t number_of(const json_t *object, const char *key)
 {
     size_t number = 0;

@@ -69,7 +69,7 @@ koksma_status koksma__json_number(const koksma__json_node *node, double min, dou
 koksma_status koksma__json_whole(const koksma__json_node *node, long long min, long long max, long long *out);
 koksma_status koksma__json_flag(const koksma__json_node *node, bool *out);
 koksma_status koksma__json_text(const koksma__json_node *node, const char **out);
-/* An array of exactly n numbers. */
+/* Reads an array of exactly n numbers. */
 koksma_status koksma__json_numbers(const koksma__json_node *node, double min, double max, size_t n, double *out);
 
 /* Read the member `key` of an object as the functions above read a node. If it is absent, *out does not change; this

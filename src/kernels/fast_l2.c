@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pair sums of the L2 discrepancies. Rows are summed in a fixed number of lanes, so that every instruction set adds
-   in the same order and gives the same bits. The row sums are added with compensation. */
+/* Computes the sums over pairs of points in the L2 discrepancies. Rows are summed in a fixed number of lanes, so that
+   every instruction set adds in the same order and gives the same bits. The row sums are added with compensation. */
 #include <math.h>
 
 #include "core/sum.h"

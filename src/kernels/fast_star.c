@@ -21,8 +21,8 @@ typedef struct step {
     double best[2];
 } step;
 
-/* The largest excess over ranks 0 .. n-1 and the largest deficit over ranks 0 .. n. The last vector reads past the
-   end, where y is 1. A box of this height has the deficit of rank n, and at most the excess of rank n-1. */
+/* Computes the largest excess over ranks 0 .. n-1 and the largest deficit over ranks 0 .. n. The last vector reads
+   past the end, where y is 1. A box of this height has the deficit of rank n, and at most the excess of rank n-1. */
 static void maxima(size_t n, const double *y, const double *count, step *s)
 {
     lanes64_d excess = lanes64_splat_d(-INFINITY), deficit = excess;
@@ -44,7 +44,7 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
     }
     at[0] = at[1] = 0;
     best[0] = -INFINITY;
-    best[1] = scale * x[0]; /* the empty box of full height to the left of the first point */
+    best[1] = scale * x[0]; /* start with the empty box of full height to the left of the first point */
     for (size_t i = 0; i < n; i++) {
         step s = {.here = scale * x[i], .next = scale * (i + 1 < n ? x[i + 1] : 1)};
         for (size_t j = (size_t)rank[i] + 1; j <= n + 8; j++) {

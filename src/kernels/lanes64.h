@@ -48,7 +48,7 @@ typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
 typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
 
-/* x in every lane. */
+/* Returns x in every lane. */
 static inline lanes64_u lanes64_splat(uint64_t x)
 {
     return x - (lanes64_u){0};
@@ -276,7 +276,7 @@ static inline lanes64_d lanes64_abs(lanes64_d x)
     return (lanes64_d)((lanes64_u)x & 0x7fffffffffffffffu);
 }
 
-/* The largest lane. */
+/* Returns the value of the largest lane. */
 static inline double lanes64_largest(lanes64_d v)
 {
 #if defined(__AVX512F__)

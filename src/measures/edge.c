@@ -29,8 +29,8 @@
 #include "measures/shared/lines.h"
 #include "measures/shared/planes.h"
 
-/* The chord with midpoint p = (x, y), from (2x - ex, ey) to (ex, 2y - ey), where e is the corner of the square
-   nearest to p. */
+/* Computes the chord with midpoint p = (x, y), which goes from (2x - ex, ey) to (ex, 2y - ey), where e is the corner
+   of the square nearest to p. */
 static void chords_of_square(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
     chords[0] = (koksma__chord){{p[0] < 0.5 ? 0 : 1, p[0]}, {p[1], p[1] < 0.5 ? 0 : 1}};

@@ -210,7 +210,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     }
     const size_t n = out->n;
     descent d = {.dim = 2, .n = n, .s = args->params[1] / sqrt((double)n), .step = args->params[2], .xs = out->xs};
-    d.limit = TOLERANCE * d.s * d.s * (double)n; /* square root of a sum of n squares */
+    d.limit = TOLERANCE * d.s * d.s * (double)n; /* this limit is for the square root of the sum of n squares */
     d.tiles = fmax(ceil(10 * d.s), 1);
     d.cut = 5 * d.s / d.tiles;
     d.copies = n * (size_t)(d.tiles * d.tiles);

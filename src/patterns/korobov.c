@@ -31,7 +31,8 @@ static void powers(uint64_t a, size_t n, int dim, uint64_t *z)
     }
 }
 
-/* The worst-case error P_2 of the generating vector (1, a, a^2, ...), up to a constant factor and summand. */
+/* Computes the worst-case error P_2 of the generating vector (1, a, a^2, ...), up to a constant factor and summand.
+   */
 static koksma_status error_of(koksma__lattice_search *search, int dim, uint64_t a, double *error)
 {
     uint64_t z[MAX_DIM];

@@ -32,7 +32,7 @@ typedef struct filling {
     koksma_points *out;
 } filling;
 
-/* The values of the three masks at a pixel. */
+/* Computes the values of the three masks at a pixel. */
 static void values_at(const filling *f, size_t pixel, uint32_t values[MASKS])
 {
     uint32_t random[4];

@@ -130,7 +130,8 @@ static int digits_in_double(uint64_t base)
     return digits;
 }
 
-/* The number of columns: `given` is this number or, above MOST_COLUMNS, the number of points, base^columns. */
+/* Sets the number of columns. `given` is this number or, if it is above MOST_COLUMNS, the number of points
+   base^columns. */
 static koksma_status count_columns(const koksma__number_lines *lines, uint64_t base, uint64_t given, int *columns)
 {
     uint64_t points = given;

@@ -73,7 +73,8 @@ static void put_point(const square *s, uint32_t x, uint32_t y)
     put_cell(s, 1, column, row, x_in, y_in);
 }
 
-/* The energy of the pairs of cell t of one line and cell t + step of the line that is `lines` further. */
+/* Returns the energy of the pairs of cell t of one line and cell t + step of the line that is `lines` lines further.
+   */
 static int32_t energy_of(long side, const float *across, const float *along, const float *others_across,
                          const float *others_along, long lines, long step)
 {
@@ -90,7 +91,7 @@ static int32_t energy_of(long side, const float *across, const float *along, con
     return sum;
 }
 
-/* The energy of all pairs that a flip of the line can change. */
+/* Returns the energy of all pairs that a flip of the line can change. */
 static int32_t energy_of_line(const square *s, int axis, long line, const float *across)
 {
     const float *along = s->along[axis] + line * s->width;

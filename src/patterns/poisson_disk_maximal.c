@@ -64,19 +64,19 @@ static double **cover_xs(cover *c)
     return c->dim == 2 ? &c->disks.xs : &c->balls.xs;
 }
 
-/* The mean of points times d^dim. */
+/* Returns the mean of (number of points) * d^dim. */
 static double per_volume(int dim)
 {
     return dim == 2 ? 0.6965 : koksma__balls_per_volume(dim);
 }
 
-/* A little more than any distance on the torus. */
+/* Returns a number slightly larger than any distance on the torus. */
 static double farthest(int dim)
 {
     return dim == 2 ? 0.72 : 0.51 * sqrt(dim);
 }
 
-/* The distance at which sets have n points on average. */
+/* Returns the distance d at which sets have n points on average. */
 static double distance_of(double n, int dim)
 {
     const double d = dim == 2 ? sqrt(per_volume(dim) / n) : pow(per_volume(dim) / n, 1.0 / dim);

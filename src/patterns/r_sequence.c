@@ -33,7 +33,7 @@ static uint64_t product(uint64_t a, uint64_t b)
     return ah * bh + (middle >> 32) + (other >> 32);
 }
 
-/* The fraction a with a^dim + a^(dim+1) = 1, by bisection. */
+/* Returns the fraction a with a^dim + a^(dim+1) = 1, by bisection. */
 static uint64_t root(int dim)
 {
     uint64_t a = 0;

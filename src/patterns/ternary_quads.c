@@ -43,8 +43,8 @@ static const uint32_t searched[(MOST_DIM / QUAD - 1) * (DIGITS - 1)] = {
 #include "patterns/shared/ternary_quads.inc"
 };
 
-/* The rows of C_3. From s_i, the coefficients of 1/p^q, those of 1/p^(q+1) follow by long division:
-   s'_i = s_(i-2) + s'_(i-1) + s'_(i-2). */
+/* Computes the rows of C_3. From s_i, the coefficients of 1/p^q, those of 1/p^(q+1) follow by long division: s'_i =
+   s_(i-2) + s'_(i-1) + s'_(i-2). */
 static void fill_quadratic(int digits, uint32_t *matrix)
 {
     uint32_t series[DIGITS + 2] = {1}; /* of x^0, x^-1, ... */

@@ -22,7 +22,7 @@ static double log_error(const koksma__summary *s)
     return s->sd / sqrt((double)s->n) / s->mean;
 }
 
-/* Whether all numbers log_error are known, whether some of them are above 0, and whether all are. */
+/* Flags: all numbers log_error are known; some of them are above 0; all of them are above 0. */
 typedef struct errors {
     bool known, some, all;
 } errors;

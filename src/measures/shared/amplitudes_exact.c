@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The power spectrum by direct sums. exp(-2 pi i k.x) is a product over the coordinates: with C, S the cosine and
-   sine of 2 pi kx x and c, s those of 2 pi ky y, the sums over the points of Cc, Cs, Sc and Ss give the power at (kx,
-   ky) and at (-kx, ky). These sums for all frequencies are one matrix product, computed in tiles of 8 x 16 numbers.
-   Rows 2k and 2k+1 have the cosine and the sine at frequency k of x, columns those of y. The columns are computed for
-   one chunk of the points at a time and used for a band of rows, so that memory does not grow with the number of
-   points. */
+/* Computes the power spectrum by direct sums. The factor exp(-2 pi i k.x) is a product over the coordinates: with C,
+   S the cosine and sine of 2 pi kx x and c, s those of 2 pi ky y, the sums over the points of Cc, Cs, Sc and Ss give
+   the power at (kx, ky) and at (-kx, ky). These sums for all frequencies are one matrix product, computed in tiles of
+   8 x 16 numbers. Rows 2k and 2k+1 have the cosine and the sine at frequency k of x, columns those of y. The columns
+   are computed for one chunk of the points at a time and used for a band of rows, so that memory does not grow with
+   the number of points. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -48,14 +48,14 @@ koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points,
 koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                         koksma_value *out);
 
-/* The algorithms one by one, for tests that compare them. koksma__l2_by_sorting requires one or two dimensions, n <
-   2^28, and that r and all coefficients of a24 and g except the first are multiples of 1/16; if the compiler has no
-   128-bit integers, it sums over pairs instead. */
+/* The functions below each use one algorithm, for tests that compare them. koksma__l2_by_sorting requires one or two
+   dimensions, n < 2^28, and that r and all coefficients of a24 and g except the first are multiples of 1/16; if the
+   compiler has no 128-bit integers, it sums over pairs instead. */
 koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                   double *square);
 koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                     double *square);
-/* The number of products, 1 to 3, into which the kernel K(a, b) separates for a <= b. */
+/* Returns the number of products, 1 to 3, into which the kernel K(a, b) separates for a <= b. */
 int koksma__l2_ranks(const koksma__l2_row *row);
 /* For 3 to KOKSMA__L2_DIVIDE_DIM dimensions. */
 koksma_status koksma__l2_by_dividing(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,

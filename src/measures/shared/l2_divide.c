@@ -94,7 +94,7 @@ int koksma__l2_ranks(const koksma__l2_row *row)
     return linear || product ? 1 : row->r == 0 ? 2 : 3;
 }
 
-/* The product of K over the coordinates from k on. */
+/* Returns the product of K over coordinate k and all later coordinates. */
 static double kernel_from(const divider *d, int k, const item *u, const item *v)
 {
     double product = 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The square of an L2 discrepancy and its gradient, by sums over pairs. With K = prod_k K_k,
+ * Computes the square of an L2 discrepancy and its gradient by sums over pairs. With K = prod_k K_k,
  *
  *     d square / d x_ik = (2/n^2) sum_(j != i) K_k'(x_ik, x_jk) prod_(l != k) K_l + (1/n^2) d K(x_i, x_i) / d x_ik
  *                         - (2/n) a'(x_ik) prod_(l != k) a(x_il),
@@ -17,7 +17,7 @@
 
 #include "core/status.h"
 
-/* The derivative of koksma__l2_polynomial. */
+/* Returns the derivative of koksma__l2_polynomial. */
 static double slope(const double f[4], double u)
 {
     const double z = u - 0.5;

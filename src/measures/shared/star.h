@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The algorithms for the star discrepancy. Those with an argument `out` write the value and its witness to it. */
+/* The algorithms for the star discrepancy. Functions with an argument `out` write the value and its witness to it. */
 #ifndef KOKSMA_MEASURES_SHARED_STAR_H
 #define KOKSMA_MEASURES_SHARED_STAR_H
 

@@ -57,7 +57,8 @@ typedef struct searcher {
     double *undecided_at; /* dim rows of n: the same coordinate of the child's undecided points */
     bool *flags;          /* n */
     double *sides;        /* 2 rows of n + dim: the sides of boxes in a leaf */
-    double **products;    /* dim pairs of rows of n + 2 dim + 8: products of sides up to coordinate k */
+    double **products;    /* products of the sides in coordinates 0 .. k, for each k: dim pairs of rows of n + 2 dim +
+                          8 numbers */
     size_t leaves;
     bool stop;
     koksma_value *best;

@@ -49,7 +49,8 @@ static void chords_of_disk(const double p[2], koksma__chord chords[KOKSMA__MAX_C
     chords[0] = central ? (koksma__chord){{1, 0}, {0, 0}} : (koksma__chord){{0, p[1]}, {p[0], 0}};
 }
 
-/* The mean distance of p, at distance rho from the centre, from a uniform point of the disk: (4/9 pi) ((rho^2 + 7) E
+/* Returns the mean distance of p, which is at distance rho from the centre, from a uniform point of the disk: (4/9
+   pi) ((rho^2 + 7) E
    - 4 (1 - rho^2) K), where K and E are the complete elliptic integrals of modulus rho, by the arithmetic-geometric
    mean. */
 static double mean_distance_in_disk(const double *p)

@@ -9,8 +9,8 @@ typedef enum koksma__domain_kind { KOKSMA__DISK, KOKSMA__TRIANGLE, KOKSMA__HEMIS
 
 extern const koksma__domain koksma__domains[2]; /* only for the disk and the triangle */
 
-/* sigma: the probability that a random line that meets the domain (on the hemisphere: a plane through its centre)
-   separates two points; the potential P and the constant C are defined in measures/l2_edge.c. */
+/* Returns sigma, the probability that a random line that meets the domain (on the hemisphere: a plane through its
+   centre) separates two points; the potential P and the constant C are defined in measures/l2_edge.c. */
 double koksma__domain_separates(koksma__domain_kind kind, const double *p, const double *q);
 double koksma__domain_potential(koksma__domain_kind kind, const double *p);
 double koksma__domain_constant(koksma__domain_kind kind);

@@ -44,8 +44,8 @@ koksma_status koksma__balls_fill(koksma__balls *balls, size_t n, const koksma_ru
 /* Keeps the first n points and makes the cover of the free volume for the smaller distance d. */
 koksma_status koksma__balls_shrink(koksma__balls *balls, size_t n, double d, const koksma_run *run);
 
-/* The mean of n d^dim over maximal sets in 2 and more dimensions, from saturated random sequential addition of balls
-   of diameter d (Zhang & Torquato 2013). */
+/* Returns the mean of n d^dim over maximal sets in 2 and more dimensions, from saturated random sequential addition
+   of balls of diameter d (Zhang & Torquato 2013). */
 double koksma__balls_per_volume(int dim);
 
 #endif

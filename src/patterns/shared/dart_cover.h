@@ -154,7 +154,7 @@ static inline size_t koksma__disks_own(const koksma__disks *s, uint32_t tile, ui
     return (tile * s->wide + cell_y) * s->wide + cell_x;
 }
 
-/* The index of the point in a cell of the grid; UINT32_MAX: none. */
+/* Returns the index of the point in a cell of the grid; UINT32_MAX: none. */
 static inline uint32_t koksma__disks_who(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y)
 {
     const uint32_t tx = koksma__disks_tile_of(s, cell_x), ty = koksma__disks_tile_of(s, cell_y);

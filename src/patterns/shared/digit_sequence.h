@@ -15,7 +15,7 @@ typedef void (*koksma__digit_matrix)(uint32_t base, int k, int digits, uint32_t 
 koksma_status koksma__digit_sequence(const char *name, uint32_t base, int most_digits, koksma__digit_matrix fill,
                                      const koksma_args *args, koksma_points *out);
 
-/* As many digits of this base as 53 bits hold. */
+/* Returns the largest number of digits in this base that fit into 53 bits. */
 int koksma__digits_of_double(uint32_t base);
 
 /* Fills the powers of Pascal's matrix: entry [r][c] is C(c,r) k^(c-r). */

@@ -53,10 +53,10 @@ koksma_status koksma__lattice_value(koksma__lattice_search *search, double *wind
 /* Sets search->values to infinity for each z that has a divisor in common with n, else to 0. */
 void koksma__lattice_units(koksma__lattice_search *search);
 
-/* The last candidate z. Candidates end at n/2, because n - z is the mirror image of z. For even n the smallest unit
-   modulo n above n/2 is a candidate, too. It is the mirror image of a candidate below, but its sum has different
-   rounding errors, which decide for n = 12 and a few other n below 30. Without it the points for these n would
-   change. */
+/* Returns the last candidate z. Candidates end at n/2, because n - z is the mirror image of z. For even n the
+   smallest unit modulo n above n/2 is a candidate, too. It is the mirror image of a candidate below, but its sum has
+   different rounding errors, which decide for n = 12 and a few other n below 30. Without it the points for these n
+   would change. */
 uint64_t koksma__lattice_last(size_t n);
 
 /* Finds the z that adds least to the sum: candidates within the window above the least value are compared by sums in

@@ -53,7 +53,7 @@ static inline double whole_part(double x)
     return (double)(int64_t)x;
 }
 
-/* The upper 64 bits of the 128-bit product. */
+/* Returns the upper 64 bits of the 128-bit product. */
 static inline uint64_t upper_half(uint64_t a, uint64_t b)
 {
     const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;

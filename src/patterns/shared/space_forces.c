@@ -25,7 +25,7 @@
 
 enum { PIECES = 1024 };
 
-/* The periodic Gaussian and its derivative. */
+/* Computes the periodic Gaussian and its derivative. */
 static void periodic(double t, double s, double out[2])
 {
     const int images = (int)ceil(9 * s) + 1;

@@ -24,7 +24,7 @@ void koksma__torus_rows_fini(koksma__torus_rows *rows);
 /* Sorts n points, each a pair of coordinates in [0, 1). */
 void koksma__torus_rows_sort(koksma__torus_rows *rows, size_t n, const double *points);
 
-/* The largest number of runs that koksma__torus_rows_near can return for a radius of at most 1/2. */
+/* Returns the largest number of runs that koksma__torus_rows_near can return for a radius of at most 1/2. */
 size_t koksma__torus_rows_most(const koksma__torus_rows *rows, double radius);
 
 /* Finds runs that contain all points within the radius of (x, y), and some points further away; no point is in two

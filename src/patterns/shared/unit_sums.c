@@ -69,7 +69,7 @@ static double bernoulli(double x)
     return x * (x - 1) + 1.0 / 6;
 }
 
-/* The number of units modulo m up to the sign: phi(m)/2, at least 1. */
+/* Returns the number of units modulo m up to the sign: phi(m)/2, at least 1. */
 static size_t count_units(const koksma__unit_sums *s, uint64_t m)
 {
     uint64_t count = m;
