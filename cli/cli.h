@@ -161,7 +161,8 @@ void cli_set_style(int digits, bool all_columns); /* sets the values of --digits
    cli_rows_close. */
 cli_rows *cli_rows_open(bool json);
 void cli_row_text(cli_rows *rows, const char *key, const char *value);
-void cli_row_number(cli_rows *rows, const char *key, double value); /* in JSON %.17g or null, as text cli_number() */
+void cli_row_number(cli_rows *rows, const char *key, double value); /* a number: %.17g or null in JSON, cli_number()
+                                                                       in text */
 void cli_row_whole(cli_rows *rows, const char *key, uint64_t value);
 void cli_row_flag(cli_rows *rows, const char *key, bool value);
 /* json: a complete JSON value */

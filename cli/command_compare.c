@@ -16,7 +16,8 @@ typedef struct comparison {
     size_t images;
     koksma_image_error error;                    /* sums over the images */
     cli_metrics metrics;                         /* rmse, and the metrics of --metric */
-    koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images; top is that of the last image */
+    koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images, except `top`, which is that of the last
+                                                    image */
     /* the path of the image that is being compared, or NULL */
     const char *compared;
 } comparison;

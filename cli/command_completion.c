@@ -365,8 +365,8 @@ static void put_fish(void)
     }
 }
 
-/* Returns the parameters of the pattern, measure, integrand or adaptive method `name`, or NULL if there is none of
-   that name. */
+/* Returns the parameters of the pattern, measure, integrand or adaptive method `name`, or NULL if nothing has this
+   name. */
 static const koksma_param *params_of(const char *name)
 {
     const koksma_pattern *pattern = koksma_pattern_find(name);

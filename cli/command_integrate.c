@@ -444,7 +444,7 @@ static const cli_option options[] = {
     {'t', "trials", "T", "T sets of each random pattern, seeds S, S+1, .. (default: 32)"},
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {0, "anova", NULL, "print the share of each coordinate and pair of coordinates in the variance"},
-    {0, "samples", "N", "with --anova: estimate shares by N points, also where a closed form is known"},
+    {0, "samples", "N", "with --anova: estimate shares by N points, even if a closed form is known"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -457,7 +457,8 @@ const cli_command cli_command_integrate = {
         "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]",
     .details =
         "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % interval. "
-        "For one set, as of deterministic patterns, it is the absolute error. gain is the variance with random "
+        "With a single set, which is all that deterministic patterns have, it is the absolute error. gain is the "
+        "variance with random "
         "points divided by the mean squared error: the factor by which more random points would be needed for the "
         "same error. Three\n"
         "sizes or more give the slope of log rmse against log n with its interval.\n"

@@ -216,7 +216,7 @@ static bool parse_warps(measuring *j)
     j->warp = j->warps[0];
     for (size_t i = 1; i < j->n_warps; i++) {
         if (j->warps[i]->domain != j->warp->domain) {
-            cli_usage_error(j->arguments, "--warp %s: its domain is not that of %s", j->warps[i]->name,
+            cli_usage_error(j->arguments, "--warp %s: its domain differs from that of %s", j->warps[i]->name,
                             j->warp->name);
             return false;
         }
@@ -360,7 +360,8 @@ const cli_command cli_command_measure = {
         "\n"
         "--prefixes needs a sequence, because the first points of other patterns, such as n-rooks, fill only a strip "
         "of the square.\n"
-        "--sizes measures a new set for each N instead, whatever N the source has. 'powers' leaves out sizes that\n"
+        "--sizes instead measures a new set for each N and ignores the N of the source. 'powers' leaves out sizes "
+        "that\n"
         "a measure does not accept, such as one point for min-distance.\n"
         "--prefixes and --sizes print the fitted slope beside the proven exponent for the pattern and the best "
         "possible one (up to\n"

@@ -287,7 +287,7 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out with --from FILE)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {0, "from", "FILE",
-     "the initial set, also PATTERN or SPEC@N (default: latin-hypercube; with --keep net or sequence: sobol)"},
+     "the initial set: a file, PATTERN or SPEC@N (default: latin-hypercube; with --keep net or sequence: sobol)"},
     {0, "keep", "none|latin|net|sequence",
      "a structure of the initial set that the search preserves (default: none)"},
     {0, "projections", "0+1,0+2,..|pairs",

@@ -428,7 +428,7 @@ static int images(const cli_arguments *arguments)
     size_t n = 0;
     const char *reference = cli_text(arguments, "reference", NULL);
     if (arguments->n_operands != 2 || !reference) {
-        return cli_usage_error(arguments, "images takes a path with placeholders and a reference, as in images "
+        return cli_usage_error(arguments, "images takes a path with placeholders and a reference, such as images "
                                           "'out_{spp}_{trial}.exr' --reference ref.exr");
     }
     cli_metrics metric = {.n = 0};
@@ -442,8 +442,7 @@ static int images(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     if (n > 1 && !strstr(arguments->operands[1], "{trial}")) {
-        cli_say("study", "'%s' has no {trial}, so each image is a group of its own and has no interval",
-                arguments->operands[1]);
+        cli_say("study", "'%s' has no {trial}, so each group has one image and no interval", arguments->operands[1]);
     }
     cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
     put_image_rows(out, metric.specs, rows, n);

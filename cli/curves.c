@@ -106,8 +106,8 @@ int cli_curves_each_set(cli_curves *c, const char *source,
 {
     cli_source opened;
     int code = cli_source_open(c->arguments, source, &opened);
-    for (uint64_t t = 0; t < (opened.is_pattern ? c->trials : 1) && !code; t++) { /* a file has only one set, whatever
-                                                                                     the number of trials */
+    for (uint64_t t = 0; t < (opened.is_pattern ? c->trials : 1) && !code; t++) { /* a file has only one set, also if
+                                                                                     --trials is above 1 */
         koksma_points points;
         code = cli_source_points(c->arguments, source, c->seed + t, &c->work.run, &points);
         if (!code) {

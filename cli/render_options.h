@@ -29,7 +29,7 @@
             "error"                                                                                                  \
     }
 
-/* Reads --integrator and --filter; *integrator and *filter hold the defaults before. Returns false after an error
+/* Reads --integrator and --filter; on entry *integrator and *filter have the defaults. Returns false after an error
    that names the option. */
 bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_integrator **integrator,
                                const koksma_filter **filter);

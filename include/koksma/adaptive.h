@@ -45,7 +45,7 @@ typedef struct koksma_space {
                                each of its parts is listed here with the unsplit cell and with the mean value of all
                                parts */
     koksma_split *splits;   /* array of n_splits, the coarsest first; empty without probes. With the parameter
-                               reuse=fresh the listed cells are those of the samples that decided about the split */
+                            reuse=fresh a listed cell is that of the samples that caused the split */
 } koksma_space;
 
 /* The subdivision of one pixel, which koksma_plot_strata draws. */

@@ -174,11 +174,11 @@ KOKSMA_API koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, 
        P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / (its mean over (u, v) != (0, 0));
 
    the coherence is the largest value of P after P is averaged over the images that were added. Errors that are
-   independent between pixels have an expected P of 1 at every frequency, whatever their distribution is, even if
-   the distribution varies over the image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H
-   A^2 / (4 s^2). In frequency rings where finer detail has more power than the mean (blue noise), P is divided by
-   the power of the ring: docs/findings/coherence.md. Equal images added in equal order give bit-identical results.
-   One thread at a time may use the struct. */
+   independent between pixels have an expected P of 1 at every frequency, for any distribution, even if the
+   distribution varies over the image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H A^2 /
+   (4 s^2). In frequency rings where finer detail has more power than the mean (blue noise), P is divided by the power
+   of the ring: docs/findings/coherence.md. Equal images added in equal order give bit-identical results. One thread
+   at a time may use the struct. */
 typedef struct koksma_coherence {
     int width, height;
     size_t images;   /* number of images added, not counting images whose error is the same in every pixel */

@@ -157,7 +157,7 @@ static _Noreturn void keep(const koksma__child *child, const int ends[N_ENDS])
         tell(ends[KEEPER], errno, 0);
         _exit(1);
     }
-    setpgid(program, program); /* both sides call setpgid, as either may run first */
+    setpgid(program, program); /* both processes call setpgid, because either may run first */
     close(ends[OUT]);
     close(ends[ERR]);
     await(program, ends[KEEPER]);

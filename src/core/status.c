@@ -89,7 +89,7 @@ void koksma_text_escape(char *text, size_t size)
 
 koksma_status koksma__fail(koksma_status status, const char *format, ...)
 {
-    char text[TEXT_SIZE]; /* a separate buffer, as arguments may point into error_text */
+    char text[TEXT_SIZE]; /* a separate buffer, because arguments may point into error_text */
     va_list arguments;
     va_start(arguments, format);
     koksma__vsnprintf(text, sizeof text, format, arguments);

@@ -207,7 +207,7 @@ koksma_status koksma_integral_sensitivity(const koksma_integral *integral, const
             fresh = fresh && axes[i] != axes[k];
         }
         KOKSMA__FAIL_IF(!fresh, KOKSMA_ARGUMENT,
-                        "koksma_integral_sensitivity: axes: %d: it takes different ones, 0 to %d", axes[k],
+                        "koksma_integral_sensitivity: axes: %d: it takes different numbers from 0 to %d", axes[k],
                         integral->dim - 1);
     }
     if (samples || !integral->explained) {

@@ -70,9 +70,9 @@ koksma_status koksma_integral_component(const koksma_integral *integral, const i
     status = f->chosen ? KOKSMA_OK : koksma__fail_memory((size_t)whole->axes);
     for (size_t k = 0; k < n_axes && !status; k++) {
         if (axes[k] < 0 || axes[k] >= whole->axes || f->chosen[axes[k]]) {
-            status =
-                koksma__fail(KOKSMA_ARGUMENT, "koksma_integral_component: axes: %d: it takes different ones, 0 to %d",
-                             axes[k], whole->axes - 1);
+            status = koksma__fail(KOKSMA_ARGUMENT,
+                                  "koksma_integral_component: axes: %d: it takes different numbers from 0 to %d",
+                                  axes[k], whole->axes - 1);
         } else {
             f->chosen[axes[k]] = true;
         }

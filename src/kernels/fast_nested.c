@@ -58,7 +58,7 @@ static inline __attribute__((always_inline)) void look_at(uint32_t base, double 
     }
 }
 
-/* Writes the relative number d of each stratum to v, which holds its two random words. */
+/* Writes relative number d of each stratum to v, which has its two random words on entry. */
 static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t d, double width, strata *s, double *v)
 {
     const double part = width * 0x1p-32;

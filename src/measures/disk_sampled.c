@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * disk-sampled: an estimate of l2-disk from random disks, as Mitchell 1992 estimates such measures.
+ * disk-sampled: an estimate of l2-disk from random disks, with the method of Mitchell 1992.
  *
  * Formula: the root of the mean, over `disks` random disks on the torus, of (#{x_i in the disk}/n - area)^2; its
  * standard error is the standard error of the mean of the squares, divided by twice the value.

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * t-value: the quality parameter of the points as a (t,m,s)-net in a base: the least t such that every elementary
- * interval of volume base^(t-m) holds base^t points. The best value is 0; the worst is m, as every set of points is
- * an (m,m,s)-net.
+ * interval of volume base^(t-m) holds base^t points. The best value is 0; the worst is m, because every set of points
+ * is an (m,m,s)-net.
  *
  * Formula: n = base^m; elementary intervals are products of [a/base^d, (a+1)/base^d), where the d of all coordinates
  * add up to m - t.

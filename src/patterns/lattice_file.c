@@ -8,8 +8,8 @@
  * number of dimensions, the number of points N, and z_1, z_2, ... on one line each; comments follow a #. Kuo's format
  * has no header and for each dimension a line "k z_k" (or z_k alone). With N = b^m, b prime and m > 1, the points are
  * a lattice sequence: for any power n of b, the first n of them are the lattice {i z / n}, and more can follow.
- * Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector is good
- * for the numbers of points that the comments of its file name.
+ * Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector should be
+ * used only with the numbers of points listed in the comments of its file.
  *
  * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion,
  * Godin & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 the

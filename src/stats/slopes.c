@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Describes how errors decrease with n. A slope is that of the least-squares line through (log n, log mean). Its
+/* Describes how errors decrease with n. A slope is the slope of the least-squares line through (log n, log mean). Its
    interval comes from the standard errors of the means, to first order in the logarithms, or from the residuals if
    the errors are unknown. The lack of fit of a weighted line shows whether the means lie on a line at all. The number
    of samples that reaches a given error is interpolated between the two nearest sizes, as if the error followed c

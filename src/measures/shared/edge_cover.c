@@ -85,7 +85,7 @@ static koksma_status look_along(void *context, size_t block)
     const double a = cos(now->middle), b = sin(now->middle);
     double *t = koksma__now_s() < v->deadline_s ? malloc(bytes) : NULL, low = INFINITY, high = -INFINITY;
     if (!t) {
-        return KOKSMA_OK; /* the bound of the wider interval that contains this one still holds */
+        return KOKSMA_OK; /* the bound of the wider interval that contains this one is also a bound here */
     }
     double *scaled = t + v->n;
     uint32_t *order = (uint32_t *)(scaled + v->n);

@@ -21,7 +21,7 @@
  *
  * The cost is that of n^3/6 planes, with one pass over the points for each plane. A point within 2e-15 of a plane
  * counts as on it, which causes errors of a few 1e-15 in the values. Normals of planes through three points are
- * computed with 106 bits, as the points may be almost collinear.
+ * computed with 106 bits, because the points may be almost collinear.
  */
 #include <math.h>
 #include <stdatomic.h>

@@ -110,8 +110,9 @@ static void merge_sort(ray *rays, ray *spare, size_t n)
     }
 }
 
-/* Sorts rays by key, stably: by a radix sort of the keys rounded to 32 bits and an insertion sort of the result; by a
-   merge sort if insertion takes more than 4n moves, as when many points lie in almost the same direction. */
+/* Sorts rays stably by key: first a radix sort of the keys rounded to 32 bits, then an insertion sort. If insertion
+   takes more than 4n moves, for example because many points lie in almost the same direction, a merge sort replaces
+   it. */
 static void sort_rays(ray *rays, ray *spare, uint64_t *items, size_t n)
 {
     size_t moves = 0;

@@ -376,7 +376,7 @@ static koksma_status bound_rest(plane *p, size_t n_blocks, const koksma_run *run
     return status;
 }
 
-/* Searches some strips first, so that pruning starts with a good value whatever the order of the search. */
+/* Searches some strips first, so that pruning starts with a good value for any order of the search. */
 static koksma_status first_value(plane *p)
 {
     searcher s;

@@ -90,8 +90,8 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
     return true;
 }
 
-/* Visits the pairs of cell c with itself and with its later neighbour cells, each neighbour once. Adjacent neighbours
-   are visited together, as their points are contiguous in memory. */
+/* Visits the pairs of cell c with itself and with its later neighbour cells, each neighbour once. Adjacent neighbour
+   cells are visited together, because their points are contiguous in memory. */
 static bool pairs_of_cell(visit *v, size_t c)
 {
     const size_t m = v->g->columns;

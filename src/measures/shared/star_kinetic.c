@@ -6,8 +6,8 @@
  * The lowest levels of the tree are replaced by blocks of leaves, which are scanned. The star discrepancy of the
  * plane is the largest value of a leaf over all x, and x takes n values from left to right.
  *
- * At first the nodes hold bounds. The bound of a node is a line that is above all its leaves at the current x. It has
- * the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only when its
+ * At first the nodes store bounds. The bound of a node is a line that is above all its leaves at the current x. It
+ * has the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only when its
  * bound is above the best value so far. An insertion scans one block and takes the larger of two bounds on its way
  * back to the root, in O(log n). The bound of a subtree of w ranks rises by at most w/n relative to its leaves in
  * each step to the right, so that it is searched once in about n/w steps for each unit by which its leaves are below

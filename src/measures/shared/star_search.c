@@ -5,10 +5,10 @@
  *
  * In the paper a corner moves to the nearest critical corner. Here a step instead climbs to a corner that no change
  * of a single coordinate improves. With the other coordinates fixed, one pass over the points in order of coordinate
- * k, which counts the points inside in the other coordinates, gives the value of the box for every end along k; the
- * best end is taken. This is repeated until a round over all coordinates brings no improvement. The search stores for
- * each point the number of coordinates in which it is outside. A pass therefore reads each point once, and moving an
- * end updates only the points between the old and the new end.
+ * k counts the points that are inside in the other coordinates. This gives the value of the box for every end along
+ * k, and the best end is taken. This is repeated until a round over all coordinates brings no improvement. The search
+ * stores for each point the number of coordinates in which it is outside. A pass therefore reads each point once, and
+ * moving an end updates only the points between the old and the new end.
  *
  * A step moves some coordinates by a bounded number of ranks and climbs. It is undone if the new value is less than
  * the old value minus a threshold. The moves get smaller and the threshold goes to zero.
@@ -172,7 +172,7 @@ static void keep_best(const walk *w, double value, koksma_value *out)
     }
 }
 
-/* Does one walk, which evaluates at least one box whatever the deadline. */
+/* Does one walk, which evaluates at least one box even after the deadline. */
 static void run_walk(walk *w, size_t steps, koksma_value *out)
 {
     double kept[DIMS];

@@ -15,10 +15,10 @@
  * 0.696 with weight limiting.
  *
  * A heap has the heaviest point on top. When that point is removed, its contribution to its neighbours' weights is
- * subtracted. A grid of cells, about d_max / 2 wide in 3 dimensions or fewer, else d_max, holds the remaining points,
- * so that finding a point's neighbours visits a bounded number of cells: The cost is O(m log m) in few dimensions,
- * and O(m^2) if d_max spans the torus. Memory: 16 dim + 44 bytes for each point. Points are renumbered cell by cell
- * so that neighbours are near in memory.
+ * subtracted. The remaining points are sorted into a grid of cells that are about d_max / 2 wide in up to 3
+ * dimensions, else d_max. The search for the neighbours of a point therefore visits a bounded number of cells. The
+ * cost is O(m log m) in few dimensions, and O(m^2) if d_max spans the torus. Memory: 16 dim + 44 bytes for each
+ * point. Points are renumbered cell by cell so that neighbours are near in memory.
  *
  * If d_max is above 1/2, several periodic images of one point are within d_max, and each contributes to the weight.
  * Yuksel's implementation does the same: from equal candidates both programs keep the same points (tested for n = 64

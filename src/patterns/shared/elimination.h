@@ -33,9 +33,9 @@ KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const 
                                                    bool torus, size_t keep, double d_max, double d_min,
                                                    const koksma_run *run, uint32_t *order);
 
-/* Makes n points by elimination from factor * n uniform random points. Their order is that in which they were drawn
-   or, with `progressive`, Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the name of the
-   pattern in error messages. */
+/* Makes n points by elimination from factor * n uniform random points. They are in the order in which they were drawn
+   or, with `progressive`, in Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the name of
+   the pattern in error messages. */
 koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, int dim, size_t factor,
                                      bool progressive, const koksma_run *run, double *xs);
 

@@ -2,16 +2,16 @@
 /*
  * Sums of Gaussian forces on the torus in 3 to 6 dimensions. Two methods, by the standard deviation s:
  *
- *   s <= 1/10  only the nearest image of a point can be within the cut-off 5 s. Cells 5 s / 2 wide hold the points, and
- *              5^dim cells are visited; where fewer than 5 cells fit along an axis, there is one cell.
- *   s > 1/10   all images act. Their sum is a product over the axes, of the periodic Gaussian
+ *   s <= 1/10  only the nearest image of a point can be within the cut-off 5 s. Points are sorted into cells 5 s / 2
+ *   wide, and 5^dim cells are visited; if fewer than 5 cells fit along an axis, there is only one cell. s > 1/10 all
+ *   images act. Their sum is a product over the axes, of the periodic Gaussian
  *                  g(t) = sum over m of exp(-(t + m)^2 / (2 s^2)),
  *              so that the force along axis k is -s^2 g'(t_k) product over j != k of g(t_j), without a cut-off. Cubic
  *              Hermite pieces, 1,024 from 0 to 1/2, replace g; the error of the derivative is below 1e-7 of the
  *              largest.
  *
- * Sums run in the order of the sorted points, whatever the number of threads. Computing all n forces takes O(n^2)
- * with one cell or with the table, else O(n).
+ * Sums run in the order of the sorted points for any number of threads. Computing all n forces takes O(n^2) with one
+ * cell or with the table, else O(n).
  */
 #include "patterns/shared/space_forces.h"
 
