@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads the options of adaptive sampling for `koksma render` (adaptive_options.h) and refuses options that have no
- * effect with the chosen method. Adds the method's numbers to the row of results. Writes --counts, an image of the
- * number of samples of each pixel (in a PNG file divided by the largest number, so that 1 is white), and --strata, a
- * drawing of one pixel's strata.
+ * effect with the chosen method. Adds the statistics of the adaptive method to the row of results. Writes --counts,
+ * an image of the number of samples of each pixel (in a PNG file divided by the largest number, so that 1 is white),
+ * and --strata, a drawing of one pixel's strata.
  */
 #include "adaptive_options.h"
 

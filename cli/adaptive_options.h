@@ -9,7 +9,7 @@
 #include "cli.h"
 
 #define CLI_ADAPTIVE_OPTIONS                                                                                         \
-    {0, "adaptive", "METHOD", "more samples in pixels that need them; see 'koksma list adaptive'"},                  \
+    {0, "adaptive", "METHOD", "take more samples in pixels that need them; see 'koksma list adaptive'"},             \
         {0, "budget", "SPP", "with --adaptive: largest mean number of samples per pixel (default: no limit)"},       \
         {0, "strata", "X,Y:FILE", "with --adaptive: draw how pixel X,Y was split; .svg, .pdf or .png"},              \
         {0, "probe", "K",                                                                                            \

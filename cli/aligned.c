@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Prints rows as aligned text. Consecutive rows with the same keys form a block, which has its own header and column
- * widths. A block that is wider than the terminal is made to fit in these steps. A block of one row is printed as one
- * line per key. In other blocks columns with the same text in all rows go into a line above the table. Of the
+ * widths. A block that is wider than the terminal is made narrower in these steps. A block of one row is printed as
+ * one line per key. In other blocks columns with the same text in all rows go into a line above the table. Of the
  * remaining columns, those that fit are kept from left to right; a column of text needs at least LEAST characters and
  * continues longer texts on further lines. A line below the table names the columns that are left out.
  */

@@ -16,8 +16,8 @@ typedef struct cli_option {
     const char *name; /* an option table ends at a NULL name */
     /* NULL for a flag. Otherwise the argument as --help shows it: its choices, "csv|json|npy", or a noun, where
        "MEASURE,.." is a list. An option whose argument ends in "..." may be repeated; its values are joined, one per
-       line. The argument of a file to write has the endings that are accepted, "FILE.txt|.csv". Completion scripts
-       choose what they offer by the noun. */
+       line. The argument of a file to write has the endings that are accepted, "FILE.txt|.csv". The noun decides
+       which completions the completion scripts offer. */
     const char *argument;
     const char *help;
 } cli_option;
@@ -115,8 +115,8 @@ int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOK
 /* Prints the library's error text on stderr. Returns the exit code of `status`. */
 int cli_fail(const cli_arguments *arguments, koksma_status status);
 
-/* Prints that memory is exhausted, unless an error was printed before, which may have the same cause. Returns the
-   exit code. */
+/* Prints that memory is exhausted. It prints nothing if an error was printed before, because that error may have the
+   same cause. Returns the exit code. */
 int cli_no_memory(void);
 
 /* Copies item i (0..) of a list such as "a,b:x=1,y=2,c" to `item`. A comma between two parameters of a spec does not

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma compare`: compares images with a reference. Prints the size of the error, as means over the images, and the
+/* `koksma compare`: compares images with a reference. Prints means over the images of the size of the error, and the
    coherence of the errors of all images. */
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,8 @@ typedef struct comparison {
 } comparison;
 
 /* Adds the columns of the metrics. The first metric is rmse, which put_row prints already. JSON rows also have the
-   value without the 0.1 % of the pixels with the largest error, and the share of these pixels in the error. */
+   value without the 0.1 % of the pixels that have the largest error, and the fraction of the error in these pixels.
+   */
 static void put_metrics(cli_rows *rows, const comparison *c, bool json)
 {
     for (size_t i = 0; i < c->metrics.n; i++) {
@@ -189,16 +190,14 @@ const cli_command cli_command_compare = {
         "Prints mean, standard deviation and maximum of the absolute error in luminance, and the root mean square\n"
         "error. With several images (one pattern with several seeds) it prints their means.\n"
         "--metric adds a column for each metric: its mean over the pixels, for rmse the root of the mean square. A "
-        "warning says when "
-        "the\n"
-        "0.1 % of the pixels with the largest error (fireflies) carry half of it or more; --json has this share, and "
-        "the\n"
-        "value without these pixels (..._robust). FLIP estimates the error that a viewer sees at ppd pixels per "
+        "warning appears if the 0.1 % of the pixels with the largest error (fireflies) have at least half of the "
+        "total error; --json has this fraction, and the value without these pixels (..._robust). FLIP estimates the "
+        "error that a viewer sees at ppd pixels per "
         "degree of visual angle (67 for 3840 pixels on 0.7 m, seen from 0.7 m).\n"
         "coherence: the peak of the error's power spectrum divided by its mean, averaged over the images. For white\n"
-        "noise 95 % of the values lie from noise_low to noise_high. 'coherent' means that fewer than 0.5 % of noise\n"
-        "reaches the value: the error has bands or another pattern, at frequency_x and frequency_y cycles a pixel\n"
-        "(--json). Every pixel must be a finite number.\n",
+        "noise 95 % of the values lie from noise_low to noise_high. 'coherent' means that white noise has such a "
+        "value with a probability below 0.5 %: the error has bands or another pattern, at frequency_x and "
+        "frequency_y cycles a pixel (--json). Every pixel must be a finite number.\n",
     .examples = "koksma compare ball.exr reference.exr\n"
                 "koksma compare ball.exr reference.exr -o difference.png\n"
                 "koksma compare ball.exr reference.exr -m relmse:epsilon=0.001,hdr-flip\n",

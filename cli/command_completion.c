@@ -16,7 +16,7 @@
 
 enum { ANSWER_SIZE = 2048 };
 
-/* What a shell offers as completions of an argument. */
+/* The completions that a shell offers for an argument. */
 typedef struct answer {
     char words[ANSWER_SIZE]; /* names, and calls of the script's function that prints the names of a table */
     bool list, files;        /* list: the argument is a list with commas; files: file names, if no word fits */

@@ -62,7 +62,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_curve = {
     .name = "curve",
-    .summary = "measures that are functions: power spectrum, pair correlation",
+    .summary = "print measures whose values are functions, such as power spectra",
     .synopsis = "{curve} FILE|-|SPEC@N... [-p PATTERN,..|all -n N,..] [--trials T] [--json]",
     .details = "{curve-meanings}"
                "`koksma plot --curve` draws them.",

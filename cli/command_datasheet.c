@@ -125,9 +125,9 @@ const cli_command cli_command_datasheet = {
         "with sizes that are numbers of samples, such as 16; each pixel and use then takes another file. --beside "
         "accepts these names, too. FILE is a single set of points.\n"
         "\n"
-        "The numbers of sets and images are fixed, so that equal sets give equal results: 16 sets of 16 to 4,096 "
-        "points and up\n"
-        "to 64 images of each sampler in each scene; with --quick 8 sets of up to 256 points and 8 images.\n",
+        "The numbers of sets and images are fixed, so that equal sets give equal results. There are 16 sets of each "
+        "size from 16 to 4,096 points, and up to 64 images of each sampler in each scene; with --quick 8 sets of up "
+        "to 256 points, and 8 images.\n",
     .examples = "koksma datasheet sobol:scramble=owen -o sheet.html --quick\n"
                 "koksma datasheet jittered -b random,pmj02 --scenes ball -o s.html --quick\n",
     .options = options,

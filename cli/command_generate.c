@@ -13,7 +13,7 @@
 #include "source.h"
 #include "warps.h"
 
-/* Generates all points in memory and writes them. If points->n is 0, the pattern decides how many points it has. */
+/* Generates all points in memory and writes them. If points->n is 0, the pattern determines the number of points. */
 static int generate(const cli_arguments *arguments, const koksma_spec *spec, const koksma_warp *warp, uint64_t seed,
                     const koksma_run *run, koksma_points *points)
 {

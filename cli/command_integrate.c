@@ -419,7 +419,8 @@ static int run(const cli_arguments *arguments)
                                           "patterns or files; 'koksma list integrands' names them");
     }
     if (arguments->n_operands == 1 && !cli_flag(arguments, "anova")) {
-        return cli_usage_error(arguments, "it takes patterns, -p PATTERN,.. -n N,.., or files beside the integrand");
+        return cli_usage_error(arguments,
+                               "after the integrand it takes files, or patterns with -p PATTERN,.. -n N,..");
     }
     if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) ||
         !cli_whole(arguments, "trials", 32, 1, MOST_TRIALS, &j.trials) || !cli_sources_check(arguments, 1, 1, 1) ||
@@ -441,7 +442,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     CLI_SOURCE_OPTIONS,
-    {'t', "trials", "T", "T sets of each random pattern, seeds S, S+1, .. (default: 32)"},
+    {'t', "trials", "T", "number of sets of each random pattern, with seeds S, S+1, .. (default: 32)"},
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {0, "anova", NULL, "print the share of each coordinate and pair of coordinates in the variance"},
     {0, "samples", "N", "with --anova: estimate shares by N points, even if a closed form is known"},

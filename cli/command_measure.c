@@ -250,14 +250,15 @@ static bool parse_options(measuring *j)
     }
     const size_t contestants = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1);
     if (j->paired && (j->trials < 2 || j->trials > MAX_PAIRED_TRIALS || contestants < 2)) {
-        cli_usage_error(j->arguments, "--paired: it takes --trials of 2 to %d, and two sources or warps or more",
+        cli_usage_error(j->arguments, "--paired: it takes --trials from 2 to %d, and at least two sources or warps",
                         MAX_PAIRED_TRIALS);
         return false;
     }
     return true;
 }
 
-/* Returns the measures that are evaluated without -m. With --warp these are the measures that apply to its domain. */
+/* Returns the measures that are evaluated without -m. With --warp they are the measures that apply to the domain of
+   the warp. */
 static const char *default_measures(const measuring *j)
 {
     static const char *const of_domains[] = {
@@ -325,7 +326,7 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those of its domain)"},
+    {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those for its domain)"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {'t', "trials", "T",
@@ -368,8 +369,8 @@ const cli_command cli_command_measure = {
         "powers of logarithms). The standard error of a slope comes from the trials. With one set it is replaced by "
         "residual_error, the scatter of the values about the fitted line.\n"
         "\n"
-        "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row that ran\n"
-        "out of time has proven bounds: lower and upper. Rows of trials, differences and slopes count how many of\n"
+        "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row whose time "
+        "ran out has proven bounds, lower and upper. Rows of trials, differences and slopes count how many of\n"
         "their values are exact. --time-limit has no effect on other measures and on extreme:grid.\n"
         "disk also stops after 2^28 point tests (lattices of hundreds of points, other sets of thousands); it then\n"
         "reports bounds and warns.\n",

@@ -30,8 +30,8 @@ typedef struct job {
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
 
-/* Writes the best set. A file is replaced as a whole, so that there is a complete set even if the program is killed
-   while it writes. */
+/* Writes the best set. A file is replaced as a whole, so that it always has a complete set, even if the program is
+   killed while it writes. */
 static koksma_status write_best(const job *j, const koksma_optimum *best)
 {
     char comment[KOKSMA_MAX_SPEC + 256];
@@ -243,7 +243,7 @@ static int run(const cli_arguments *arguments)
                                                 : "it takes one measure, such as star or l2-disk:r=0.25");
     }
     if (!cli_text(arguments, "output", NULL)) {
-        return cli_usage_error(arguments, "-o FILE, where the best set is kept, is missing");
+        return cli_usage_error(arguments, "-o FILE, the file for the best set, is missing");
     }
     koksma_status status = power ? KOKSMA_OK : koksma_measure_spec(arguments->operands[0], &measure);
     if (status) {
@@ -294,7 +294,8 @@ static const cli_option options[] = {
      "groups of coordinates that are measured separately (default: one group of all coordinates)"},
     {0, "weights", "W,..", "weights of the projections in the root mean square of their values (default: 1)"},
     {0, "steps", "K", "number of steps, each of a fixed amount of work; equal --seed and --steps give equal sets"},
-    {0, "time-limit", "SECONDS", "end after the step in which this time is up (default: 60; with --steps: no limit)"},
+    {0, "time-limit", "SECONDS",
+     "time limit in seconds; the search ends after the step that exceeds it (default: 60; with --steps: no limit)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
     {'o', "output", "FILE.txt|.csv|.npy", "the best set; the file is rewritten after each gain"},
     {0, "power", "step|gaussian|PATTERN|FILE",
@@ -302,7 +303,8 @@ static const cli_option options[] = {
     {0, "band", "B", "with --power: frequencies up to B sqrt(n) (default: 2)"},
     {0, "scene", "SCENE", "search for a set that renders this scene well as file:FILE with -n samples a pixel"},
     CLI_UNKNOWN_OPTION,
-    {0, "held-out", "SCENE,..", "with --scene: other scenes to test the set in (default: six of the library)"},
+    {0, "held-out", "SCENE,..",
+     "with --scene: other scenes in which the set is tested (default: six of the library)"},
     {0, "against", "PATTERN,..|all", "with --scene: patterns to compare the set with (default: 17)"},
     {0, "candidates", "N", "with --scene: number of candidate sets (default: 8)"},
     {0, "phases", "N", "with --scene: number of shifts of each candidate on the torus (default: 4)"},

@@ -89,7 +89,7 @@ static const cli_option options[] = {
     {0, "warp", "WARP", "points: draw points and cells mapped by WARP: see 'koksma list warps'"},
     {0, "local-discrepancy", NULL,
      "points: colour each position x of the square by the fraction of the points in the box [0, x) minus its area"},
-    {0, "white", "P", "power: the power that is drawn white (default: 2; random points have 1)"},
+    {0, "white", "P", "power: the power that is drawn as white (default: 2; random points have 1)"},
     {'m', "measure", "MEASURE", "convergence, compare: the measure to draw (default: l2-star)"},
     {0, "sizes", "N,..",
      "convergence, compare: draw these n, as in 16,64,256 (default: powers of 4 up to the n of the source)"},

@@ -39,7 +39,7 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
 {
     const char *list = cli_text(arguments, "patterns", "thesis");
     if (cli_text(arguments, "with", NULL) && !cli_text(arguments, "patterns", NULL)) {
-        return cli_usage_error(arguments, "--with takes --patterns, names of samplers that the command knows");
+        return cli_usage_error(arguments, "--with needs --patterns, with names of samplers that the command knows");
     }
     list = !strcmp(list, "thesis") ? thesis : !strcmp(list, "later") ? later : list;
     char item[KOKSMA_MAX_SPEC];
@@ -133,8 +133,8 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     }
 }
 
-/* Prints row i of a ranking. Only JSON rows repeat the values of the whole ranking; the advice on stderr has them for
-   readers. */
+/* Prints row i of a ranking. Only JSON rows repeat the values of the whole ranking; in text output the advice on
+   stderr has them. */
 static void put_row(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_row *table, size_t i,
                     const koksma_ranking *ranking, bool json)
 {
@@ -197,7 +197,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
         cli_rank_advise(options, table, &ranking);
     }
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
-        /* if no pattern was ranked in time, the advice says so */
+        /* the advice reports if no pattern was ranked in time */
         if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) {
             /* most reasons begin with the name of the pattern, which the message already has */
             const char *name = options->patterns[table[i].pattern], *reason = table[i].reason;
@@ -240,7 +240,8 @@ static int run(const cli_arguments *arguments)
         command = "python3 -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out}";
     }
     if (!command && cli_text(arguments, "reference", NULL)) {
-        return cli_usage_error(arguments, "--reference takes --with: Koksma's own references are jittered");
+        return cli_usage_error(
+            arguments, "--reference needs --with, because Koksma's own references always use the pattern jittered");
     }
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
@@ -332,8 +333,8 @@ const cli_command cli_command_rank = {
                 "[--reference PATTERN]] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
-        "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared\n"
-        "as they are used, including random shifts.\n"
+        "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared "
+        "with their modifiers, such as random shifts.\n"
         "\n"
         "The sequence of work depends on the command line, not on the machine: rounds of 8, 16, 32, ... trials\n"
         "until the best pattern is decided, and also the best pattern without bands; then such rounds at half and\n"
@@ -346,17 +347,19 @@ const cli_command cli_command_rank = {
         "\n"
         "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the\n"
         "first row. All intervals and decisions of a ranking hold together with 95 % probability, and include the\n"
-        "error of the reference image. A pattern whose first 8 trials exceed its part of the time limit is put\n"
-        "off until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
+        "error of the reference image. A pattern whose first 8 trials exceed its part of the time limit is postponed "
+        "until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
         "\n"
         "coherence: the peak of the error's power spectrum divided by its mean, over the first 8 trials.\n"
-        "'coherent' means that fewer than 0.5 % of noise reaches the value (koksma compare --help). A coherent "
+        "'coherent' means that white noise has such a value with a probability below 0.5 % (koksma compare --help). "
+        "A coherent "
         "error\n"
         "has bands or another pattern, which eyes notice more than noise of the same size. The advice therefore "
         "names the best pattern whose error is not coherent, and how much less error a coherent pattern leaves.\n"
         "\n"
-        "Where the 0.1 % of the pixels with the largest error carry half of it or more (top_share in --json), a\n"
-        "warning says that few pixels decide the order. 'robust' is the error without them. Each image is compared "
+        "If the 0.1 % of the pixels with the largest error have at least half of the total error (top_share in "
+        "--json), a warning tells that few pixels decide the order. 'robust' is the error without them. Each image "
+        "is compared "
         "17 times, with each part of the reference image. At 160 x 120 pixels this takes 0.7 s for hdr-flip and a "
         "millisecond for mae.\n"
         "\n"

@@ -257,7 +257,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'p', "pattern", "[USE[+USE]=]PATTERN...",
-     "pattern of all uses, of one, or of a group, also SPEC@N; may be repeated (default: n-rooks)"},
+     "pattern (or SPEC@N) of all uses, of one use, or of a group; may be repeated (default: n-rooks)"},
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
@@ -267,7 +267,7 @@ static const cli_option options[] = {
     {0, "environment", "FILE", "light from an image in latitude and longitude, times --sky"},
     {0, "aov", "LIST",
      "further layers: direct, indirect, bounce:N, id, half; in the .exr, or in files such as IMAGE.direct.png"},
-    {'o', "output", "FILE", "the image, {image-formats}; an .exr has all layers"},
+    {'o', "output", "FILE", "the image file, {image-formats}; an .exr has all layers"},
     CLI_UNKNOWN_OPTION,
     CLI_SAMPLING_OPTIONS,
     CLI_ADAPTIVE_OPTIONS,
@@ -285,7 +285,8 @@ const cli_command cli_command_render = {
         "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md), a mesh file (.obj, .ply, .off,\n"
         ".gltf, .glb), or a scene of pbrt-v4 (.pbrt) or Mitsuba 3 (.xml).\n"
         "\n"
-        "A use is what sample dimensions are spent on, such as the lens; see 'koksma list uses'. Each use has its\n"
+        "A use is a purpose of sample dimensions, such as the position on the lens; see 'koksma list uses'. Each use "
+        "has its\n"
         "own point set in every pixel. --pairing combines them: 'shuffled' by random permutations, 'aligned' in the\n"
         "order of the pattern, 'native' as one set with all dimensions. Uses joined by '+' (pixel+time=scan-time)\n"
         "share the dimensions of one set. --scope image spreads one set of SPP x pixels points over the whole "

@@ -15,7 +15,7 @@
 
 enum { MAX_PLANS = 16 };
 
-/* Prints table `id` of the plan, with our numbers beside the published numbers. */
+/* Prints table `id` of the plan: our numbers and the published numbers. */
 static koksma_status put_table(koksma_study *study, const char *id, cli_rows *rows)
 {
     koksma_study_row row;

@@ -269,7 +269,7 @@ static int export_rows(const cli_arguments *arguments)
     if (!formats[format] && *name) {
         return cli_usage_error(arguments,
                                given ? "--format %s: it takes csv, json, npy or sha256"
-                                     : "%s: its name ends in .csv, .json, .npy or .sha256",
+                                     : "%s: the name of an export must end in .csv, .json, .npy or .sha256",
                                given ? given : path);
     }
     format = formats[format] ? format : 0;
@@ -452,8 +452,8 @@ static int images(const cli_arguments *arguments)
 
 /* ---- The command --------------------------------------------------------------------------------------- */
 
-/* Returns false, after an error, if an option is given that the verb does not take. own: the names of the verb's own
-   options, with blanks between them. */
+/* Returns false, after an error, if an option is given that the verb does not accept. own: the names of the options
+   of this verb, separated by blanks. */
 static bool takes_options(const cli_arguments *arguments, const char *own)
 {
     static const char common[] = " threads progress quiet allow-exec exec-seconds unknown help ";
@@ -529,7 +529,8 @@ const cli_command cli_command_study = {
     .details =
         "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
         "the plan's file.\n"
-        "run: runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
+        "run: runs all jobs; each result is written to DIR/results.sqlite when it is finished. An interrupted run "
+        "continues when it is\n"
         "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
         "quick: writes DIR/plan.json from the options and runs it. Numbers of points that a pattern does not accept "
         "are left out and listed. A pattern file:PATH is a file of points.\n"

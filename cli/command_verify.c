@@ -116,7 +116,7 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
     if (status) {
         return cli_fail(arguments, status);
     }
-    /* the difference must exceed the rounding error of the coordinates in the known sets */
+    /* a record must differ by more than the rounding errors of the coordinates in the known sets */
     *is_record = !here || value.value < here->value - 1e-11;
     cli_row_text(rows, "source", source);
     cli_row_whole(rows, "n", points->n);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma measure --at X,Y..`: the local discrepancy at a corner, which is the share of the points in the box from
-   the origin to that corner, less the volume of the box. */
+/* `koksma measure --at X,Y..`: the local discrepancy at a corner, which is the fraction of the points in the box from
+   the origin to that corner, minus the volume of the box. */
 #include "local.h"
 
 #include <stdlib.h>

@@ -56,7 +56,7 @@ static void put_head(measuring *j, const char *source, size_t n, int dim, const 
     }
 }
 
-/* Values of the last columns, NaN where a row has none: the number of trials with exact values, the 95 % interval of
+/* Values of the last columns; NaN if a row has no value: the number of trials with exact values, the 95 % interval of
    the mean, the exponents that theory gives for the pattern and for the best points, and the residual error of a
    slope fitted to one set. */
 typedef struct tail {
@@ -127,8 +127,7 @@ bool measuring_check_prefixes(const measuring *j)
     return true;
 }
 
-/* Returns the number of exact values, or NaN for a measure that samples, because its estimates are neither exact nor
-   bounds. */
+/* Returns the number of exact values, or NaN for a sampled measure, whose estimates are neither exact nor bounds. */
 static double n_exact_of(const measuring *j, size_t measure, size_t count)
 {
     return j->measures[measure].measure->answer == KOKSMA_ANSWER_SAMPLED ? (double)NAN : (double)count;
@@ -202,7 +201,7 @@ static int choose_prefixes(measuring *j, size_t n)
     }
     for (size_t i = 0; i < j->n_prefixes; i++) {
         if (j->prefixes[i] > n) {
-            return cli_usage_error(j->arguments, "%s: %zu points are more than the %zu of the set",
+            return cli_usage_error(j->arguments, "%s: a prefix of %zu points is longer than the set, which has %zu",
                                    j->own_sets ? "sizes" : "prefixes", j->prefixes[i], n);
         }
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma optimise --scene SCENE -n SPP`: searches for a point set that makes the error of one scene's image small
- * when every pixel uses it as file:FILE.
+ * `koksma optimise --scene SCENE -n SPP`: searches for a point set that gives the image of one scene a small error if
+ * every pixel uses it as file:FILE.
  *
  * 1. Weights. In every pixel the radiance is sampled once at 8 x 8 positions and analysed as a two-way layout. This
  * gives the variance along x, along y, and of the interaction of both (which includes the noise of lights and
@@ -232,7 +232,7 @@ static koksma_status find_shares(scene_job *j)
 
 /* ---- Candidates -------------------------------------------------------------------------------------------- */
 
-/* The mean square of each measure for n random points, times n: on the line and in the plane. */
+/* For each measure n times the mean square for n random points, on the line and in the plane. */
 static const struct {
     const char *measure;
     double line, plane;
@@ -316,7 +316,7 @@ static koksma_status make_candidates(scene_job *j)
     return status;
 }
 
-/* Ranks the candidates. Counts those that are eliminated, and chooses the one with the least error. */
+/* Ranks the candidates. Counts the eliminated candidates, and chooses the one with the least error. */
 static koksma_status choose(scene_job *j)
 {
     char *names = calloc(j->n, NAME);
@@ -346,8 +346,8 @@ static koksma_status choose(scene_job *j)
 
 /* ---- Evaluation -------------------------------------------------------------------------------------------- */
 
-/* Compares the chosen set with the listed patterns in one scene. In a ranking, 1 + behind is the quotient of a
-   pattern's error and that of row 0. */
+/* Compares the chosen set with the listed patterns in one scene. In a ranking, 1 + behind is the error of a pattern
+   divided by that of row 0. */
 static koksma_status judge(scene_job *j, verdict *v)
 {
     const char *patterns[MOST_PATTERNS + 1];

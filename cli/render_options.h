@@ -37,8 +37,8 @@ bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_inte
 /* Reads all options of CLI_SAMPLING_OPTIONS. Returns false after an error that names the option. */
 bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options *options);
 
-/* Reads --spp and the patterns. lines: texts as koksma_render_patterns takes them, one per line, also with @SPP.
-   Returns false after an error and sets *code to the exit code. */
+/* Reads --spp and the patterns. lines: one text per line in the form that koksma_render_patterns accepts, or with
+   @SPP at the end. Returns false after an error and sets *code to the exit code. */
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code);
 
 /* Warns on stderr about each use that was given a pattern although rendering this scene needs no samples for it. */

@@ -199,7 +199,7 @@ static int add_operand(cli_arguments *arguments, const char *text)
     return CLI_YES;
 }
 
-/* The values of -n and -d, and the operands that -p all leaves out. */
+/* The values of -n and -d, and a list of the operands that -p all leaves out. */
 typedef struct sizes {
     const char *list; /* the list of -n, or NULL */
     uint64_t dim;
@@ -254,7 +254,7 @@ int cli_sources_expand(cli_arguments *arguments)
         code = strcmp(last, "-") && access(last, F_OK) && !cli_source_is_pattern(last) &&
                        koksma_pattern_spec(last, &unknown)
                    ? cli_fail(arguments, KOKSMA_ARGUMENT)
-                   : cli_usage_error(arguments, "-n %s: there is no pattern without @N to apply it to", of.list);
+                   : cli_usage_error(arguments, "-n %s: it needs a pattern without @N", of.list);
     }
     if (!code && *of.left_out && !cli_flag(arguments, "quiet")) {
         cli_say(arguments->command->name, "-p all leaves out patterns without such a set: %s", of.left_out);

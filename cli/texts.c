@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Puts the names of table members into help texts. A synopsis, an option's argument or help, or the details of a
- * command may hold a placeholder in braces. cli_expand replaces it by names, so that a new member of a table appears
- * in help, completion and manual pages:
+ * command may contain a placeholder in braces. cli_expand replaces it by names, so that a new member of a table
+ * appears in help, completion and manual pages:
  *
  *     {curve}, {chart}                     power|rings|...: the curves that are printed, and those that are drawn
  *     {curve:OPTION}, {chart:OPTION}       power, rings, ...: those that take an option

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Long work: threads, the progress line on stderr, and Ctrl-C, which stops the work between blocks and keeps what was
- * done.
+ * Long work: threads, the progress line on stderr, and Ctrl-C, which stops the work between two blocks; finished work
+ * is kept.
  */
 #include <math.h>
 #include <signal.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * compare: the usual figure of papers on sampling. The figure shows the points of each source, below them their mean
+ * compare: a figure as in many papers on sampling. The figure shows the points of each source, below them their mean
  * power spectra, and below these two charts with all sources: the radial means of the spectra, and the convergence of
  * a measure.
  */

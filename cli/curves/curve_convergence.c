@@ -2,7 +2,8 @@
 /*
  * convergence: a measure's mean over trials against n on logarithmic axes. A line is fitted by least squares to the
  * logarithms; the legend shows its slope and standard error. A dashed line has the slope that theory gives for the
- * pattern, or else the best slope that any points can have. For a file, the set of n points is its first n points.
+ * pattern, or else the best slope that any points can have. The set of n points of a file consists of its first n
+ * points.
  */
 #include <math.h>
 #include <stdio.h>

@@ -15,8 +15,8 @@ typedef struct job {
     bool ranges;
 } job;
 
-/* Generates the part of the range that begins at j->first + done, or the whole set. With several pieces only the
-   writer reports progress. */
+/* Generates the part of the range that begins at j->first + done, or the whole set. If there are several pieces, only
+   the writer reports progress. */
 static koksma_status make(const job *j, uint64_t done, const koksma_run *run, koksma_points *piece)
 {
     const koksma_run quiet = {.threads = run ? run->threads : 0};
@@ -53,8 +53,8 @@ koksma_status koksma_generate_write(const koksma_spec *spec, uint64_t seed, uint
     const job j = {spec, seed, first, n, koksma_has_ranges(spec)};
     KOKSMA__FAIL_IF(dim < 1 || dim > KOKSMA_MAX_DIM, KOKSMA_DIM, "dim = %d: the number of dimensions is 1 to %d", dim,
                     KOKSMA_MAX_DIM);
-    KOKSMA__FAIL_IF(!spec->pattern || n == 0, KOKSMA_ARGUMENT, "%s: it takes the spec of a pattern, and n from 1",
-                    __func__);
+    KOKSMA__FAIL_IF(!spec->pattern || n == 0, KOKSMA_ARGUMENT,
+                    "%s: it takes the spec of a pattern, and n of 1 or more", __func__);
     KOKSMA__FAIL_IF(n > KOKSMA_MAX_INDEX + 1 || first > KOKSMA_MAX_INDEX + 1 - n, KOKSMA_N,
                     "%s: n = %llu from first = %llu ends beyond the last point, which has number %llu",
                     spec->pattern->name, (unsigned long long)n, (unsigned long long)first,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Convergence rates of discrepancies, from the claims of a pattern (rates that no points can exceed: lower_bounds.c).
- * With the exponent r, a discrepancy falls as n^-r:
+ * Convergence rates of discrepancies that follow from the claims of a pattern. (The rates that no points can exceed
+ * are in lower_bounds.c.) With the exponent r, a discrepancy falls as n^-r:
  *   independent points                                  1/2: the sum of n independent terms
  *   one uniform point in each cell of a cubic grid 1/2 + 1/(2 dim): only cells that a region's boundary cuts have
  *                                                       any variance, n^(1 - 1/dim) of them (Beck and Chen 1987)

@@ -11,10 +11,10 @@
  * containers often have equal numbers. All steps use the folder's descriptor, which refers to the same folder even
  * when a folder above it is renamed.
  *
- * The writer holds a lock (flock) on its temporary file for as long as it lives. A file with a temporary name that
- * belongs to the user, has no other hard link and can be locked was left by a process that died; the next writer into
- * the folder removes it. If another process removed the new file before the writer locked it, the writer finds that
- * the file has no link and makes another one. On a file system without locks, left-over files are not removed.
+ * The writer locks (flock) its temporary file until it ends. A file with a temporary name that belongs to the user,
+ * has no other hard link and can be locked was left by a process that died; the next writer into the folder removes
+ * it. If another process removed the new file before the writer locked it, the writer finds that the file has no link
+ * and makes another one. On a file system without locks, left-over files are not removed.
  */
 #define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH */
 #include "core/atomic_file.h"
@@ -111,7 +111,7 @@ static void remove_leftovers(int folder)
 
 /* ---- Opening --------------------------------------------------------------------------------------------- */
 
-/* Opens a folder; one that may be written but not read is opened by O_PATH. */
+/* Opens a folder, with O_PATH if the folder may be written but not read. */
 static int open_folder(int at, const char *path, int flags)
 {
     const int folder = openat(at, path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags);
@@ -189,8 +189,8 @@ static char *new_target(const char *path)
     return target;
 }
 
-/* Opens a target that is not a plain file, such as a device or pipe: renaming a file over it would replace it. False:
-   the target is a plain file, or does not exist. */
+/* Opens a target that is not a plain file, such as a device or pipe: renaming a file over it would replace it.
+   Returns false if the target is a plain file or does not exist. */
 static bool open_special(const char *path, output *o)
 {
     struct stat info;
@@ -328,7 +328,7 @@ void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA_
 
 /* ---- Closing --------------------------------------------------------------------------------------------- */
 
-/* Syncs a folder. A file system that cannot sync folders, or a folder that may not be read, is no error. */
+/* Syncs a folder. It is no error if the file system cannot sync folders, or if the folder may not be read. */
 static bool sync_folder(int folder)
 {
     return !fsync(folder) || errno == EINVAL || errno == EBADF || errno == ENOTSUP;
@@ -390,7 +390,7 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     if (o->folder >= 0 && !placed) {
         unlinkat(o->folder, o->temporary, 0);
     }
-    /* a plain file needs no check of close() after fsync */
+    /* after a successful fsync, close() of a plain file cannot lose data */
     if (o->folder < 0 && close(o->descriptor) && !o->reason) {
         o->reason = errno;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Calls strtod and vsnprintf in the locale "C", because the host program may have chosen a decimal comma. uselocale
- * changes the locale only for this thread. The locale object is made once and kept until the process ends.
+ * changes the locale only for this thread. The locale object is created once and exists until the process ends.
  */
 #include "core/c_locale.h"
 

@@ -49,7 +49,7 @@ enum { OUT, ERR, KEEPER, N_ENDS, STEP_MS = 20, CHUNK = 1 << 16, SHOWN = 200, MOS
    program. */
 typedef struct outcome {
     int error;  /* 0: the program was started; otherwise errno of the failed start */
-    int status; /* the exit status as of waitpid */
+    int status; /* the exit status that waitpid returned */
 } outcome;
 
 /* ---- The program and its keeper: these functions make only calls that are safe after fork ----------------- */
@@ -99,7 +99,7 @@ static void close_others(const int ends[N_ENDS])
     }
 }
 
-/* Kills this process's children, as /proc lists them. */
+/* Kills all children of this process, which /proc lists. */
 static void kill_children(void)
 {
     char text[4096];
@@ -124,8 +124,8 @@ static void on_child(int number)
     (void)number; /* an empty handler: the signal only has to end ppoll */
 }
 
-/* Waits until the program ends or the caller shuts its end of the socket. The program is not reaped yet, so that no
-   other process can get its number. */
+/* Waits until the program ends or the caller shuts its end of the socket. It does not reap the program yet, so that
+   no other process can get its number. */
 static void await(pid_t program, int socket)
 {
     const struct sigaction action = {.sa_handler = on_child};
@@ -183,7 +183,7 @@ typedef struct conversation {
     char line[SHOWN], last[SHOWN]; /* the current line of standard error, and its last line that was not empty */
     size_t length;
     outcome outcome;
-    bool heard;           /* an outcome has come from the keeper or the program */
+    bool heard;           /* true: the keeper or the program has sent an outcome */
     koksma_status status; /* why the program is being stopped */
 } conversation;
 

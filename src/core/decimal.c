@@ -55,7 +55,7 @@ bool koksma__decimal_read(const char *text, char **end, double *out)
         const unsigned digit = (unsigned)*s - '0';
         if (digit <= 9) {
             first = first || !digit ? first : s;
-            w = 10 * w + digit; /* w wraps around for more digits than fit; such a number is left to libc below */
+            w = 10 * w + digit; /* if there are too many digits, w wraps around; libc reads such a number below */
         } else if (*s == '.' && !point) {
             point = s;
         } else {

@@ -24,12 +24,12 @@ void koksma__fourier_back(const koksma__fourier *f, size_t n, double *re, double
 
 typedef struct koksma__dft {
     size_t length, padded; /* padded: the length of the convolution; 0: the sums are computed by the definition */
-    double *re, *im;       /* exp(-i pi j^2 / length), or exp(-2 pi i j / length) */
+    double *re, *im;       /* table of exp(-i pi j^2 / length) for convolutions, or of exp(-2 pi i j / length) */
     double *filter_re, *filter_im;
 } koksma__dft;
 
 /* Returns the power of two up to which f must have tables for `length`, or 0 if no tables are needed. The scratch
-   arrays below have as many numbers. */
+   arrays of the functions below have this number of elements. */
 KOKSMA__LAB size_t koksma__dft_padded(size_t length);
 
 /* Plans transforms of `length` numbers by the tables f; koksma__dft_fini releases them. Errors: MEMORY. */

@@ -77,8 +77,8 @@ static uint64_t digits_in_base(double x, double scale)
     return floor + ((double)(floor + 1) / scale <= x) - ((double)floor / scale > x);
 }
 
-/* Returns the image of a digit under the permutation at a node of the tree of digits: Fisher-Yates with one call of
-   the generator for each position. */
+/* Returns the image of a digit under the permutation at a node of the tree of digits: a Fisher-Yates shuffle with one
+   call of the generator for each position. */
 static uint32_t permuted(uint64_t seed, uint32_t lane, uint64_t node, uint32_t base, uint32_t digit)
 {
     uint32_t order[MOST_BASE];

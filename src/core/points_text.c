@@ -110,8 +110,8 @@ static koksma_status read_promise(reader *r, const char *line, const char *forma
         if (promise) {
             *promise = strtoull(digits, NULL, 10);
             KOKSMA__FAIL_IF(*promise > KOKSMA_MAX_COORDINATES, KOKSMA_MALFORMED,
-                            "%s: line %zu: claims %s = %llu, more than the %zu that fit", r->name, r->line_number,
-                            key, *promise, KOKSMA_MAX_COORDINATES);
+                            "%s: line %zu: claims %s = %llu, but at most %zu fit into one set", r->name,
+                            r->line_number, key, *promise, KOKSMA_MAX_COORDINATES);
         }
     }
     return KOKSMA_OK;
@@ -252,7 +252,7 @@ static koksma_status take_line(reader *r)
         return status;
     }
     if (r->in_preamble) {
-        return malformed(r, "neither a key with a number nor the line 'points' that ends them");
+        return malformed(r, "the line is neither a key with a number nor the line 'points'");
     }
     if (r->points->dim == 0 && !r->header_seen && take_header(r, s)) {
         return KOKSMA_OK;

@@ -45,8 +45,8 @@ static inline koksma__words koksma__random(uint64_t seed, uint32_t purpose, uint
     return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
 }
 
-/* 128 random bits by 7 rounds, the fewest that pass BigCrush (Salmon et al. 2011, table 2). Used in the
-   renderer, which draws more random numbers than any other part of the library. */
+/* Returns 128 random bits by 7 rounds, the smallest number of rounds that passes BigCrush (Salmon et al. 2011, table
+   2). Used in the renderer, which draws more random numbers than any other part of the library. */
 static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane)
 {
     const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};
@@ -61,7 +61,7 @@ static inline double koksma__unit(uint32_t high, uint32_t low)
     return (double)(((uint64_t)high << 21) | (low >> 11)) * 0x1p-53;
 }
 
-/* Two doubles in [0,1): the pair that the kernel `uniform` gives at `index`. */
+/* Computes two doubles in [0,1): the pair that the kernel `uniform` gives at `index`. */
 static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane, double pair[2])
 {
     const koksma__words r = koksma__random(seed, purpose, index, lane);

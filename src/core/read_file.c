@@ -47,7 +47,7 @@ static koksma_status fail_read(const char *name, int reason)
     return koksma__fail(exhausted ? KOKSMA_SYSTEM : KOKSMA_MISSING, "%s: can't be read: %s", name, strerror(reason));
 }
 
-/* Fails if the path is not a file that may be read, or the file is too long. */
+/* Fails if the path is not a readable file, or if the file is too long. */
 static koksma_status check_file(const char *path, const struct stat *info, koksma__file_kind kind, koksma__named by,
                                 bool terminal)
 {
@@ -58,11 +58,11 @@ static koksma_status check_file(const char *path, const struct stat *info, koksm
                    : koksma__fail(KOKSMA_MISSING, "%s: can't be read: it is a device", path);
     }
     if (!S_ISREG(info->st_mode)) {
-        return by == KOKSMA__BY_USER ? KOKSMA_OK
-                                     : koksma__fail(KOKSMA_MISSING,
-                                                    "%s: can't be read: it is a pipe or socket, and only plain files "
-                                                    "are read here",
-                                                    path);
+        return by == KOKSMA__BY_USER
+                   ? KOKSMA_OK
+                   : koksma__fail(KOKSMA_MISSING,
+                                  "%s: can't be read: it is a pipe or socket, but only plain files are accepted here",
+                                  path);
     }
     return (uint64_t)info->st_size > koksma__file_most(kind) ? koksma__file_too_long(path, kind) : KOKSMA_OK;
 }

@@ -27,7 +27,8 @@ static koksma_status parse_choice(const char *member, const koksma_param *param,
     return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%s: it takes %s", member, param->name, text, words);
 }
 
-/* Checks a value's range. A modifier's value 0 means that the modifier is not applied, and may be below its range. */
+/* Checks a value's range. The value 0 of a modifier, which may be below its range, means that the modifier is not
+   applied. */
 static koksma_status check_range(const char *member, const koksma_param *param, double value)
 {
     if (param->whole && value != floor(value)) {

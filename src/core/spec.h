@@ -23,8 +23,7 @@ koksma_status koksma__dim_check(const char *member, int dim, int min_dim, int ma
 /* Appends ":key=value,…" with the parameters that differ from their defaults. */
 KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
 
-/* Splits a spec: the name before the colon, of up to 63 letters, and the start of the parameters. Errors:
-   ARGUMENT. */
+/* Splits a spec into the name before the colon, which has up to 63 letters, and the parameters. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
 
 /* Makes the arguments for the functions of a pattern or measure from its spec. */

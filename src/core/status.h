@@ -6,9 +6,8 @@
 
 #include "core/visibility.h"
 
-/* Keeps the text for koksma_error_text() and returns status, so that a failing function ends with
-   `return koksma__fail(KOKSMA_N, "jittered: …", …);`. koksma_text_escape() makes
-   the text one line of UTF-8. */
+/* Stores the text for koksma_error_text() and returns status, so that a failing function ends with `return
+   koksma__fail(KOKSMA_N, "jittered: …", …);`. koksma_text_escape() makes the text one line of UTF-8. */
 KOKSMA__LAB koksma_status koksma__fail(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Returns the number of bytes of the UTF-8 character (RFC 3629) at the start of the text; 0 if the bytes are not
@@ -36,8 +35,8 @@ KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name
 
 /* Macros that end a function early with a status. KOKSMA__TRY(call) returns the status of a call that failed;
    KOKSMA__FAIL_IF(condition, status, format, ...) returns koksma__fail(status, format, ...);
-   KOKSMA__REQUIRE_MEMORY(pointer, bytes) fails where malloc gave NULL. These macros free nothing: the function must
-   not hold memory when it uses them. */
+   KOKSMA__REQUIRE_MEMORY(pointer, bytes) fails if the pointer from malloc is NULL. These macros free nothing: the
+   function must not hold memory when it uses them. */
 #define KOKSMA__TRY(call)                                                                                            \
     do {                                                                                                             \
         const koksma_status failed_ = (call);                                                                        \

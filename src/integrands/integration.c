@@ -162,7 +162,8 @@ static bool estimates_are_equal(const koksma_integration_options *o, const doubl
     return equal;
 }
 
-/* Returns whether the pattern gives the same set for two seeds; not every pattern for which this holds claims it. */
+/* Returns whether the pattern gives the same set for two seeds; some patterns have this property without claiming it.
+   */
 static koksma_status has_one_set(const job *j, bool *one)
 {
     koksma_points sets[2] = {{0}, {0}};

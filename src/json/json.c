@@ -151,7 +151,8 @@ koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status 
 static koksma_status read_text(koksma__json *d, json_error_t *error)
 {
     const size_t room = 4 * d->size + 4096;
-    char *volatile there = malloc(room); /* volatile, because a compiler may remove memory that is only freed */
+    char *volatile there = malloc(room); /* volatile, because otherwise the compiler may remove an allocation that is
+                                            only freed */
     KOKSMA__REQUIRE_MEMORY(there, room);
     memset(there, 1, room); /* write to the memory, because malloc may succeed although there is not enough */
     free(there);
@@ -159,8 +160,8 @@ static koksma_status read_text(koksma__json *d, json_error_t *error)
     return KOKSMA_OK;
 }
 
-/* Parses the document, a second time after an error, because jansson may call a text malformed when memory runs
-   out. */
+/* Parses the document. After an error it parses a second time, because jansson may report a malformed text when
+   memory runs out. */
 static koksma_status load(koksma__json *d)
 {
     json_error_t error;

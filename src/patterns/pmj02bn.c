@@ -152,7 +152,7 @@ static void choose_level(uint32_t *const points[2], int level, float *room, unsi
 
 typedef struct masks {
     int levels;
-    uint32_t *points[2]; /* x and y of 4^levels points, scrambled so far */
+    uint32_t *points[2]; /* x and y of 4^levels points, with all flips chosen so far */
     uint32_t *of[2];     /* the mask of each stratum of width 2^-levels */
     float *room;
     unsigned char *flips[2];

@@ -37,7 +37,8 @@ typedef struct search {
 } search;
 
 /* Returns the fraction of the upper bound on the distance that dart throwing reached in every test with 3 to 300
-   points. With few points in many dimensions the bound is far above what any set can reach, above all in the cube. */
+   points. With few points in many dimensions the bound is far above what any set can reach, especially in the cube.
+   */
 static double reached(int dim, bool torus)
 {
     static const double cube[] = {0.7, 0.7, 0.4, 0.3, 0.3, 0.2, 0.2, 0.2},

@@ -11,8 +11,8 @@
  * with rho = 0 these are the values of the best disks about c itself. Cells that may contain the centre of a better
  * disk than the best so far are cut in four, level by level, so that the result is the same on any number of threads.
  * The points on the rim of a disk of radius s about a centre in the cell are between s - rho and s + rho away from c.
- * For a better disk they are near a d_i whose bound exceeds the best value. When these points are few, the disks
- * through all pairs of them are tried, and the cell is finished.
+ * If the disk is better than the best so far, these distances are close to a d_i whose bound exceeds the best value.
+ * When these points are few, the disks through all pairs of them are tried, and the cell is finished.
  */
 #include <math.h>
 #include <stdlib.h>

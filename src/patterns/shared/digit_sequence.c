@@ -107,8 +107,8 @@ koksma_status koksma__digit_sequence(const char *name, uint32_t base, int most_d
     for (; j.whole < end && j.digits < most_digits; j.digits++) {
         j.whole *= base;
     }
-    KOKSMA__FAIL_IF(j.whole < end, KOKSMA_N, "%s: point %.0f: in base %u all points have numbers below %.0f",
-                    name, end - 1, base, j.whole);
+    KOKSMA__FAIL_IF(j.whole < end, KOKSMA_N, "%s: point %.0f: in base %u all points have numbers below %.0f", name,
+                    end - 1, base, j.whole);
     uint32_t few[FEW];
     const size_t entries = (size_t)out->dim * (size_t)(j.digits * j.digits);
     j.matrices = entries <= FEW ? few : malloc(entries * sizeof *j.matrices);
