@@ -33,7 +33,7 @@ static double at(const double *x, int dim, void *context)
     return product;
 }
 
-/* Opens the integrand again; the component owns the copy. */
+/* Opens a second copy of the integrand, which the component owns. */
 static koksma_status open_whole(const koksma_integral *integral, koksma_integral **out)
 {
     koksma_integral_facts facts;

@@ -12,7 +12,8 @@
  * u and a are random in (0,1), from the seed; a is then scaled such that its sum is the difficulty. The default
  * difficulties are those of Barthelmann, Novak and Ritter (2000); Genz's own program has h / d^e instead.
  *
- * All but two are products, with closed forms of each factor. For the oscillatory family, with s(t) = sin(t) / t,
+ * Four of the families are products, with closed forms of each factor. For the oscillatory family, with s(t) = sin(t)
+ * / t,
  *
  *     E(f | x_v)          r cos(2 pi u_1 + sum_v a x + theta),
  *                         r = prod_{i not in v} s(a_i / 2), theta = sum_{not v} a / 2

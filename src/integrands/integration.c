@@ -140,7 +140,7 @@ typedef struct job {
     double *estimates;
 } job;
 
-/* Runs job `block`; the largest sets come first. */
+/* Runs job number `block`; the jobs are in order of decreasing size of the sets. */
 static koksma_status integrate_set(void *context, size_t block)
 {
     const job *j = context;

@@ -106,7 +106,7 @@ static double turned_checkerboard(const koksma_integral *f, const double *x)
     return (int)(floor(4 * (x[0] + x[1])) + floor(4 * (x[0] - x[1])) + 8) % 2;
 }
 
-/* The factors g and h of the products g(x) h(y). */
+/* The functions below are the factors g and h of the products g(x) h(y). */
 static double identity(double x)
 {
     return x;

@@ -93,7 +93,7 @@ LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, four *q)
     lanes8_splat(koksma__place(half, half), &q->half);
 }
 
-/* Updates `least` with eight places; the first call for a square sets it. */
+/* Updates `least` with eight places; the first call for a square initialises it. */
 LANES8_INLINE void look_at(const lanes8_pairs *places, bool first, four *q)
 {
     for (int k = 0; k < 4; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sums of distances, and counts of points on one side of lines, in vector lanes. */
+/* Computes sums of distances, and counts points on one side of lines, with one point or line in each vector lane. */
 #include <math.h>
 
 #include "kernels/kernels.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Nested scrambling in a small odd base, several strata at once. The digits that have not been drawn yet are stored
-   as the 4-bit parts of one word. Whole numbers below 2^53 are stored in doubles; those that are rounded down are
-   below 2^52. */
+/* Does nested scrambling in a small odd base, for several strata at once. The digits that have not been drawn yet are
+   stored as the 4-bit parts of one word. Whole numbers below 2^53 are stored in doubles; those that are rounded down
+   are below 2^52. */
 #include <string.h>
 
 #include "core/random.h"

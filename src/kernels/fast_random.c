@@ -8,8 +8,8 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-/* CHAINS independent vectors are computed together to hide the latency of multiplication, about as many as fit into
-   the registers; the last few numbers use fewer. */
+/* CHAINS independent vectors are computed together to hide the latency of multiplication. About this number of
+   vectors fits into the registers. The last few numbers use fewer vectors. */
 enum {
     CHAINS = LANES64 == 8   ? 4
              : LANES64 == 4 ? 3
@@ -19,8 +19,8 @@ enum {
     DRAW_ROUNDS = 5
 };
 
-/* The four words of LANES counters. Lanes are in the order of lanes64_count_pairs unless a comment names another;
-   their upper halves have no meaning. */
+/* The four words of LANES counters. Lanes are in the order of lanes64_count_pairs unless a comment names another
+   order. Their upper halves are meaningless. */
 typedef struct block {
     lanes64_u w[4][CHAINS];
 } block;
@@ -64,7 +64,7 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
     static inline __attribute__((always_inline)) /* inlined, so that there is one copy for each number of
                                                                chains */
 
-/* begin does the first two rounds, go_on one of the others. */
+/* The function begin does the first two rounds, and go_on does one of the others. */
 INLINE block begin(const stream *s, lanes64_u order, uint64_t first, int chains)
 {
     const lanes64 m0 = (lanes64)lanes64_splat(multiplier[0]), m1 = (lanes64)lanes64_splat(multiplier[1]);

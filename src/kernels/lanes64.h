@@ -117,7 +117,7 @@ static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
 }
 
 /* For lanes loaded from an array of words: the words of even index (for lanes64_odd_words: of odd index), in the
-   lower halves; the upper halves have no meaning. */
+   lower halves; the upper halves are meaningless. */
 static inline lanes64_u lanes64_even_words(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -137,7 +137,7 @@ static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
 }
 
 /* For lanes loaded from an array of words: the words of even index (for lanes64_odd_upper: of odd index), in the
-   upper halves; the lower halves have no meaning. */
+   upper halves; the lower halves are meaningless. */
 static inline lanes64_u lanes64_even_upper(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__

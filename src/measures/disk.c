@@ -9,9 +9,9 @@
  * disk with three points on its rim, or of radius r with one or two points on its rim. The centres of all disks with
  * two given points on their rim lie on the bisector of these points; every other point is inside the disk while the
  * centre is on one half-line of the bisector.
- * Source: derived; the critical disks are those of smallest enclosing circles (Megiddo 1983) and of an arrangement of
- * circles of equal radius.
- * Known exactly: one point 1; the m x m lattice with r < 1/(2m): 1/n.
+ * Source: derived; the critical disks are the same as for smallest enclosing circles (Megiddo 1983) and for an
+ * arrangement of circles of equal radius.
+ * Known exactly: one point has the value 1; the m x m lattice with r < 1/(2m) has 1/n.
  * Limits: a point counts as on the rim if its squared distance from the centre is within 4e-15 of the squared radius,
  * so that rounding does not separate cocircular points; the error of the value is up to 1e-14. Up to 64 points all
  * pairs are tried. For more points a branch and bound search (shared/disk_cover.c) stops at the time limit or,
@@ -73,8 +73,8 @@ static int compare_points(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Fills the set with the distinct points and their multiplicities. The coordinate 1 becomes 0, and so do coordinates
-   up to 2^-400, which are too small for squares of differences. */
+/* Fills the struct with the distinct points and their multiplicities. The coordinate 1 becomes 0, and so do
+   coordinates up to 2^-400, which are too small for squares of differences. */
 static koksma_status fill_set(koksma__disk_set *set, const koksma_points *points)
 {
     const size_t n = points->n;

@@ -11,16 +11,16 @@
  * or on a side of the square. An excess is reached by a closed half-plane, a deficit by an open one.
  * Source: Mitchell 1992, section 5; Dobkin and Eppstein 1993; Dobkin, Eppstein and Mitchell 1996. Here a line turns
  * about one point (the pivot) past all others in order of angle, for each point in turn: O(n^2 log n).
- * Known exactly:
- * one point (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m).
+ * Known exactly: the single point (1/2,1/2) has the value 1/2, (1/4,1/4) has 7/8, (0,0) has 1; m x m cell centres
+ * have 1/(2m).
  * Limits: the order of angles and their
  * ties are exact, also in clusters as small as the smallest doubles; areas are rounded, with errors of a few 1e-16.
  * Under a time limit, half of the time is for the pivots and the rest for bounds on intervals of directions
  * (shared/edge_cover.c). If the time is too short, the result has a lower and an upper bound. In 3 dimensions
- * half-spaces and the unit cube take the place of half-planes and the square: the planes go through up to three
- * points (shared/edge_space.c), in O(n^4) and for up to 1024 points. Known exactly for one point (u,v,w): 1 - 9uvw/2
- * if u, v and w are at most 1/3; 1 - 2uv/(1 + 12h^2) with h = 1/2 - w if u, v and w are at most 1/2, w is at least
- * 1/3, 2u(1 + 6h) <= 1 + 12h^2 and 2v(1 + 6h) <= 1 + 12h^2.
+ * half-spaces and the unit cube replace half-planes and the square: the planes go through up to three points
+ * (shared/edge_space.c), in O(n^4) and for up to 1024 points. Known exactly for one point (u,v,w): 1 - 9uvw/2 if u, v
+ * and w are at most 1/3; 1 - 2uv/(1 + 12h^2) with h = 1/2 - w if u, v and w are at most 1/2, w is at least 1/3, 2u(1
+ * + 6h) <= 1 + 12h^2 and 2v(1 + 6h) <= 1 + 12h^2.
  */
 #include <math.h>
 

@@ -10,8 +10,8 @@
  * Source: Stroud 1971; Shirley 1991, section 5.5.7. With grid=20 only half-open boxes with sides at multiples of 1/20
  * are tried; this seems to be the procedure of Shirley's table 5.7, whose value for the regular grid is 0.3600, while
  * the supremum is 0.4375.
- * Known exactly: 4 x 4 cell centres T = 7/16, with grid=20 0.36; a single point T = 1;
- * Hammersley 1024 0.006079674.
+ * Known exactly: 4 x 4 cell centres have T = 7/16 (0.36 with grid=20); a single point has T = 1; Hammersley 1024
+ * 0.006079674.
  * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16. If a
  * time limit ends the search, the result is a lower and an upper bound; in 3D the upper bound is 1.
  */

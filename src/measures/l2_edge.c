@@ -9,8 +9,8 @@
  * with a >= b the larger and smaller of |dx| and |dy|, sigma = ((a + b) ln(1 + b/a) + a - b)/2 and C = (8/15) ln 2 -
  * 1/9. P has a closed form (measures/shared/lines.c).
  * Source: Mitchell 1992, section 5; the formula as a sum over pairs is from Alexander 1990. In 3 dimensions planes
- * through the unit cube take the place of lines, with the isotropic distribution only: sigma = |x - y|/3, and C is a
- * third of the mean distance of two points of the cube (Robbins 1978), which is .6617... (measures/shared/planes.c).
+ * through the unit cube replace the lines, only with the isotropic distribution: sigma = |x - y|/3, and C is a third
+ * of the mean distance of two points of the cube (Robbins 1978), which is .6617... (measures/shared/planes.c).
  * Known exactly: random points, E(L^2) = C/(2n). L does not depend on which side of the line is counted.
  * Limits: the terms are near 0.26 and cancel; with compensated sums the error of the square is about 1e-16.
  */

@@ -15,8 +15,8 @@
  * lattices, and no denser packing is known. The measure does not exist in other dimensions.
  * Source: Lagae and Dutre
  * 2008, in the plane; c: Conway and Sloane 1999.
- * Known exactly: m x m centres sqrt(sqrt(3)/2) = 0.9306; with dim >=
- * 3, the lattices' own points 1.
+ * Known exactly: m x m cell centres have sqrt(sqrt(3)/2) = 0.9306; for dim >= 3 the points of the lattices above have
+ * 1.
  * Limits: as for min-distance. With torus=0 a small set can have a value above 1,
  * because there are no points beyond the sides.
  */
@@ -50,7 +50,7 @@ const koksma_measure koksma__measure_relative_radius = {
     .name = "relative-radius",
     .title = "smallest distance divided by that of the densest packing (larger values are better)",
     .cite = "lagae2008 conway1999",
-    .cost = "n, or n log n for clustered points; above 2D n log n to n^2",
+    .cost = "n, or n log n for clustered points; from 3D on between n log n and n^2",
     .min_dim = 2,
     .max_dim = 8,
     .params = params,

@@ -7,7 +7,7 @@
  * Formula: n = base^m; elementary intervals are products of [a/base^d, (a+1)/base^d), where the d of all coordinates
  * add up to m - t.
  * Source: Niederreiter 1987.
- * Known exactly: Hammersley's points in base 2: 0; n equal points: m.
+ * Known exactly: Hammersley's points have t = 0 in base 2; n equal points have t = m.
  * Limits: n must be a power of the base. A coordinate that is the double nearest to a/base^d counts as this fraction
  * (core/net.c). A coordinate that was rounded to fewer digits, as in a text file with six, may fall into the next
  * lower interval. A coordinate of 1 counts as in the last interval.

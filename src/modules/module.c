@@ -18,7 +18,7 @@ static const char *const PLACES[] = {"", "../", "koksma/", "../" KOKSMA_LIBDIR "
 
 bool koksma__module_path(const char *name, char *path, size_t room)
 {
-    static const char here = 0; /* an address in the program or library that contains this code */
+    static const char here = 0; /* any address in the program or library that contains this code */
     Dl_info info;
     if (dladdr(&here, &info) && info.dli_fname) {
         /* The name of the program may lack a folder, or be relative to a folder that the process has left. realpath
@@ -52,8 +52,8 @@ koksma_status koksma__module_missing(const koksma__module *module)
                         module->library);
 }
 
-/* Loads a module, which is never unloaded. Loading it twice is harmless: the loader counts, and the module stores
-   the same host again. */
+/* Loads a module, which is never unloaded. Loading a module again is harmless: the loader counts references, and the
+   module stores the same host again. */
 koksma_status koksma__module_load(const koksma__module *module, const void **functions)
 {
     char path[4096];

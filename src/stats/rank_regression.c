@@ -28,7 +28,7 @@ typedef struct sums {
     size_t k, n_scenes, size; /* size: count of the numbers in G and c of a scene, k (k + 1) */
     double *of;               /* G and c of each scene, `size` numbers for each */
     size_t *cases;            /* number of cases in each scene */
-    /* sum over all scenes; sum over the training scenes; a Cholesky factor; k weights */
+    /* sum over all scenes; sum over the training scenes; memory for a Cholesky factor and for k weights */
     double *all, *train, *factor, *weights;
 } sums;
 

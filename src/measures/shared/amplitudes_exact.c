@@ -109,7 +109,8 @@ static koksma_status row_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Sums over all chunks of points for the blocks of a band. steps: the number of chunks in all bands, for progress. */
+/* Computes the sums over all chunks of points for the blocks of a band. steps: the number of chunks in all bands, for
+   the progress report. */
 static koksma_status add_band(job *j, size_t n_blocks, double steps)
 {
     const size_t n = j->points->n;

@@ -9,10 +9,10 @@
  *     deficit <= max_i pi min(r, d_i + rho)^2 - (i - 1)/n    over d_i - rho <= r, and d_(n+1) = infinity;
  *
  * with rho = 0 these are the values of the best disks about c itself. Cells that may contain the centre of a better
- * disk than the best so far are cut in four, level by level, so that the result is the same on any number of threads.
- * The points on the rim of a disk of radius s about a centre in the cell are between s - rho and s + rho away from c.
- * If the disk is better than the best so far, these distances are close to a d_i whose bound exceeds the best value.
- * When these points are few, the disks through all pairs of them are tried, and the cell is finished.
+ * disk than the best so far are cut in four, level by level, so that the result is the same for any number of
+ * threads. The points on the rim of a disk of radius s about a centre in the cell are between s - rho and s + rho
+ * away from c. If the disk is better than the best so far, these distances are close to a d_i whose bound exceeds the
+ * best value. When these points are few, the disks through all pairs of them are tried, and the cell is finished.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -48,7 +48,8 @@ typedef struct cover {
     size_t n_cells;
 } cover;
 
-/* A point near a cell: its distance from the cell's centre, and the bounds for disks with their rim near it. */
+/* A point near a cell: its distance from the centre of the cell, and the bounds for disks whose rim is near this
+   point. */
 typedef struct neighbour {
     double square, distance, excess, deficit;
     size_t index;

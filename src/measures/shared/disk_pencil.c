@@ -10,9 +10,9 @@
  * the deficit of open disks, which is largest for the largest area).
  *
  * Before sorting, the events are counted in BINS equal intervals of t, and each bin is bounded by its most favourable
- * count and its most favourable area. When no bin can exceed the best disk so far, the pencil is skipped, in O(n)
- * instead of O(n log n). On the torus several periodic images of a point may be near enough to matter. Points whose
- * squared distance is within KOKSMA__DISK_RIM of the squared radius count as on the rim; this is more than the
+ * count and its most favourable area. If no bin can exceed the best disk so far, the pencil is skipped. This takes
+ * O(n) instead of O(n log n). On the torus several periodic images of a point may be near enough to matter. Points
+ * whose squared distance is within KOKSMA__DISK_RIM of the squared radius count as on the rim; this is more than the
  * rounding errors of squared distances.
  */
 #include "measures/shared/disk_pencil.h"

@@ -51,7 +51,7 @@ static void bound_cut(const cover *v, cut *now, double a, double b, const double
 {
     const double n = (double)v->n, slack = 4 * v->domain->radius * sin(v->width / 4) + 1e-14;
     double bounds[2] = {-1, -1};
-    size_t best[2] = {0, 0}; /* ranks of the largest excess and of the largest deficit */
+    size_t best[2] = {0, 0}; /* positions, in the sorted order, of the largest excess and of the largest deficit */
     for (size_t r = 0; r < v->n; r++) {
         const double c = t[at[r]];
         const double excess = (double)(r + 1) / n - mass_below(v, a, b, c - slack);
@@ -120,8 +120,8 @@ static size_t halve(const cover *v, size_t count, double lower, cut *to)
     return kept;
 }
 
-/* Halves, in rounds, the intervals of directions that may contain a better line, until none is left, the deadline has
-   passed, or there are too many of them or they are too narrow. */
+/* In rounds, halves the intervals of directions that may contain a better line. It stops when none is left, when the
+   deadline has passed, or when the intervals are too many or too narrow. */
 static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *best, double *upper)
 {
     size_t count = FIRST_CUTS;

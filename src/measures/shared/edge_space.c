@@ -14,10 +14,10 @@
  * point the least volume over the planes through that line. As a function of the direction of the line this has one
  * minimum.
  *
- * Only for points on an axis of the cube do many sections have the same centroid, so that the volume is constant
- * while the plane turns. Then some optimal plane also goes through another point and through a corner of the cube or
- * a third point; or the plane can turn without meeting another point, and the plane perpendicular to the axis is
- * optimal.
+ * There is one exception: many sections can have the same centroid if it is on an axis of the cube. The volume is
+ * then constant while the plane turns. Then some optimal plane also goes through another point and through a corner
+ * of the cube or a third point; or the plane can turn without meeting another point, and the plane perpendicular to
+ * the axis is optimal.
  *
  * The cost is that of n^3/6 planes, with one pass over the points for each plane. A point within 2e-15 of a plane
  * counts as on it, which causes errors of a few 1e-15 in the values. Normals of planes through three points are
@@ -236,7 +236,7 @@ static void try_pair(const search *s, half_space *best, const double *p, const d
     }
 }
 
-/* Tries the planes through point i and up to two points after it. */
+/* Tries the planes through point i and up to two later points. */
 static koksma_status try_first(void *context, size_t i)
 {
     search *s = context;
@@ -282,7 +282,7 @@ static void finish(const search *s, koksma_value *out)
     }
     const bool late = atomic_load(&s->late);
     out->value = out->lower = best.value;
-    out->upper = late ? 1 : best.value; /* a plane that was not tried may reach any value */
+    out->upper = late ? 1 : best.value; /* some planes were not tried, so the upper bound is 1 */
     out->exact = !late;
     out->witness = w;
 }
@@ -290,7 +290,8 @@ static void finish(const search *s, koksma_value *out)
 koksma_status koksma__edge_space(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     const size_t n = points->n;
-    KOKSMA__FAIL_IF(n > MAX_N, KOKSMA_N, "edge: n = %zu: up to %d points in 3D; l2-edge takes more", n, MAX_N);
+    KOKSMA__FAIL_IF(n > MAX_N, KOKSMA_N, "edge: n = %zu: it takes up to %d points in 3D; l2-edge takes more", n,
+                    MAX_N);
     search s = {.n = n, .points = points->xs, .deadline_s = koksma__deadline_s(run, 0.95)};
     const size_t bytes = n * (sizeof *s.best + 3 * sizeof(double));
     s.best = malloc(bytes);

@@ -4,8 +4,9 @@
  *
  * While a half-plane moves without its border passing a point, its count is constant and its area changes, until the
  * border touches points. So the supremum is reached by a line through two points, or through one point that bisects
- * the chord of the line (where the area is stationary as the line turns). For each point as the pivot, the directions
- * to the other points are turned into the upper half-plane and sorted by angle; they are called rays:
+ * the chord of the line (where the area is stationary as the line turns). Each point is the pivot once. The
+ * directions from the pivot to the other points are turned into the upper half-plane and sorted by angle; they are
+ * called rays:
  *
  *            \   c  /              the line turns counter-clockwise about the pivot o and passes a, b, c; a point of
  *             \    /   b           the upper half-plane leaves the left side as the line passes it, one of the lower,
@@ -80,7 +81,7 @@ static int turn(const double *xs, const double p[2], const ray *a, const ray *b)
     return a->flipped == b->flipped ? sign : -sign;
 }
 
-/* One stable pass of a radix sort, by DIGIT bits from bit `shift` on. */
+/* Does one stable pass of a radix sort by the DIGIT bits that begin at bit `shift`. */
 static void sort_digit(const uint64_t *from, uint64_t *to, size_t n, int shift)
 {
     uint32_t start[1 << DIGIT] = {0}, total = 0;

@@ -30,7 +30,7 @@ typedef struct koksma__edge_line {
 } koksma__edge_line;
 
 /* Computes the largest |count/n - mass| over half-planes whose border goes through a point, with its witness. If
-   run's time limit passes, out is not exact and has the best value found and an upper bound. Errors: N, MEMORY,
+   run's time limit passes, out is not exact: it receives the best value found and an upper bound. Errors: N, MEMORY,
    INTERRUPTED. */
 koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
                                  koksma_value *out);

@@ -146,8 +146,8 @@ static void add_strip(searcher *s, tile t)
     }
 }
 
-/* Builds in *to the run list for the strips of the tile t, or of all tiles from t to the one that begins at `end`.
-   Returns `from` if the new list would not be shorter. */
+/* Makes in *to the run list for the strips of tile t, or of all tiles from t to the one that begins at `end`. Returns
+   `from` if the new list would not be shorter. */
 static const koksma__run_list *narrowed(searcher *s, const koksma__run_list *from, tile t, size_t end, size_t side,
                                         koksma__run_list *to)
 {
@@ -275,7 +275,7 @@ static double budget_of(const plane *p, size_t a)
                                                 : SWEEP_COST * left * points * log2((double)p->n + 2);
 }
 
-/* Finds the exact maximum of a block of strips by a sweep; for blocks where bounding would take longer. */
+/* Finds the exact maximum of a block of strips by a sweep; used for blocks for which bounding would take longer. */
 static koksma_status sweep_block(const plane *p, size_t a, searcher *s)
 {
     koksma__sweep_best best = {s->best.value, s->best.strip.a, s->best.strip.b, s->best.closed};
@@ -328,7 +328,7 @@ static koksma_status search_block(void *context, size_t block)
     return status;
 }
 
-/* Bounds a row of wide tiles, so that strips that were not searched before the deadline have a bound too. */
+/* Bounds a row of wide tiles, so that strips that were not searched before the deadline also have a bound. */
 static koksma_status bound_row(void *context, size_t row)
 {
     const plane *p = context;

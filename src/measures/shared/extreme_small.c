@@ -163,7 +163,8 @@ static void fill_levels(search *s, bool closed)
 koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     const size_t n = points->n, dim = (size_t)points->dim;
-    KOKSMA__FAIL_IF(dim == 3 && n > MAX_N_3D, KOKSMA_N, "extreme: n = %zu: up to %d points in 3D", n, MAX_N_3D);
+    KOKSMA__FAIL_IF(dim == 3 && n > MAX_N_3D, KOKSMA_N, "extreme: n = %zu: it takes up to %d points in 3D", n,
+                    MAX_N_3D);
     if (!koksma__keep_going(run, 0)) {
         return koksma__fail_interrupted();
     }
@@ -181,13 +182,13 @@ koksma_status koksma__extreme_small(const koksma_points *points, const koksma_ru
     for (size_t k = 0; k < dim; k++) {
         s.hi[k] = 1;
     }
-    keep(&s, 0, true, n, 1); /* the whole cube, so that there is always a witness */
+    keep(&s, 0, true, n, 1); /* start with the whole cube, so that there is always a witness */
     for (int closed = 0; closed < 2; closed++) {
         fill_levels(&s, closed);
         choose(&s, points->dim - 1, n, 1, closed);
     }
     free(memory);
-    if (s.late) { /* a box that was not tried may reach any value */
+    if (s.late) { /* some boxes were not tried, so the upper bound is 1 */
         out->exact = false;
         out->lower = out->value;
         out->upper = 1;

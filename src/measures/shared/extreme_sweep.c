@@ -31,7 +31,7 @@ typedef struct node {
 } node;
 
 typedef struct tree {
-    size_t leaves; /* a power of two; node i has children 2 i and 2 i + 1 */
+    size_t leaves; /* number of leaves, a power of two; node i has children 2 i and 2 i + 1 */
     node *nodes;
     bool closed;
     double width;

@@ -21,10 +21,11 @@
  * share one merge: n log^(d-1) n in total, with a constant that grows as M^(d-1). Problems of up to FEW points are
  * solved by summing over pairs.
  *
- * Above four dimensions pairs are used. With MAX_DIM = 6 this file was slower than pairs with AVX-512 up to n = 16,384
- * (one product: 3.0 times in 5D, 5.1 in 6D; three: 19 and 50 times). At n = 65,536 it was level in 5D with one product
- * (2.27 s, pairs 2.42) and slower in 6D (1.9 times) and with three (6.1 times in 5D). Larger n were
- * not measured; there the values would differ from those of pairs from the 13th digit on.
+ * Above four dimensions pairs are used. In a test with MAX_DIM = 6 divide and conquer was slower than pairs with
+ * AVX-512 up to n = 16,384: 3.0 times in 5D and 5.1 times in 6D for kernels with one product, 19 and 50 times for
+ * kernels with three. At n = 65,536 it was equal in 5D with one product (2.27 s, pairs 2.42 s), but slower in 6D (1.9
+ * times) and with three products (6.1 times in 5D). Larger n were not measured; there the values would differ from
+ * those of pairs from the 13th digit on.
  *
  * All sums are compensated. The weights are rounded products, with independent errors of 1e-16 for each point that
  * average out. The halves do not depend on the number of threads, and their sums are added in a fixed order.
@@ -219,7 +220,7 @@ static void between(worker *w, item *items, item *spare, size_t n, int k)
 }
 
 /* Adds the pairs across two halves of the first coordinate. Each half is in order of the second coordinate; on return
-   all items are. */
+   all items are in this order. */
 static void across(worker *w, item *items, size_t half, size_t n, item *to)
 {
     for (size_t i = 0; i < n; i++) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The L2 discrepancies of the line and the plane in O(n log n) and more than 100 bits, by splitting the kernels: with
- * G(z) = g(z) + r z^2, K = G(z_u) + G(z_v) - 2 r z_u z_v + q t and t = |u - v|. In a product of two kernels all
- * factors except t separate into functions of u and of v. Sums with one factor t need the points in order of one
- * coordinate. The sum over pairs of t_x t_y is the same for every kernel; it needs the pairs in which one point is
- * below the other in both coordinates (l2_below.c). With t_y,i = sum_j |y_i - y_j|, and the points in x order,
+ * Computes the L2 discrepancies of the line and the plane in O(n log n) with more than 100 bits. The kernels are
+ * split: with G(z) = g(z) + r z^2, K = G(z_u) + G(z_v) - 2 r z_u z_v + q t, where t = |u - v|. In a product of two
+ * kernels all factors except t separate into functions of u and of v. Sums with one factor t need the points in order
+ * of one coordinate. The sum over pairs of t_x t_y is the same for every kernel; it needs the pairs in which one
+ * point is below the other in both coordinates (l2_below.c). With t_y,i = sum_j |y_i - y_j|, and the points in x
+ * order,
  *
  *     sum_ij t_x t_y = 4 sum_i x_i (sum over j < i with y_j < y_i of (y_i - y_j))
  *                      + 2 sum_i x_i sum_{j < i} (y_j - y_i) - 2 sum_i x_i t_y,i.
@@ -160,7 +161,7 @@ static koksma_status load_by_y(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Replaces the sums over blocks by the sums over all blocks before each. Returns the sum over all blocks. */
+/* Replaces the sum of each block by the sum over all earlier blocks. Returns the sum over all blocks. */
 static partial add_up(partial *sums, size_t n_blocks)
 {
     partial total = {0, 0, 0};

@@ -140,7 +140,7 @@ void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, do
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 0, r);
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 1, s);
     if (law == KOKSMA__LINES_ISOTROPIC) {
-        /* the angle of the normal has a density proportional to the width of the square, cos + sin */
+        /* the angle of the normal has a density proportional to cos + sin, which is the width of the square */
         const double angle = M_PI_4 + asin((2 * r[0] - 1) / M_SQRT2);
         *a = cos(angle);
         *b = r[1] < 0.5 ? sin(angle) : -sin(angle);

@@ -2,8 +2,8 @@
 /* Visits all pairs of points with a distance below r. In a grid of cells at least r wide, the partners of a point are
    in its own cell and in the eight cells around it. This takes O(n + pairs) for evenly spread points. If many points
    share few cells, the smallest distance is found by divide and conquer (core/closest_pair.c) in O(n log n). Both
-   methods square the same differences, so that they give the same bits. Points of other dimensions than 2 go to
-   closest_space.c. */
+   methods square the same differences, so that they give the same bits. closest_space.c handles points that are not
+   in the plane. */
 #include "measures/shared/neighbours.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ typedef struct visit {
     double scale; /* number of bins per unit of distance */
     size_t bins;
     uint64_t *counts; /* number of pairs in each bin of distances, followed by eight spare entries; or NULL */
-    size_t unasked;   /* pairs since the last call of koksma__keep_going */
+    size_t unasked;   /* number of pairs visited since the last call of koksma__keep_going */
     bool stopped;     /* true when the caller asked to stop */
 } visit;
 
@@ -191,7 +191,7 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2",
                     points->dim);
     KOKSMA__FAIL_IF(!(r_max > 0 && r_max <= 0.5) || bins == 0, KOKSMA_ARGUMENT,
-                    "pair correlation: r_max = %g, %zu bins: it takes 0 < r_max <= 1/2 and 1 bin or more", r_max,
+                    "pair correlation: r_max = %g, %zu bins: it takes 0 < r_max <= 1/2 and at least 1 bin", r_max,
                     bins);
     koksma_status checked = koksma__points_check(points);
     checked = checked ? checked : koksma__array_check("bins", values, bins, sizeof *values);

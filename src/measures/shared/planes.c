@@ -8,8 +8,8 @@
  *
  *     [c^3 - (c-a)^3 - (c-b)^3 - (c-d)^3 + (c-a-b)^3] / (6 a b d),
  *
- * where a term counts only if its base is positive. The terms cancel for small a, so the first two are combined into
- * one polynomial; each of the others has a base of at most a.
+ * where terms with a negative base are left out. The terms cancel for small a, so the first two are combined into one
+ * polynomial; each of the others has a base of at most a.
  *
  * Potential: the distance r from the origin is a homogeneous function of degree 1. Its integral over a box with a
  * corner at the origin is therefore a sum over the three faces that do not touch the origin: a quarter of the
@@ -122,8 +122,8 @@ double koksma__plane_constant(void)
     return ((4 + 17 * M_SQRT2 - 6 * root3) / 105 + log(1 + M_SQRT2) / 5 + 2 * log(2 + root3) / 5 - M_PI / 15) / 3;
 }
 
-/* The density of the normal is proportional to the width of the cube, |a1| + |a2| + |a3|. It is a mixture of three
-   densities, |a_k| for each axis k, of which one is chosen at random. */
+/* The density of the normal is proportional to the width of the cube, |a1| + |a2| + |a3|. This is a mixture of three
+   densities, |a_k| for each axis k; an axis is chosen at random. */
 void koksma__random_plane(uint64_t seed, uint64_t index, double a[3], double *c)
 {
     double r[2], s[2];

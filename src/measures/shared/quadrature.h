@@ -9,7 +9,7 @@
 double koksma__integral(double (*f)(double x, const void *context), const void *context, double a, double b);
 
 /* Computes the complete elliptic integrals K (first) and E (second) for the complementary modulus k' = sqrt(1 - k^2)
-   in [0,1], by the arithmetic-geometric mean. For k' = 0 it sets E = 1 and, although K is infinite, K = 0. */
+   in [0,1], by the arithmetic-geometric mean. For k' = 0, where K is infinite, it sets K = 0 and E = 1. */
 void koksma__elliptic(double complement, double *first, double *second);
 
 #endif

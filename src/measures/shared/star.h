@@ -20,7 +20,7 @@ koksma_status koksma__star_kinetic(size_t n, const double *x, const uint32_t *ra
                                    const koksma_run *run, double best[2], size_t at[2]);
 
 /* Computes the exact value in any dimension by the partition of Dobkin, Eppstein and Mitchell, in O(n^(1 + d/2)). If
-   the deadline passes, *complete is false and out has the best value found. Errors: MEMORY, INTERRUPTED. */
+   the deadline passes, *complete becomes false and out receives the best value found. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__star_partition(const koksma_points *points, const koksma_run *run, double deadline_s,
                                      koksma_value *out, bool *complete);
 
@@ -33,8 +33,8 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
 koksma_status koksma__star_cover(const koksma_points *points, const koksma_run *run, double deadline_s, double lower,
                                  double *upper);
 
-/* Writes the box from the origin to corner[0..dim) to out if its value exceeds that in out. The points are counted
-   again, and the value is |count/n - volume| to the last bit. */
+/* Writes the box from the origin to corner[0..dim) to out if its value exceeds that in out. It counts the points
+   again, so that the value is |count/n - volume| to the last bit. */
 void koksma__star_keep(const koksma_points *points, const double *corner, bool closed, koksma_value *out);
 
 #endif

@@ -75,7 +75,7 @@ static void sift_up(const cover *c, size_t i)
     }
 }
 
-/* Cuts the box at the top of the heap in two, across the side that is the longest in proportion to its upper end. */
+/* Cuts the box at the top of the heap in two. It cuts the side whose length is largest relative to its upper end. */
 static void cut(cover *c)
 {
     double *box = c->heap[0], *other = c->boxes + c->count * c->size;

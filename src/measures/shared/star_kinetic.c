@@ -9,9 +9,9 @@
  * At first the nodes store bounds. The bound of a node is a line that is above all its leaves at the current x. It
  * has the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only when its
  * bound is above the best value so far. An insertion scans one block and takes the larger of two bounds on its way
- * back to the root, in O(log n). The bound of a subtree of w ranks rises by at most w/n relative to its leaves in
- * each step to the right, so that it is searched once in about n/w steps for each unit by which its leaves are below
- * the best value.
+ * back to the root, in O(log n). In each step to the right, the bound of a subtree of w ranks rises by at most w/n
+ * relative to its leaves. If the leaves are u below the best value, the subtree is therefore searched only once in
+ * about u n/w steps.
  *
  * For some points, such as Hammersley's, values near the best occur everywhere, and subtrees are searched too often.
  * These searches are counted, and when there are too many, the rest of the walk is a kinetic tournament (Basch,
@@ -25,8 +25,8 @@
  *
  * An insertion adds one to the counts of a range of ranks: this changes `lazy` of O(log n) nodes, and only the
  * winners on the paths to the ends of the range are compared again. All other recomputations happen because one line
- * has overtaken another. Winners are decided in doubles: at a near tie either line has the largest value up to
- * rounding.
+ * has overtaken another. Comparisons are made in doubles. If two lines are nearly equal, either may win, because
+ * their values are equal up to rounding.
  */
 #include <math.h>
 #include <pthread.h>
@@ -41,7 +41,7 @@ enum { BLOCK = 16, CHECK_EVERY = 1 << 14, PARTS = 4, MANY = 1 << 12 };
 
 typedef struct node {
     double k, b;  /* the line b + k x: the winner, or a bound of all leaves with their largest k */
-    double until; /* x up to which the winner is known to win; unused with bounds */
+    double until; /* x up to which the winner is known to win; unused while nodes store bounds */
     double lazy;
 } node;
 
@@ -254,8 +254,8 @@ static bool keeps_going(walks *w, double fraction_done)
     return !atomic_load(&w->stopped);
 }
 
-/* Finds the best value from point `from` to point `end`. sign 1: the excess, evaluated after each insertion; -1: the
-   deficit, evaluated before each. */
+/* Finds the best value among points `from` to `end`. sign 1: the excess, evaluated after each insertion; sign -1: the
+   deficit, evaluated before each insertion. */
 static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sign, best_box *best)
 {
     const size_t n = w->n;

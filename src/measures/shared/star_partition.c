@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The partition of the space of box corners by Dobkin, Eppstein and Mitchell, after Overmars and Yap. One coordinate
- * after the other is cut into slabs. For corners in a slab (a, b] of coordinate k, a point with x_k <= a is inside in
- * this coordinate, a point with x_k >= b is outside the box, and a point between becomes undecided in k. A point that
- * is undecided in an earlier coordinate cannot become undecided again, because each later coordinate is cut at this
- * point. In a leaf every point is therefore undecided in at most one coordinate. So for each coordinate and each
- * count c it suffices to know the largest (smallest) side of an open (closed) box that contains c of the points
- * undecided in this coordinate. The slabs of the first coordinate are separate blocks of work, each with its own best
- * box, so that the result does not depend on the number of threads.
+ * Computes the exact discrepancy by the partition of the space of box corners of Dobkin, Eppstein and Mitchell, after
+ * Overmars and Yap. One coordinate after the other is cut into slabs. For corners in a slab (a, b] of coordinate k, a
+ * point with x_k <= a is inside in this coordinate, a point with x_k >= b is outside the box, and a point between
+ * becomes undecided in k. A point that is undecided in an earlier coordinate cannot become undecided again, because
+ * each later coordinate is cut at this point. In a leaf every point is therefore undecided in at most one coordinate.
+ * So for each coordinate and each count c it suffices to know the largest (smallest) side of an open (closed) box
+ * that contains c of the points undecided in this coordinate. The slabs of the first coordinate are separate blocks
+ * of work, each with its own best box, so that the result does not depend on the number of threads.
  */
 #include <math.h>
 #include <pthread.h>
@@ -54,7 +54,7 @@ typedef struct searcher {
     double *cuts;         /* dim rows of n + 2 */
     uint32_t *sorted;     /* dim rows of n: the points of `inside` in order of the next coordinate */
     double *sorted_at;    /* dim rows of n: the next coordinate of the points in sorted */
-    double *undecided_at; /* dim rows of n: the same coordinate of the child's undecided points */
+    double *undecided_at; /* dim rows of n: the next coordinate of the child's undecided points */
     bool *flags;          /* n */
     double *sides;        /* 2 rows of n + dim: the sides of boxes in a leaf */
     double **products;    /* products of the sides in coordinates 0 .. k, for each k: dim pairs of rows of n + 2 dim +

@@ -30,7 +30,7 @@ typedef struct walk {
     const koksma_points *points;
     size_t n, dim;
     double *levels;   /* dim rows of n + 1: the coordinates of the points in order, then 1 */
-    uint32_t *orders; /* dim rows of n: the indices of the points in this order */
+    uint32_t *orders; /* dim rows of n: the indices of the points in order of each coordinate */
     /* The box: corner[k] is one of the levels. cut[k] is the number of points whose coordinate k is below corner[k]
        (for closed boxes: at most corner[k]); outside[i] is the number of coordinates in which point i is outside. */
     bool closed;
@@ -224,7 +224,7 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
         }
         w.levels[k * (n + 1) + n] = 1;
     }
-    if (!status) { /* the whole cube, so that there is always a witness */
+    if (!status) { /* start with the whole cube, so that there is always a witness */
         double ones[DIMS];
         for (size_t k = 0; k < dim; k++) {
             ones[k] = 1;

@@ -29,7 +29,8 @@ koksma_status koksma__warp_l2_disk(size_t n, const double *xs, double r, const k
  * Formula (Stolarsky's invariance principle, for a measure on a part of the sphere): a random cap separates x and y
  * with probability |x - y|/4, so square = ((1/n) sum_i P(x_i) - (1/n^2) sum_{i<j} |x_i - x_j| - C/2)/4. P, the mean
  * distance of x from the hemisphere, is an integral of complete elliptic integrals over the circles of latitude; C,
- * the mean of P, is 32/(9 pi), and with the cosine 2048/(675 pi) (recognised from 18 digits, and tested).
+ * the mean of P, is 32/(9 pi) or, with the cosine weight, 2048/(675 pi) (found from 18 digits, not proven, but
+ * tested).
  * Source: Stolarsky 1973; Alexander 1990.
  * Known exactly: P is 2 sqrt(2)/3 at the pole and 4/3 at the rim; with the cosine weight 8 sqrt(2)/15 and 64/(15 pi).
  * For random points the mean of the square is C/(8n).

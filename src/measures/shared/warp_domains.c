@@ -116,9 +116,9 @@ static double below_in_triangle(double a, double b, const double p[2])
 }
 
 /* For each corner of the triangle, with s and t the barycentric coordinates of p at the other two corners, p is the
-   midpoint of the points at 2s and 2t along the two edges from this corner. For p at a corner this chord has length
-   0; the chords there are the two edges. Barycentric coordinates that are negative because of rounding in maps count
-   as 0. */
+   midpoint of the points at 2s and 2t along the two edges from this corner. If p is a corner, this chord has length
+   0, and the two edges at the corner are used instead. Barycentric coordinates that are negative because of rounding
+   in maps count as 0. */
 static void chords_of_triangle(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
     const double share[3] = {fmax(1 - p[0] - p[1], 0), fmax(p[0], 0), fmax(p[1], 0)};
@@ -177,9 +177,9 @@ static double triangle_constant(void)
 
 /* ---- The hemisphere z >= 0 ---------------------------------------------------------------------------- */
 
-/* A plane through the centre whose normal is at angle theta from the pole has a share of 1 - theta/pi of the
-   hemisphere on the normal's side. The potential P of a point p at angle alpha from the pole is the mean of theta/pi
-   over the normals on the side of p. */
+/* If the normal of a plane through the centre is at angle theta from the pole, a fraction 1 - theta/pi of the
+   hemisphere is on the side of the normal. The potential P of a point p at angle alpha from the pole is the mean of
+   theta/pi over the normals on the side of p. */
 static double hemisphere_potential(const double *p)
 {
     const double alpha = atan2(hypot(p[0], p[1]), p[2]);
@@ -221,7 +221,7 @@ double koksma__domain_separates(koksma__domain_kind kind, const double *p, const
         plus += (p[k] + q[k]) * (p[k] + q[k]);
     }
     return 2 * atan2(sqrt(minus), sqrt(plus)) /
-           M_PI; /* more accurate near opposite points than the arc sine of half the distance */
+           M_PI; /* for nearly opposite points this is more accurate than the arc sine of half the distance */
 }
 
 double koksma__domain_potential(koksma__domain_kind kind, const double *p)

@@ -2,8 +2,8 @@
 /*
  * The measure l2-disk for points in the unit disk: the root mean square over disks of radius r whose centres are
  * uniform within 1 + r of the origin. The square expands into a sum over pairs of points (overlaps of two disks), a
- * sum over points and a constant. The terms of the last two are integrals over rings about the origin (quadrature.c).
- * O(n^2).
+ * sum over points and a constant. The sum over points and the constant consist of integrals over rings about the
+ * origin (quadrature.c). O(n^2).
  */
 #include <math.h>
 #include <stdlib.h>
