@@ -21,7 +21,7 @@ enum { MAX_DIM = 8, LOOKS = 1 << 24 };
    return any value up to `enough`. */
 static double nearest(const koksma_points *out, size_t placed, const double *x, double enough)
 {
-    double best = INFINITY; /* squared distances on the torus go up to dim / 4 */
+    double best = INFINITY; /* squared distances on the torus are at most dim / 4 */
     for (size_t i = 0; i < placed && best > enough; i++) {
         double sum = 0;
         for (int k = 0; k < out->dim; k++) {

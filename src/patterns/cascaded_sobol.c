@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * cascaded-sobol: n = 2^m points, where each coordinate, as a whole number below n, is the index into the
- * one-dimensional Sobol' sequence that gives the next coordinate. Every two consecutive coordinates are thus a
+ * one-dimensional Sobol' sequence that gives the next coordinate. Every pair of consecutive coordinates is thus a
  * (0,m,2)-net in base 2.
  *
  *     y_0 = the m bits of i reversed,  y_k+1 = the first m digits of dimension k + 2 of Sobol' at index y_k,

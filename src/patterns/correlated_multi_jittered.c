@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * correlated-multi-jittered: multi-jittered points with one permutation of the rows shared by all columns and one of
- * the columns shared by all rows, in random order. Each point is computed from hashes alone, without the others.
+ * correlated-multi-jittered: multi-jittered points in random order, in which all columns share one permutation of the
+ * rows, and all rows share one permutation of the columns. Each point is computed only from hashes, without the other
+ * points.
  *
  *     x = (c + (p(j) + u) / r) / m,   y = (j + (q(c) + v) / m) / r,   (c, j) = the cell of the permuted index
  *

@@ -24,7 +24,7 @@
 
 enum { RESTARTS = 200 };
 
-#define SPARSE 0.4 /* below this f the disks of radius d cover less than 3.63 f^2 = 0.58 of the torus */
+#define SPARSE 0.4 /* for smaller f the disks of radius d cover less than 3.63 f^2 = 0.58 of the torus */
 
 static koksma_status throw_one_by_one(uint64_t seed, double d, const koksma_run *run, koksma_points *out)
 {
@@ -74,8 +74,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         }
     }
     return koksma__fail(KOKSMA_IMPOSSIBLE,
-                        "dart-throwing: f=%g jams at %zu of %zu points; dart throwing gets to about f=%.2g", f, most,
-                        out->n, out->n < 100 ? 0.7 : 0.76);
+                        "dart-throwing: f=%g jams at %zu of %zu points; dart throwing reaches at most about f=%.2g",
+                        f, most, out->n, out->n < 100 ? 0.7 : 0.76);
 }
 
 static const koksma_param params[] = {

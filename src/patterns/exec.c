@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * exec: the points that a program prints, named exec:PROGRAM. To generate a set, the program is run as
+ * exec: the points that a program prints; the spec is exec:PROGRAM. To generate a set, the program is run as
  *
  *     PROGRAM n dim seed          three whole numbers, in decimal
  *
@@ -86,7 +86,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const size_t bytes = out->n * (size_t)out->dim * sizeof *out->xs;
     if (!status && memcmp(first.xs, second.xs, bytes) != 0) {
         status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s: run twice with n = %zu, dim = %d, seed = %" PRIu64
+                              "%s: when run twice with n = %zu, dim = %d, seed = %" PRIu64
                               ", it printed different points; they may depend only on n, dim and seed",
                               name, out->n, out->dim, seed);
     }

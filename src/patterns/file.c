@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * file: points from a .txt, .csv or .npy file, named file:PATH. A set of n points in dim dimensions has the first n
- * points of the file, and their first dim coordinates. The file has to be a regular file, not a pipe, because each
- * call reads it again.
+ * file: points from a .txt, .csv or .npy file; the spec is file:PATH. A set of n points in dim dimensions has the
+ * first n points of the file, and their first dim coordinates. The file has to be a regular file, not a pipe, because
+ * each call reads it again.
  *
  *     x_i = row i of the file, cut to dim columns
  *

@@ -9,15 +9,15 @@
  * forces; the rest of this comment describes the plane. A step moves a point by step * (sum of forces in units of s),
  * where forces beyond the distance 5 s are ignored, and by a fraction of its last move (the momentum of the heavy
  * ball method, Polyak 1964). This fraction is 0.9 for the first 128 steps, in which the stiff modes converge, and
- * then 0.98, with which the slow modes converge five times faster. All points move at once, so that their order does
- * not matter.
+ * then 0.98, with which the slow modes converge five times faster. All points move simultaneously, so that their
+ * order does not matter.
  *
  * With steps=0 the descent ends when the root mean square of the forces is below 2e-5 sigma^2 / sqrt n, or when it
  * has not decreased by 10 % within 200 steps. The limit is about 1e-5 of the root mean square for independent points,
  * which is sqrt(pi) sigma^2 / sqrt n; the error of the cut-off is 1.1e-5 of it. The descent takes at least 400 steps,
- * because a few points near a saddle feel almost no force, and at most 2,000. It takes about 600 for 64 points and
- * more at sigma = 1, and up to 2,000 at sigma < 0.6. At n = 1024 the mean power at frequencies below 0.75 sqrt n is
- * 0.0015; with a momentum of 0.9 throughout, it is the same after 2,000 steps and 0.0090 after 400.
+ * because a few points near a saddle feel almost no force, and at most 2,000. At sigma = 1 it takes about 600 steps
+ * for 64 and more points, and at sigma < 0.6 up to 2,000. At n = 1024 the mean power at frequencies below 0.75 sqrt n
+ * is 0.0015; with a constant momentum of 0.9 this power is the same after 2,000 steps, but 0.0090 after 400.
  *
  * If all forces beyond the cut-off had the same direction, at the mean density of the points their sum would be n
  * integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s. This bounds the error of a move. With few

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * gaussian-jittered: one point in each cell of a grid, normally distributed about the cell's centre and truncated at
- * the cell's sides (the normal distribution given that the point is in the cell, so that no probability piles up on
- * the sides).
+ * the cell's sides (the conditional distribution given that the point is in the cell, so that no probability is
+ * concentrated on the sides).
  *
  *     x_k = (c_k + 1/2 + sigma z_k) / m,   z normal given |sigma z| < 1/2, by inverting its distribution function
  *

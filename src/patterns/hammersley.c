@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * hammersley: the equidistant coordinate (i + offset)/n, followed by the Halton sequence of one dimension less.
+ * hammersley: the first coordinate is (i + offset)/n; the others are the Halton sequence of one dimension less.
  *
  *     x_0 = (i + offset) / n,   x_k = phi_b(i), b the k-th prime
  *

@@ -10,11 +10,11 @@
  * 2^10. For integrands that are not smooth the points are worse than those of Sobol'.
  *
  *     scramble=owen   scrambles the coordinates before they are interlaced: estimates are unbiased, and errors fall as
- *                     n^(-order - 1/2). The modifier owen=1, which scrambles after interlacing, destroys that rate
+ *                     n^(-order - 1/2). The modifier owen=1 scrambles after interlacing and destroys this rate
  *
  * Source: Dick 2008; scrambled: Dick 2011. A coordinate has 53 binary digits; each of its Sobol' coordinates supplies
- * 53 / order of them, 32 at most. With order=2 errors thus stop falling at 2^26 points. With order=1 the points are
- * those of the pattern sobol.
+ * 53 / order of these, but at most 32. With order=2 errors therefore stop decreasing at 2^26 points. With order=1 the
+ * points are those of the pattern sobol.
  */
 #include <stdlib.h>
 

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * lattice-file: the rank-1 lattice of a generating vector that is read from a file, named lattice-file:PATH.
+ * lattice-file: the rank-1 lattice of a generating vector that is read from a file; the spec is lattice-file:PATH.
  *
  *     x_i,k = {phi_b(i) z_k},   phi_b the radical inverse in base b
  *
  * The file has one of two formats. The format `lattice` of LatNet Builder and LDData has a line "# lattice", the
  * number of dimensions, the number of points N, and z_1, z_2, ... on one line each; comments follow a #. Kuo's format
- * has no header and for each dimension a line "k z_k" (or z_k alone). With N = b^m, b prime and m > 1, the points are
- * a lattice sequence: for any power n of b, the first n of them are the lattice {i z / n}, and more can follow.
- * Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector should be
- * used only with the numbers of points listed in the comments of its file.
+ * has no header, and one line "k z_k" (or only z_k) for each dimension. If N = b^m with b prime and m > 1, the points
+ * are a lattice sequence: for any power n of b the first n points are the lattice {i z / n}, and more points can
+ * follow. Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector
+ * should be used only with the numbers of points listed in the comments of its file.
  *
  * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion,
  * Godin & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 the

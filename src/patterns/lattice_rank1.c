@@ -6,8 +6,8 @@
  *     x_k = {i z_k / n},   z_0 = 1
  *
  * Formula: P_2 = (1/n) sum_i prod_k (1 + gamma 2 pi^2 B_2({i z_k / n})) - 1,  B_2(x) = x^2 - x + 1/6, with the weight
- * gamma = 3/(8 pi^2) = 0.038. With this weight P_2 is the square of l2-wraparound divided by (4/3)^d. The points in
- * fewer dimensions are the first coordinates of those in more.
+ * gamma = 3/(8 pi^2) = 0.038. With this weight P_2 is the square of l2-wraparound divided by (4/3)^d. The set in
+ * fewer dimensions consists of the first coordinates of the set in more dimensions.
  *
  * Source: Sloan & Reztsov 2002, with gamma = 1; evaluating all multipliers at once in O(n log n), as in
  * shared/unit_sums.c: Nuyens & Cools 2006 and 2006a; weights: Sloan & Wozniakowski 1998, Dick, Kuo & Sloan 2013;
@@ -30,9 +30,9 @@
  * weights of Cools, Kuo & Nuyens 2006; all projections of the same order have equal weights): only terms of up to Q
  * factors of the expanded product remain.
  *
- * Time: O(dim n log n): 2^20 points in 10 dimensions take half a second, a prime number of points hardly more. The
- * memory in addition to the points is 28 n bytes for powers of two, up to 95 n bytes for other n, and 4 n Q bytes
- * more with order=Q.
+ * Time: The search takes O(dim n log n): half a second for 2^20 points in 10 dimensions, hardly more for a prime
+ * number of points. The memory in addition to the points is 28 n bytes for powers of two, up to 95 n bytes for other
+ * n, and 4 n Q bytes more with order=Q.
  */
 
 #include <stdlib.h>
@@ -44,7 +44,8 @@
 
 enum { MAX_DIM = 256, MOST_ORDER = 8 };
 
-/* Finds all components of z. `sums` is scratch of koksma__lattice_extend_orders; NULL if all projections count. */
+/* Finds all components of z. `sums` is scratch memory for koksma__lattice_extend_orders; NULL if all projections
+   count. */
 static koksma_status search_all(koksma__lattice_search *search, int dim, int order, double *sums, uint64_t *z)
 {
     z[0] = 1;

@@ -7,8 +7,8 @@
  *
  * The components z_1, z_2, ... are whole numbers below 2^52, separated by colons; lattice-file reads longer vectors
  * from a file. The points are Latin if no z_k has a divisor in common with n.
- * Source: Sloan & Reztsov 2002 (rank-1 lattices); the vector is the user's. Known: lattice-vector:1:8 with n = 13 is
- * fibonacci.
+ * Source: Sloan & Reztsov 2002 (rank-1 lattices); the user chooses the vector. Known: lattice-vector:1:8 with n = 13
+ * gives the points of fibonacci.
  */
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * net-file: the digital net or sequence of the generator matrices in a file, named net-file:PATH.
+ * net-file: the digital net or sequence whose generator matrices are in a file; the spec is net-file:PATH.
  *
  *     x_i,k = sum_l y_l b^-l,   y = C_k a modulo b,   i = sum_c a_c b^c   (l = 1, 2, ..., c = 0, 1, ...)
  *
@@ -17,8 +17,8 @@
  *
  * Source: Niederreiter 1992; formats: L'Ecuyer et al. 2022, Joe & Kuo 2008.
  *
- * Point i does not depend on n, and there are b^k points. A coordinate keeps as many digits as a double has room for
- * (53 in base 2); the others are cut off. The modifier owen-base=b scrambles the points in base b.
+ * Point i does not depend on n, and there are b^k points. A coordinate has as many digits as fit into a double (53 in
+ * base 2); further digits are cut off. The modifier owen-base=b scrambles the points in base b.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -219,7 +219,7 @@ static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrice
     uint32_t modulus[MOST_COLUMNS + 1], q[MOST_COLUMNS + 1];
     KOKSMA__TRY(take(lines, "the base", 2, LARGEST_BASE, &base));
     for (uint64_t d = 2; d * d <= base; d++) {
-        KOKSMA__FAIL_IF(base % d == 0, KOKSMA_MALFORMED, "%s: line %zu: the base is %llu; it takes primes",
+        KOKSMA__FAIL_IF(base % d == 0, KOKSMA_MALFORMED, "%s: line %zu: the base is %llu, which is not a prime",
                         lines->name, lines->number, (unsigned long long)base);
     }
     KOKSMA__TRY(take(lines, "the number of dimensions", 1, UINT32_MAX, &dims));

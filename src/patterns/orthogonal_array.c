@@ -7,8 +7,9 @@
  *     strength 3, Bush 1952, up to s dimensions: level k is the polynomial whose coefficients are the digits of i in
  *                 base s, evaluated at k modulo s
  *
- * The levels of each coordinate are permuted at random, and the n/s points of each level go into n/s strata in random
- * order, so that the points are n-rooks, too. Source: Owen 1992; the multi-jittered arrays of Jarosz et al. 2019.
+ * The levels of each coordinate are permuted at random, and the n/s points of each level are put into n/s strata in
+ * random order, so that the points are also n-rooks. Source: Owen 1992; the multi-jittered arrays of Jarosz et al.
+ * 2019.
  */
 #include <math.h>
 #include <stdio.h>

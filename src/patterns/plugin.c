@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * plugin: the points of a sampler in a shared library: plugin:LIBRARY.so names the library's first sampler,
- * plugin:LIBRARY.so:NAME the one called NAME. The interface is <koksma/plugin.h>. As with exec, every set is
- * generated twice, and the two have to be equal.
+ * plugin: the points of a sampler in a shared library: plugin:LIBRARY.so is the first sampler of the library,
+ * plugin:LIBRARY.so:NAME the sampler with this name. The interface is <koksma/plugin.h>. As with exec, every set is
+ * generated twice, and both results have to be equal.
  *
  * The library stays loaded: closing it between two sets would run its constructors again for each set. A path without
  * a slash names a file in the current directory; the loader's search path is not used.
@@ -113,7 +113,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     status = status ? status : call(name, p, seed, out->n, out->dim, again);
     if (!status && memcmp(out->xs, again, bytes) != 0) {
         status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s: called twice with n = %zu, dim = %d, seed = %" PRIu64
+                              "%s: when called twice with n = %zu, dim = %d, seed = %" PRIu64
                               ", it gave different points; they may depend only on n, dim and seed",
                               name, out->n, out->dim, seed);
     }

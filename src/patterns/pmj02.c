@@ -12,7 +12,7 @@
  * random. Without shuffle=1 the points of two seeds are correlated: the numbers of the strata of point i for two
  * seeds differ only by an exclusive or with a constant.
  *
- * koksma_pmj02_2d of koksma/sampler.h computes single points of shuffle=1.
+ * koksma_pmj02_2d of koksma/sampler.h computes single points of the set with shuffle=1.
  */
 #include "core/random.h"
 #include "core/status.h"

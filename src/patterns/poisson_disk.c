@@ -128,16 +128,16 @@ static koksma_status throw_until(uint64_t seed, const koksma_args *args, koksma_
         }
         most = placed > most ? placed : most;
         KOKSMA__FAIL_IF(s.work >= s.most, KOKSMA_IMPOSSIBLE,
-                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g in dim %d within its "
-                        "bound of work; n = %zu or less, or a smaller d, would do",
+                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g in dim %d within its limit of "
+                        "work; n = %zu or less, or a smaller d, would do",
                         most, out->n, d, out->dim, most);
         if (restart >= 5 && most < out->n * 9 / 10) {
             break; /* after 6 tries that end far from n points, further tries would fail, too */
         }
     }
     return koksma__fail(KOKSMA_IMPOSSIBLE,
-                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; no d above "
-                        "%.4f is possible, and dart throwing gets to about %.3g",
+                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; no d above %.4f is "
+                        "possible, and dart throwing reaches about %.3g",
                         most, out->n, d, limit, reached(out->dim, torus) * limit);
 }
 
@@ -147,8 +147,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const bool torus = args->params[1] != 0;
     const double limit = koksma__packing_distance(out->n, out->dim, torus);
     KOKSMA__FAIL_IF(d > limit, KOKSMA_IMPOSSIBLE,
-                    "poisson-disk: no %zu points in dim %d are d=%g apart; no d above "
-                    "%.4f is possible, and dart throwing gets to about %.3g",
+                    "poisson-disk: no %zu points in dim %d are d=%g apart; no d above %.4f is possible, and dart "
+                    "throwing reaches about %.3g",
                     out->n, out->dim, d, limit, reached(out->dim, torus) * limit);
     koksma__torus_grid grid = {0};
     const bool gridded = out->dim == 2 && out->n > FEW;

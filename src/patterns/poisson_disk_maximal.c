@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * poisson-disk-maximal: dart throwing on the torus until no point can be added: no two points are closer than d, and
- * no position is further than d from all of them.
+ * no position is further than d from all points.
  *     by distance, d=D: the number of points follows from D (about 0.6965 / D^2); any other n is an error
  *     by number, d=0: darts are thrown at a distance at which slightly fewer than n points fit; then the distance
  *         shrinks, and darts fill the free area that opens, until exactly n points leave no free area (a bisection
@@ -11,7 +11,7 @@
  * distribution of dart throwing and are thus unbiased. Free areas narrower than 2^-30 are ignored. The time is about
  * n log n. In 3 to 6 dimensions (shared/ball_cover.h) sets have n V (d/2)^dim = 0.384, 0.260, 0.171 and 0.109, V the
  * volume of the unit ball: the saturation of random sequential addition (Zhang & Torquato 2013). Time and memory are
- * in proportion to n and grow by a factor of 6 to 10 with each dimension: 400 points take 0.01, 0.2 and 2 s in 3, 4
+ * proportional to n and grow by a factor of 6 to 10 with each dimension: 400 points take 0.01, 0.2 and 2 s in 3, 4
  * and 5 dimensions.
  */
 #include <math.h>
@@ -101,9 +101,9 @@ static koksma_status explain(koksma_status status, const cover *c, double n)
                               n, c->dim, KOKSMA__BALL_BYTES >> 20, feasible(c->dim));
 }
 
-/* Extends a maximal set of fewer than n points, of distance `high`, to one of n points by shrinking the distance. The
-   wanted distance is between `low`, at which there were more than n points, and `high`. Each try gives an estimate of
-   how much the distance has to shrink for one more point. */
+/* Extends a maximal set with fewer than n points and distance `high` to a set of n points by shrinking the distance.
+   The wanted distance is between `low`, at which there were more than n points, and `high`. Each try gives an
+   estimate of how much the distance has to shrink for one more point. */
 static koksma_status shrink_to(cover *c, double high, size_t n, const koksma_run *run)
 {
     const double guess = 0.5 / c->dim / (double)n;
@@ -135,11 +135,10 @@ static koksma_status shrink_to(cover *c, double high, size_t n, const koksma_run
             step = guess;
         }
     }
-    return status
-               ? status
-               : koksma__fail(KOKSMA_IMPOSSIBLE,
-                              "poisson-disk-maximal: the search for %zu points ended with %zu; another seed would do",
-                              n, kept);
+    return status ? status
+                  : koksma__fail(KOKSMA_IMPOSSIBLE,
+                                 "poisson-disk-maximal: the search for %zu points ended with %zu; try another seed",
+                                 n, kept);
 }
 
 /* Searches for a maximal set of n points. The restarts use seeds number first .. first + TRIES - 1. */
@@ -189,7 +188,8 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
 /* Returns whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus, and its
    disks of radius d/2 do not overlap. Therefore n is at least 2/(sqrt(27) d^2), as in the thinnest covering, and at
    most 2/(sqrt(3) d^2), as in the densest packing. In more dimensions n balls of radius d have at least, and n balls
-   of radius d/2 at most, the volume of the torus. For many points any other n fails before the first dart is thrown. */
+   of radius d/2 at most, the volume of the torus. With this test an impossible n fails before the first dart is
+   thrown. */
 static bool is_possible(double d, size_t n, int dim)
 {
     const double area = (double)n * pow(d, dim), packed = koksma__packing_distance(n, dim, true) / d;
@@ -205,10 +205,10 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
                     expected, out->n);
     koksma_status status = d > 0 ? by_distance(seed, d, args->run, &c) : by_number(seed, out->n, args->run, &c);
     if (!status && cover_n(&c) != out->n) {
-        status = koksma__fail(KOKSMA_N,
-                              "poisson-disk-maximal: d=%g with this seed has %zu points, not %zu; n = %zu, or no d, "
-                              "would do",
-                              d, cover_n(&c), out->n, cover_n(&c));
+        status = koksma__fail(
+            KOKSMA_N,
+            "poisson-disk-maximal: d=%g with this seed gives %zu points, not %zu; n = %zu, or no d, would do", d,
+            cover_n(&c), out->n, cover_n(&c));
     }
     if (!status) {
         memcpy(out->xs, *cover_xs(&c), (size_t)c.dim * out->n * sizeof *out->xs);

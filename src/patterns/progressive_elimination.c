@@ -5,8 +5,8 @@
  * rest, and so on. The points are listed in the reverse order of their removal.
  *
  * Source: Yuksel 2015, section on progressive sampling; shared/elimination.c gives the formulas. The first n points
- * of a sequence do not depend on n, but they depend on `length`. Generating any n points takes the time of the whole
- * sequence, so `length` should be no larger than needed.
+ * of a sequence do not depend on n, but they depend on `length`. Generating n points always takes the time of the
+ * whole sequence, so choose a small `length`.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -13,7 +13,7 @@
  * of two seeds are paired at random. If n is not a power of two, the first n points consist of several runs, one for
  * each bit 1 of n; docs/decisions/0014 gives the resulting loss of quality.
  *
- * koksma_r_2d of koksma/sampler.h computes single points of shuffle=1,shift=1.
+ * koksma_r_2d of koksma/sampler.h computes single points of the sequence with shuffle=1,shift=1.
  * Known, 2D, n = 16: D* = 0.243477007, L2 star = 0.067755940.
  */
 #include <koksma/sampler.h>

@@ -4,9 +4,10 @@
  *
  *     x_k = 2^-32 (the sum modulo 2 of the columns V_b of dimension k over the set bits b of i)
  *
- * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008; with numbers=bratley-fox those of Bratley & Fox 1988, which
- * GSL uses; with numbers=groups our own, searched so that dimensions 2 k and 2 k + 1 and dimensions 4 k .. 4 k + 3 are
- * even in the first 2^4 .. 2^12 points (tools/make_sobol_groups.c). Options for scrambling:
+ * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008; with numbers=bratley-fox those of Bratley & Fox 1988,
+ * which GSL uses; with numbers=groups our own, found by a search for even projections on dimensions 2 k and 2 k + 1
+ * and on dimensions 4 k .. 4 k + 3 of the first 2^4 .. 2^12 points (tools/make_sobol_groups.c). Options for
+ * scrambling:
  *     scramble=digital-shift  exclusive or with one random word for each dimension
  *     scramble=lms            a random lower triangular matrix for each dimension, and a digital shift (Matousek
  *                             1998); unlike with owen, pairs of points that share a bit prefix stay correlated

@@ -17,7 +17,7 @@
  *     Q(q, a) = (diagonal of 2q x 2q blocks) Q(2q, a^2),
  *
  * since binomial(2c + c', 2r + r') = binomial(c, r) binomial(c', r') modulo 2. A block-diagonal matrix permutes the
- * values of each digit in base 2^2q, which preserves nets. Up to such permutations the matrix of dimension d is thus
+ * values of each digit in base 2^2q, which preserves nets. Up to these permutations the matrix of dimension d is thus
  * Q(8, a_d), with 256 different a_d; the matrices of 16 consecutive dimensions are Q(4, ...) times one common matrix,
  * and so on. Multiplying all matrices from the right by the same upper triangular matrix only permutes the indices
  * within aligned blocks. The first two dimensions are the (0,2)-sequence of Sobol'.
@@ -82,7 +82,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const size_t bytes = (size_t)out->dim * BITS * sizeof(uint32_t);
     uint32_t(*directions)[BITS] = calloc(1, bytes);
     KOKSMA__REQUIRE_MEMORY(directions, bytes);
-    for (int d = 0; d < out->dim; d++) { /* computes the columns that indices below first + n need */
+    for (int d = 0; d < out->dim; d++) { /* compute the columns that indices below first + n need */
         for (int b = 0; b < BITS && (args->first + out->n - 1) >> b; b++) {
             directions[d][b] = column_of(d, b);
         }

@@ -11,8 +11,8 @@
  *
  * Column c has the coefficient of x^-(c+1) of the series. Source: the aims, base 3 and irreducible polynomials come
  * from Ostromoukhov, Bonneel, Coeurjolly & Iehl (2024), who searched for such matrices; the C_b above, which have the
- * property for every number of points, and the N_g are this project's. That series of rational functions make digital
- * sequences is Niederreiter's (1988). Why t is 0 and 1:
+ * property for every number of points, and the N_g are this project's. Niederreiter (1988) constructed digital
+ * sequences from series of rational functions. Why t is 0 and 1:
  *
  *     Take k rows in all, the first ones of some of the C_b, and a linear combination of them that is not 0. It is a
  *     fraction whose denominator is the product of the powers of the four polynomials in these rows; its degree is k,
@@ -24,8 +24,9 @@
  *     this pair, too.
  *
  * Multiplying the matrices of a group from the right by the same upper triangular matrix only permutes the indices
- * below each power of 3, so all groups have these properties. The N_g are searched (tools/make_ternary_quads.c) so
- * that pairs of dimensions of different groups are even. There are 3^20 points.
+ * below each power of 3, so all groups have these properties. The N_g were found by a search
+ * (tools/make_ternary_quads.c) for even projections on pairs of dimensions of different groups. There are 3^20
+ * points.
  *
  * Known exactly: the first three coordinates are those of faure in three dimensions.
  *

@@ -6,9 +6,9 @@
  *
  *     x_k = (c_k + u_k) / m,   c in {0 .. m-1}^dim, one u for all cells, uniform in [0,1)^dim
  *
- * Source: Ramamoorthi, Anderson, Meyer & Nowrouzezahrai 2012, who find it the best of the stratified patterns for
- * shadows of linear lights, and worse than jittering for planar ones. Known exactly: any two points are at least 1/m
- * apart, on the torus too.
+ * Source: Ramamoorthi, Anderson, Meyer & Nowrouzezahrai 2012, who find that it is the best stratified pattern for
+ * shadows of linear lights, and worse than jittering for planar lights. Known exactly: any two points are at least
+ * 1/m apart, on the torus too.
  */
 #include "core/random.h"
 #include "patterns/patterns.h"

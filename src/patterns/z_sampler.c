@@ -2,7 +2,8 @@
 /*
  * z-sampler: the points of all pixels of a square image, pixel after pixel. Each pixel takes a block of one
  * hash-Owen-scrambled (0,2)-sequence; the blocks are assigned along a Z-curve whose quadrants are in random order at
- * each node. The points of neighbouring pixels together are well distributed, so that their errors differ.
+ * each node. The points of neighbouring pixels are evenly distributed together, so that the errors of these pixels
+ * differ.
  *
  *     point s of pixel (x, y) = sequence(rank(x, y) spp + s),   n = width^2 spp
  *

@@ -43,7 +43,7 @@ static void enter(koksma__balls *s, size_t i)
     s->head[cell] = (uint32_t)i;
 }
 
-/* Empties the cells and makes them fit for distance d; the cover is the whole torus in cubes about d wide. */
+/* Empties the cells and adapts their size to distance d. The new cover is the whole torus, in cubes about d wide. */
 static koksma_status make_grid(koksma__balls *s, double d)
 {
     size_t cells = 1, cubes = 1;
@@ -229,7 +229,7 @@ typedef struct region {
     near_points near;
 } region;
 
-/* Moves the region to where `cube` is: finds all points within d of the centre of any of its cubes. */
+/* Moves the region to the position of `cube`: finds all points within d of the centre of any of its cubes. */
 static void move_region(const koksma__balls *s, const uint32_t *cube, region *r)
 {
     bool same = r->near.limit2 > 0;

@@ -29,7 +29,7 @@ typedef struct koksma__balls {
     uint32_t *next; /* the point before it in the same cell */
     size_t head_room;
     uint32_t along;                        /* number of cubes along an axis of the torus */
-    uint32_t *cubes;                       /* dim whole coordinates for each cube of the cover */
+    uint32_t *cubes;                       /* dim integer coordinates for each cube of the cover */
     size_t n_cubes, cube_room, most_cubes; /* most_cubes: the largest n_cubes so far */
     uint64_t seed, dart;                   /* the random stream of darts and the next dart's number in it */
 } koksma__balls;

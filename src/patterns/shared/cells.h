@@ -40,9 +40,9 @@ KOKSMA__LAB koksma_status koksma__divisors(const char *name, size_t n, double wa
 KOKSMA__LAB koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
                                         size_t *along_rest);
 
-/* Makes points args->first, args->first + 1, ... of a set with one point in every cell, in order of the cells (the cell
-   along the last coordinate changes fastest). A point is at the cell's centre + (u - 1/2) * width cell sizes, with u
-   uniform in [0,1)^dim and width in [0,1]. */
+/* Computes points args->first, args->first + 1, ... of a set with one point in every cell, in order of the cells (the
+   cell along the last coordinate changes fastest). A point is at the cell's centre + (u - 1/2) * width cell sizes,
+   with u uniform in [0,1)^dim and width in [0,1]. */
 koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
                                  koksma_points *out);
 

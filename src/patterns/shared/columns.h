@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Fills the points of patterns that compute one coordinate (a column) of a block of points at a time. The functions
-   allocate no memory, and results are equal to the last bit on any number of threads. */
+   allocate no memory, and results are bitwise equal for any number of threads. */
 #ifndef KOKSMA_PATTERNS_SHARED_COLUMNS_H
 #define KOKSMA_PATTERNS_SHARED_COLUMNS_H
 

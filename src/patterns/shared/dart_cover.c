@@ -3,12 +3,12 @@
  * The grid, the tiles and the shrinking cover of dart throwing. dart_cover.h describes the algorithm; dart_round.c
  * throws a round of darts.
  *
- * Cells are at most d / sqrt(2) wide, so that a cell holds at most one point, and only the 5 x 5 cells around a dart
- * can hold points near it. The cover begins with all cells as squares. After a round each square is cut into four
- * (one level of a quadtree with all leaves at one depth), and a quarter is dropped if all of it, up to its farthest
- * corner, is within d of one point: no dart can be kept there. The remaining quarters are the cover of the next
- * round. The cover shrinks geometrically until no square is left or squares reach the resolution of doubles: then the
- * set is maximal.
+ * Cells are at most d / sqrt(2) wide, so that a cell has at most one point, and only the 5 x 5 cells around a dart
+ * can contain points near it. The cover begins with all cells as squares. After a round each square is cut into four
+ * (one level of a quadtree with all leaves at one depth), and a quarter is dropped if all of it, including its
+ * farthest corner, is within d of one point, because no dart can be kept there. The remaining quarters are the cover
+ * of the next round. The cover shrinks geometrically until no square is left or squares reach the resolution of
+ * doubles: then the set is maximal.
  *
  * Each tile has a list of squares. Around its cells a tile has a border with copies of its neighbours' cells, which
  * are updated between rounds. Kernels thus read one contiguous array.
@@ -26,7 +26,7 @@
 
 enum {
     BORDER = KOKSMA__DART_BORDER,
-    SPARE = 3 /* elements after the last row, because kernels read beyond it */
+    SPARE = 3 /* number of extra elements after the last row, because kernels read beyond it */
 };
 
 #define NONE UINT32_MAX

@@ -83,7 +83,7 @@ static target target_of(const koksma__disks *s, uint32_t number)
     return a;
 }
 
-/* Lists in `far` the numbers of the darts that are not certainly too near to a point; returns how many there are. */
+/* Lists in `far` the numbers of the darts that may be far enough from all points; returns how many there are. */
 static size_t choose_far(const koksma__disks *s, const target *a, size_t count, const uint32_t *words, uint32_t *far)
 {
     if (s->level <= KOKSMA__PACKED_LEVEL) {
@@ -144,8 +144,8 @@ static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const 
     return KOKSMA_OK;
 }
 
-/* Throws a round of darts if there is only one tile: darts come in order of time and are decided at once. From each
-   batch, darts near points of earlier batches are dropped first. */
+/* Throws a round of darts if there is only one tile: darts come in order of time and are decided at once. First the
+   darts of a batch that are near points of earlier batches are dropped. */
 static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
 {
     const target a = target_of(s, 0);
@@ -213,7 +213,7 @@ static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
 typedef struct stopwatch {
     double rate, before, product;
     int factors;
-    double last; /* the process ends once `product` is at most this */
+    double last; /* the process ends when `product` is at most this number */
 } stopwatch;
 
 static bool tick(stopwatch *c, uint32_t word)
@@ -289,7 +289,7 @@ static int earlier(const void *a, const void *b)
     return (d->time > e->time) - (d->time < e->time);
 }
 
-/* Drops the latest points of this round, which begin at number `before`, until n points are left. */
+/* The points of this round begin at number `before`. Drops the latest of them until n points are left. */
 static koksma_status drop_last(koksma__disks *s, size_t before, size_t n)
 {
     const size_t count = s->n - before;

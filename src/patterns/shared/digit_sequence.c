@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Digital sequences in a prime base. Each point is computed from the previous one: for each digit of the index that
- * changes, a column of the matrix is added. On average base / (base - 1) digits change. The value is kept as a whole
- * number below base^digits <= 2^53 and divided once, which gives the nearest double.
+ * changes, a column of the matrix is added. On average base / (base - 1) digits change. The value is stored as a
+ * whole number below base^digits <= 2^53 and divided once, which gives the nearest double.
  */
 #include "patterns/shared/digit_sequence.h"
 

@@ -22,10 +22,10 @@
  *
  * If d_max is above 1/2, several periodic images of one point are within d_max, and each contributes to the weight.
  * Yuksel's implementation does the same: from equal candidates both programs keep the same points (tested for n = 64
- * in 2 to 6 dimensions). A ball of radius d_max contains 2^dim m/n points and images, too many above 8 dimensions:
- * there, and below 4 dimensions, where only sets of at most 11 points have such a d_max, only the nearest image
- * contributes. This changes which points are kept, but hardly how evenly they are distributed: the mean smallest
- * distance of 64 points in 6 dimensions, over 20 sets, is 0.159 with all images and 0.155 with the nearest.
+ * in 2 to 6 dimensions). A ball of radius d_max contains 2^dim m/n points and images, which is too many above 8
+ * dimensions. Below 4 dimensions only sets of at most 11 points have such a d_max. In both cases only the nearest
+ * image contributes. This changes which points remain, but hardly their evenness: the mean smallest distance of 64
+ * points in 6 dimensions, over 20 sets, is 0.159 with all images and 0.155 with the nearest.
  */
 #include "patterns/shared/elimination.h"
 
@@ -65,7 +65,7 @@ typedef struct elimination {
     uint32_t *cell_count;   /* number of points left in each cell */
     uint32_t *members;      /* the points of all cells, cell by cell */
     uint32_t *member_place; /* index of a point in `members` */
-    size_t looks;           /* distances computed since the last check of `run` */
+    size_t looks;           /* number of distances computed since the last check of `run` */
 } elimination;
 
 double koksma__elimination_radius(size_t n, int dim)
@@ -146,7 +146,7 @@ static size_t size_cells(elimination *e, bool scaled)
     return count;
 }
 
-/* Renumbers the points cell by cell; within a cell they stay in the given order. */
+/* Renumbers the points cell by cell; within a cell they keep their order. */
 static void sort_into_cells(elimination *e, const double *points, const double *scale, size_t cells)
 {
     const size_t dim = (size_t)e->dim;

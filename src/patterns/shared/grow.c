@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Stochastic generation (grow.h): doubles a set level by level. New point start + i of a level goes into the other
- * half of its partner's stratum, and the digits below are new random bits. It takes O(n) for each coordinate, and
- * needs no tree and no comparisons of points.
+ * Stochastic generation (grow.h): doubles a set level by level. New point start + i of a level is put into the half
+ * of its partner's stratum in which the partner is not; the digits below are new random bits. It takes O(n) for each
+ * coordinate, and needs no tree and no comparisons of points.
  */
 #include "patterns/shared/grow.h"
 

@@ -34,8 +34,8 @@ typedef struct koksma__lattice_search {
 koksma_status koksma__lattice_open(koksma__lattice_search *search, size_t n, const koksma_run *run);
 void koksma__lattice_close(koksma__lattice_search *search);
 
-/* koksma__lattice_start resets the search to no coordinates. koksma__lattice_extend appends a coordinate with the
-   multiplier z and returns what it adds to the sum, in a unit that is the same for all z. */
+/* koksma__lattice_start restarts the search without coordinates. koksma__lattice_extend appends a coordinate with the
+   multiplier z and returns the amount that this adds to the sum, in a unit that is the same for all z. */
 void koksma__lattice_start(koksma__lattice_search *search);
 double koksma__lattice_extend(koksma__lattice_search *search, uint64_t z);
 

@@ -8,7 +8,7 @@
  *
  * All columns except the first are stored in the memory of the output points: each block of points contains its
  * coordinates column by column, until the columns are transposed into rows. Before a number is computed, its memory
- * holds two random words.
+ * contains two random words.
  */
 #include "patterns/shared/owen_digits.h"
 
@@ -103,7 +103,7 @@ static void place_relatives(const column *c, size_t r, size_t step, double width
 }
 
 /* Computes, in small bases, the relatives of points first .. end - 1, which all have the same number of relatives;
-   takes as many points at a time as are contiguous and have contiguous relatives. Base 3 is drawn differently: the
+   handles at a time as many points as are contiguous and have contiguous relatives. Base 3 is drawn differently: the
    other two digits come in cyclic order or in the opposite order. */
 static void place_alike(const column *c, uint32_t relatives, size_t first, size_t end, size_t step, double width)
 {
@@ -164,8 +164,8 @@ static void place_all(const column *c)
     }
 }
 
-/* Draws two random words for each number of column k. Words come in fours, for two numbers; a last single number uses
-   half of them. */
+/* Draws two random words for each number of column k. Words are drawn four at a time, for two numbers; a last single
+   number uses only two of them. */
 static void draw(const job *j, int k)
 {
     const koksma__kernel_table *kernels = koksma__kernels();

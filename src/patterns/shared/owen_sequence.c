@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Owen's nested uniform scrambling of a digital sequence in base b, by stochastic generation (Helmer, Christensen &
- * Kensler 2021). If each coordinate is a (0,1)-sequence, each of its strata of width b^-l holds one of the first b^l
- * points, r, and, for each d with 0 < d < b, one of the points d b^l .. (d + 1) b^l - 1, called d b^l + r'. Digit l
- * of r is known from its value. Its relatives d b^l + r' get the other b - 1 digits, drawn without replacement, and
- * uniform digits below. The groups of relatives of level l share no point, and every number is computed once: O(n)
- * for each coordinate.
+ * Kensler 2021). If each coordinate is a (0,1)-sequence, each of its strata of width b^-l contains one of the first
+ * b^l points, called r, and for each d with 0 < d < b one of the points d b^l .. (d + 1) b^l - 1, called d b^l + r'.
+ * Digit l of r is known from its value. Its relatives d b^l + r' get the other b - 1 digits, drawn without
+ * replacement, and uniform digits below. The groups of relatives of level l are disjoint, and every number is
+ * computed once: O(n) for each coordinate.
  *
  * r' is r plus d times a vector, digit by digit modulo b, without carries. Tables of about sqrt(b^l) entries for each
  * d give the sums for the lower and the upper half of the digits of r.

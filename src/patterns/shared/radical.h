@@ -15,7 +15,8 @@ enum { KOKSMA__RADICAL_TABLE = 1024 };
    are not mapped. */
 typedef uint32_t (*koksma__digit)(const void *context, uint32_t base, int j, uint32_t a);
 
-/* One coordinate. The table gives the mirrored low `low_digits` digits; the others are added. */
+/* One coordinate. The table has the mirrored low digits, `low_digits` of them; the contribution of the others is
+   added. */
 typedef struct koksma__radical {
     uint32_t base;
     int digits, low_digits; /* number of digits of the numerator; number of digits of the table's indices */

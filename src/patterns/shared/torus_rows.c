@@ -75,7 +75,7 @@ size_t koksma__torus_rows_most(const koksma__torus_rows *r, double radius)
     return 2 * (count < r->cells ? count : r->cells);
 }
 
-/* Adds the runs of cells `first` to `last` of a row; column numbers may be outside the grid by up to one period, and no
+/* Adds the runs of cells `first` to `last` of a row; column indices may be outside the grid by up to one period. No
    cell is added twice. Returns the number of runs. */
 static size_t add_row(const koksma__torus_rows *r, long row, long first, long last, koksma__run_of_points *runs)
 {

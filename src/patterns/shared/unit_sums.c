@@ -3,9 +3,9 @@
  * The sums over i of product[i] B_2({i z / n}) for all z that are units modulo n, in O(n log n) steps, for any n:
  * the fast component-by-component construction of Nuyens & Cools 2006 (primes) and 2006a (other n).
  *
- * The i with gcd(i, n) = n/m are r n/m, where r is a unit modulo m: they make a block for each divisor m > 1 of n. In
- * a block the sum depends only on z modulo m, and is a correlation over the group of units modulo m, where u and -u
- * are identified because B_2(x) = B_2(1 - x). Fourier transforms are done along all axes of the group except the
+ * The i with gcd(i, n) = n/m are r n/m, where r is a unit modulo m: they form one block for each divisor m > 1 of n.
+ * In a block the sum depends only on z modulo m, and is a correlation over the group of units modulo m, where u and
+ * -u are identified because B_2(x) = B_2(1 - x). Fourier transforms are done along all axes of the group except the
  * first. Each line along the first axis is then correlated with a precomputed kernel. A line whose length is a power
  * of two is correlated cyclically; others are padded with zeros. If the first axis is cut (unit_group.h), the kernel
  * continues with a sign: the value of the line's character at the product of the other axes' elements of half their
@@ -164,8 +164,8 @@ static void list_units(const koksma__unit_sums *s, block *b)
     }
 }
 
-/* Transforms forward along all axes except the first. If re and im are exchanged, it computes the inverse transform
-   up to a factor. */
+/* Does the forward transforms along all axes except the first. If re and im are exchanged, it computes the inverse
+   transform up to a factor. */
 static void transform_axes(koksma__unit_sums *s, const block *b, double *re, double *im)
 {
     size_t stride = b->axes[0].length;

@@ -2,16 +2,16 @@
 /*
  * Void and cluster (Ulichney 1993): the energy of a pixel is the sum of Gaussians (standard deviation 1.5 pixels, on
  * the torus, cut off at 9 pixels along each axis) about the pixels that are set. A tenth of the pixels is set at
- * random; then the pixel in the tightest cluster is moved to the largest void until that changes nothing. Removing
+ * random; then the pixel in the tightest cluster is moved to the largest void, until this changes nothing. Removing
  * the pixel in the tightest cluster again and again gives the ranks of these pixels; filling the largest void again
  * and again gives the other ranks. On the torus the largest void of the set pixels is the tightest cluster of the
  * unset pixels.
  *
- * A change of one pixel changes the energies of the at most 19 x 19 pixels about it. The largest void and the
- * tightest cluster are the roots of two pyramids: a node of level 1 has the best of 2 x 2 pixels, a node of level l +
- * 1 the best of 2 x 2 nodes of level l. A change updates 100 nodes of level 1, 36 of level 2, and so on, a bounded
- * number for each level, so that a mask takes O(size^2 log(size)) time. Energies are sums of doubles in a fixed
- * order, and ties go to the pixel with the lowest index: the ranks do not depend on the instruction set.
+ * A change of one pixel changes the energies of up to 19 x 19 pixels around it. The largest void and the tightest
+ * cluster are the roots of two pyramids: a node of level 1 has the best of 2 x 2 pixels, a node of level l + 1 the
+ * best of 2 x 2 nodes of level l. A change updates 100 nodes of level 1, 36 of level 2, and so on, a bounded number
+ * for each level, so that a mask takes O(size^2 log(size)) time. Energies are sums of doubles in a fixed order, and
+ * ties go to the pixel with the lowest index: the ranks do not depend on the instruction set.
  */
 #include <koksma/mask.h>
 
@@ -127,7 +127,7 @@ static void change(mask *m, size_t at, bool on)
     }
 }
 
-/* Makes later changes update the pyramid of one kind only. */
+/* After this call changes update only the pyramid of one kind. */
 static void maintain_only(mask *m, int kind)
 {
     const int all[2] = {0, m->size - 1};
@@ -169,7 +169,8 @@ static koksma_status begin(mask *m, uint64_t seed, const koksma_run *run, size_t
     return KOKSMA_OK;
 }
 
-/* Computes the ranks of the first `count` pixels by removing them one by one, and sets them again. */
+/* Computes the ranks of the first `count` pixels by removing them one by one. Afterwards it sets these pixels again.
+   */
 static void rank_first(mask *m, size_t count, uint32_t *ranks)
 {
     for (size_t i = 0; i < m->n; i++) {

@@ -5,9 +5,9 @@
  * are those of void_cluster.c: a tenth of the voxels is set at random, clusters are moved to voids, these voxels are
  * ranked by removing the tightest cluster, and the others by filling the largest void.
  *
- * The largest void and the tightest cluster are found by a tournament over all voxels: node i of a binary tree holds
- * the better voxel of nodes 2 i and 2 i + 1. A change of a voxel updates the paths above the at most 9^3 voxels about
- * it. Ties go to the voxel with the lowest index.
+ * The largest void and the tightest cluster are found by a tournament over all voxels: node i of a binary tree has
+ * the better voxel of nodes 2 i and 2 i + 1. A change of a voxel updates the paths above up to 9^3 voxels around it.
+ * Ties go to the voxel with the lowest index.
  */
 #include <koksma/mask.h>
 
