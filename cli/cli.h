@@ -157,7 +157,7 @@ typedef struct cli_rows cli_rows;
 const char *cli_number(double value, char text[CLI_NUMBER]);
 void cli_set_style(int digits, bool all_columns); /* sets the values of --digits and --long */
 
-/* Opens the output of rows. With json each row is printed when it ends; as text all rows are printed by
+/* Begins the output of rows. With json each row is printed when it ends; as text all rows are printed by
    cli_rows_close. */
 cli_rows *cli_rows_open(bool json);
 void cli_row_text(cli_rows *rows, const char *key, const char *value);

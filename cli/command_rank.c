@@ -48,7 +48,7 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
             return CLI_USAGE;
         }
         static char text[KOKSMA_MAX_PATTERNS_TEXT];
-        koksma_render_options options = {0}; /* only its patterns are used */
+        koksma_render_options options = {0}; /* only the patterns in this struct are used */
         if (p->n == MAX_PATTERNS) {
             return cli_usage_error(arguments, "--patterns: more than %d", MAX_PATTERNS);
         }

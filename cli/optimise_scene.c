@@ -232,7 +232,7 @@ static koksma_status find_shares(scene_job *j)
 
 /* ---- Candidates -------------------------------------------------------------------------------------------- */
 
-/* For each measure n times the mean square for n random points, on the line and in the plane. */
+/* For each measure the mean square for n random points, multiplied by n; on the line and in the plane. */
 static const struct {
     const char *measure;
     double line, plane;

@@ -26,7 +26,7 @@ static void put_characters(FILE *out, const char *text)
     }
 }
 
-/* Prints a pattern, measure or scene in quotes. A relative path in it becomes an absolute path from the current
+/* Prints a pattern, measure or scene in quotes. A relative path in the text becomes an absolute path from the current
    directory. */
 static void put_item(FILE *out, const char *item, bool is_scene)
 {

@@ -5,7 +5,7 @@
  * that of the Stirling numbers of the first kind modulo 2, and this matrix shifted by a row and a column.
  *     x(2^l + i) is at a random position in the empty half of the stratum of width 2^-l of x(i ^ partner_l)
  *
- * Source: Christensen, Kensler & Kilpatrick 2018; Helmer, Christensen & Kensler 2021 for the generation.
+ * Source: Christensen, Kensler & Kilpatrick 2018; the generation is from Helmer, Christensen & Kensler 2021.
  *     shuffle=1    points of the same matrices in random order, scrambled by a hash as in sobol:scramble=hash-owen
  *
  * With shuffle=1 every aligned block of 2^m points is a (0,m,2)-net, and the points of two seeds are paired at

@@ -6,7 +6,7 @@
  *     x = x' XOR the mask for the first `levels` bits of x', x' from pmj02; y likewise, with other masks
  *     energy of 4^d points = sum over pairs in adjacent cells of max(0, 1 - |p - q|^2 / (1.2 / 2^d)^2)^8
  *
- * Source: Christensen, Kensler & Kilpatrick 2018 for the aim. They choose each new point among candidates that
+ * Source: the aim is that of Christensen, Kensler & Kilpatrick 2018. They choose each new point among candidates that
  * preserve the net. But a (0,m,2)-net of 2^m points determines the position of a new point up to 1/2^(m+1). Every box
  * of area 2^-m has one old and one new point, in opposite quadrants. The box of one shape therefore determines the
  * next bit of each coordinate, these bits determine the box of the next shape, and so on. Only the position in a
