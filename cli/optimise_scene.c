@@ -496,7 +496,7 @@ static bool parse(scene_job *j)
     }
     if (!cli_text(arguments, "n", NULL) || !cli_text(arguments, "output", NULL)) {
         cli_usage_error(arguments, "%s, is missing",
-                        cli_text(arguments, "n", NULL) ? "-o FILE, where the set is kept"
+                        cli_text(arguments, "n", NULL) ? "-o FILE, the file for the set"
                                                        : "-n SPP, the samples per pixel");
         return false;
     }

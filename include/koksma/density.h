@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Points whose density follows an image, and points on the surface of a model. Part of libkoksma-lab. Four patterns
- * can do both:
+ * support both functions below:
  *
  *     random                   independent points that follow the density or area: the baseline
  *     sample-elimination       weighted sample elimination of `factor` candidates a point (Yuksel 2015)
