@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads the options of adaptive sampling for `koksma render` (adaptive_options.h) and refuses options that have no
- * effect with the chosen method. Adds the method's numbers to the row of results. Writes --counts, an image of the
- * number of samples of each pixel (in a PNG file divided by the largest number, so that 1 is white), and --strata, a
- * drawing of one pixel's strata.
+ * effect with the chosen method. Adds the statistics of the adaptive method to the row of results. Writes --counts,
+ * an image of the number of samples of each pixel (in a PNG file divided by the largest number, so that 1 is white),
+ * and --strata, a drawing of one pixel's strata.
  */
 #include "adaptive_options.h"
 
@@ -11,14 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns false, after a usage error, if an option is given that has no effect because the method draws its own
+/* Returns false, after a usage error, if an option is given that has no effect with a method that places its own
    samples. */
 static bool check_idle(const cli_arguments *arguments, const koksma_adaptive *method)
 {
     static const char *const idle[] = {"pattern", "pairing"};
     for (size_t i = 0; i < sizeof idle / sizeof *idle; i++) {
         if (method->own_samples && cli_flag(arguments, idle[i])) {
-            cli_usage_error(arguments, "--%s: adaptive method %s draws strata of its own", idle[i], method->name);
+            cli_usage_error(arguments, "--%s has no effect: the adaptive method %s places its own samples", idle[i],
+                            method->name);
             return false;
         }
     }
@@ -62,7 +63,7 @@ bool cli_adaptive_options(const cli_arguments *arguments, cli_adaptive *adaptive
     *code = CLI_USAGE;
     for (size_t i = 0; i < sizeof needy / sizeof *needy; i++) {
         if (!text && cli_flag(arguments, needy[i])) {
-            cli_usage_error(arguments, "--%s goes with --adaptive METHOD", needy[i]);
+            cli_usage_error(arguments, "--%s needs --adaptive METHOD", needy[i]);
             return false;
         }
     }

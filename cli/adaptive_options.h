@@ -9,12 +9,13 @@
 #include "cli.h"
 
 #define CLI_ADAPTIVE_OPTIONS                                                                                         \
-    {0, "adaptive", "METHOD", "more samples in pixels that need them; see 'koksma list adaptive'"},                  \
-        {0, "budget", "SPP", "with --adaptive: the most samples a pixel, on average (default: no limit)"},           \
+    {0, "adaptive", "METHOD", "take more samples in pixels that need them; see 'koksma list adaptive'"},             \
+        {0, "budget", "SPP", "with --adaptive: largest mean number of samples per pixel (default: no limit)"},       \
         {0, "strata", "X,Y:FILE", "with --adaptive: draw how pixel X,Y was split; .svg, .pdf or .png"},              \
-        {0, "probe", "K", "with --adaptive: K more samples per split tell if it was needed (default: 0)"},           \
+        {0, "probe", "K",                                                                                            \
+         "with --adaptive: take K more samples to test whether each split was needed (default: 0)"},                 \
     {                                                                                                                \
-        0, "counts", "FILE", "image of the number of samples of each pixel; in .png 1 is the largest"                \
+        0, "counts", "FILE", "write an image of the number of samples of each pixel; in .png white is the largest"   \
     }
 
 /* Options and results of adaptive sampling. Without --adaptive, options.method is NULL and every pixel has the same

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Prints rows as aligned text. Consecutive rows with the same keys form a block, which has its own header and column
- * widths. A block that is wider than the terminal is made to fit in these steps. A block of one row is printed as one
- * line per key. In other blocks columns with the same text in all rows go into a line above the table. Of the
+ * widths. A block that is wider than the terminal is made narrower in these steps. A block of one row is printed as
+ * one line per key. In other blocks columns with the same text in all rows go into a line above the table. Of the
  * remaining columns, those that fit are kept from left to right; a column of text needs at least LEAST characters and
  * continues longer texts on further lines. A line below the table names the columns that are left out.
  */
@@ -43,7 +43,7 @@ static const cli_cell *cell_at(const block *b, size_t row, size_t column)
     return &b->cells[row * (b->columns + 1) + column];
 }
 
-/* The width of UTF-8 text in terminal columns: the number of bytes that begin a character. */
+/* Returns the width of UTF-8 text in terminal columns: the number of bytes that begin a character. */
 static int width_of(const char *text, size_t length)
 {
     int width = 0;
@@ -228,7 +228,7 @@ static size_t columns_of(const cli_cell *row, size_t n)
     return columns;
 }
 
-/* Whether the cells begin with a row that has the same keys as the row `other`. */
+/* Returns whether the cells begin with a row that has the same keys as the row `other`. */
 static bool same_keys(const cli_cell *row, size_t n, const cli_cell *other, size_t columns)
 {
     for (size_t i = 0; i < columns; i++) {

@@ -20,7 +20,7 @@ const char *cli_title(const char *source, char text[CLI_CHART_LABEL])
     const char *label = cli_label(source), *n = NULL, *dim = NULL;
     size_t length = strlen(label);
     for (const char *at = cli_source_is_pattern(source) ? strrchr(label, '@') : NULL;
-         at && !dim;) { /* finds @N, or @N and @DIM, at the end */
+         at && !dim;) { /* the loop finds the endings @N, or @N and @DIM */
         dim = n;
         n = at;
         length = (size_t)(at - label);

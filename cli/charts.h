@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Draws the curves of `koksma plot`: charts of rows, panels of points or spectra, and the picture file that holds
-   them. */
+/* Draws the curves of `koksma plot`: charts of rows, panels of points or spectra, and writes them to a picture file.
+   */
 #ifndef KOKSMA_CLI_CHARTS_H
 #define KOKSMA_CLI_CHARTS_H
 
@@ -26,8 +26,8 @@ double *cli_next_numbers(const cli_chart_store *s);
 /* Adds the next curve to the store: the first n numbers of each of its arrays. */
 void cli_push_curve(cli_chart_store *s, size_t n, size_t colour, const char *label);
 
-/* Computes the rows of all operands and makes a chart of them, with the axes of `curve`. The caller closes the store,
-   also after a failure. Returns the exit code. */
+/* Computes the rows of all operands and makes a chart of them, with the axes of `curve`. The caller must close the
+   store, even after a failure. Returns the exit code. */
 int cli_chart_open(cli_curves *c, const cli_curve *curve, cli_chart_store *s, koksma_chart *chart);
 
 /* Draws the rows of all operands in one chart, with the axes of the curve c->curve. Returns the exit code. */

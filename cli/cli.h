@@ -16,8 +16,8 @@ typedef struct cli_option {
     const char *name; /* an option table ends at a NULL name */
     /* NULL for a flag. Otherwise the argument as --help shows it: its choices, "csv|json|npy", or a noun, where
        "MEASURE,.." is a list. An option whose argument ends in "..." may be repeated; its values are joined, one per
-       line. The argument of a file to write has the endings that are accepted, "FILE.txt|.csv". Completion scripts
-       choose what they offer by the noun. */
+       line. The argument of a file to write has the endings that are accepted, "FILE.txt|.csv". The noun decides
+       which completions the completion scripts offer. */
     const char *argument;
     const char *help;
 } cli_option;
@@ -40,7 +40,8 @@ struct cli_arguments {
     /* values[i] of option i: "" for a flag that is set, NULL when the option is not given */
     const char *values[CLI_MAX_OPTIONS];
     char *joined[CLI_MAX_OPTIONS]; /* owns the values of options that were repeated */
-    char **made;                   /* owns the operands where -p and -n may add some (cli/source.c) */
+    char **made;                   /* owns the operands of commands whose options -p and -n can add operands
+                                   (cli/source.c) */
     int n_made;
 };
 
@@ -57,9 +58,9 @@ const cli_command *cli_command_find(const char *name);
 /* Options that most commands have, for the end of an option table. */
 #define CLI_ROW_OPTIONS                                                                                              \
     {0, "json", NULL, "print rows as JSON, one object per line, instead of aligned text"},                           \
-        {0, "long", NULL, "all columns, also those that do not fit the terminal"},                                   \
+        {0, "long", NULL, "print all columns, also those that do not fit the terminal"},                             \
     {                                                                                                                \
-        0, "digits", "N", "significant digits of numbers as text, 1 to 17 (default: 5; JSON has all)"                \
+        0, "digits", "N", "significant digits of numbers in text output, 1 to 17 (default: 5; JSON has all)"         \
     }
 #define CLI_RUN_OPTIONS                                                                                              \
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
@@ -70,11 +71,11 @@ const cli_command *cli_command_find(const char *name);
         'q', "quiet", NULL, "print only errors to stderr"                                                            \
     }
 
-/* Read before a command runs, as it applies to every scene that the command opens. */
+/* This option is read before the command runs, because it applies to every scene that the command opens. */
 #define CLI_UNKNOWN_OPTION                                                                                           \
     {                                                                                                                \
         0, "unknown", "approximate|refuse",                                                                          \
-            "what an unknown part of a pbrt or Mitsuba scene gives: a warning (approximate, default) or an error"    \
+            "unknown parts of pbrt or Mitsuba scenes cause a warning (approximate, default) or an error (refuse)"    \
     }
 
 /* cli_text returns the text of an option, or `fallback` when the option is not given; cli_flag returns whether a flag
@@ -114,8 +115,8 @@ int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOK
 /* Prints the library's error text on stderr. Returns the exit code of `status`. */
 int cli_fail(const cli_arguments *arguments, koksma_status status);
 
-/* Prints that memory is exhausted, unless an error was printed before, which may have the same cause. Returns the
-   exit code. */
+/* Prints that memory is exhausted. It prints nothing if an error was printed before, because that error may have the
+   same cause. Returns the exit code. */
 int cli_no_memory(void);
 
 /* Copies item i (0..) of a list such as "a,b:x=1,y=2,c" to `item`. A comma between two parameters of a spec does not
@@ -128,14 +129,14 @@ typedef struct cli_work {
     koksma_run run;      /* the caller passes &work.run to the library */
     const char *what;    /* the text before the progress bar; may be changed while running */
     double begin, share; /* the progress of `run`, 0 to 1, is shown as begin to begin + share */
-    double fraction;     /* the progress that is shown, 0 to 1; it never decreases */
+    double fraction;     /* the progress shown so far, 0 to 1; it never decreases */
     double started_s, updated_s;
 } cli_work;
 
 /* Reads CLI_RUN_OPTIONS and starts the clock of the progress line. Returns false after an error. From this call on
    the first Ctrl-C makes keep_going return false. */
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
-/* the work that follows is part i (0..) of n equal parts of the progress bar */
+/* Begins part i (0..) of n equal parts of the progress bar. */
 void cli_work_part(cli_work *work, size_t i, size_t n);
 /* Clears the progress line if one is shown. Printing a message or a row clears it, too. */
 void cli_work_end(void);
@@ -156,11 +157,12 @@ typedef struct cli_rows cli_rows;
 const char *cli_number(double value, char text[CLI_NUMBER]);
 void cli_set_style(int digits, bool all_columns); /* sets the values of --digits and --long */
 
-/* Opens the output of rows. With json each row is printed when it ends; as text all rows are printed by
+/* Begins the output of rows. With json each row is printed when it ends; as text all rows are printed by
    cli_rows_close. */
 cli_rows *cli_rows_open(bool json);
 void cli_row_text(cli_rows *rows, const char *key, const char *value);
-void cli_row_number(cli_rows *rows, const char *key, double value); /* in JSON %.17g or null, as text cli_number() */
+void cli_row_number(cli_rows *rows, const char *key, double value); /* a number: %.17g or null in JSON, cli_number()
+                                                                       in text */
 void cli_row_whole(cli_rows *rows, const char *key, uint64_t value);
 void cli_row_flag(cli_rows *rows, const char *key, bool value);
 /* json: a complete JSON value */

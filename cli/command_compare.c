@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma compare`: compares images with a reference. Prints the size of the error, as means over the images, and the
+/* `koksma compare`: compares images with a reference. Prints means over the images of the size of the error, and the
    coherence of the errors of all images. */
 #include <math.h>
 #include <stdio.h>
@@ -16,13 +16,15 @@ typedef struct comparison {
     size_t images;
     koksma_image_error error;                    /* sums over the images */
     cli_metrics metrics;                         /* rmse, and the metrics of --metric */
-    koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images; top is that of the last image */
+    koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images, except `top`, which is that of the last
+                                                    image */
     /* the path of the image that is being compared, or NULL */
     const char *compared;
 } comparison;
 
 /* Adds the columns of the metrics. The first metric is rmse, which put_row prints already. JSON rows also have the
-   value without the 0.1 % of the pixels with the largest error, and the share of these pixels in the error. */
+   value without the 0.1 % of the pixels that have the largest error, and the fraction of the error in these pixels.
+   */
 static void put_metrics(cli_rows *rows, const comparison *c, bool json)
 {
     for (size_t i = 0; i < c->metrics.n; i++) {
@@ -154,7 +156,8 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments, "it takes one image or more, and then the reference");
     }
     if (output && last > 1) {
-        return cli_usage_error(arguments, "--output: a picture of the errors of one image, not of %d", last);
+        return cli_usage_error(
+            arguments, "--output: it draws the errors of one image, but the command line has %d images", last);
     }
     if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most) || !cli_metrics_parse(arguments, &c.metrics)) {
         return CLI_USAGE;
@@ -172,7 +175,8 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'o', "output", "FILE{images}", "write an image of the absolute error (with one image)"},
-    {'m', "metric", "METRIC,..|all", "more metrics, such as relmse, smape or hdr-flip ('koksma list metrics')"},
+    {'m', "metric", "METRIC,..|all",
+     "print further metrics, such as relmse, smape or hdr-flip ('koksma list metrics')"},
     {0, "max-mean", "E", "exit with code 1 if the mean absolute error is above E"},
     CLI_ROW_OPTIONS,
     {0},
@@ -180,22 +184,20 @@ static const cli_option options[] = {
 
 const cli_command cli_command_compare = {
     .name = "compare",
-    .summary = "compare images with a reference: size of the error, noise or bands",
+    .summary = "compare images with a reference: size and kind of the error",
     .synopsis = "IMAGE... REFERENCE [-m METRIC,..] [-o DIFFERENCE] [--max-mean E]",
     .details =
         "Prints mean, standard deviation and maximum of the absolute error in luminance, and the root mean square\n"
         "error. With several images (one pattern with several seeds) it prints their means.\n"
-        "--metric adds columns: each metric is a mean over the pixels (of rmse the root of it). A warning says when "
-        "the\n"
-        "0.1 % of the pixels with the largest error (fireflies) carry half of it or more; --json has this share, and "
-        "the\n"
-        "value without these pixels (..._robust). FLIP is what a viewer sees at ppd pixels per degree (67: 3840 "
-        "pixels\n"
-        "on 0.7 m, seen from 0.7 m).\n"
+        "--metric adds a column for each metric: its mean over the pixels, for rmse the root of the mean square. A "
+        "warning appears if the 0.1 % of the pixels with the largest error (fireflies) have at least half of the "
+        "total error; --json has this fraction, and the value without these pixels (..._robust). FLIP estimates the "
+        "error that a viewer sees at ppd pixels per "
+        "degree of visual angle (67 for 3840 pixels on 0.7 m, seen from 0.7 m).\n"
         "coherence: the peak of the error's power spectrum divided by its mean, averaged over the images. For white\n"
-        "noise 95 % of the values lie from noise_low to noise_high. 'coherent' means that fewer than 0.5 % of noise\n"
-        "reaches the value: the error has bands or another pattern, at frequency_x and frequency_y cycles a pixel\n"
-        "(--json). Every pixel must be a finite number.\n",
+        "noise 95 % of the values lie from noise_low to noise_high. 'coherent' means that white noise has such a "
+        "value with a probability below 0.5 %: the error has bands or another pattern, at frequency_x and "
+        "frequency_y cycles a pixel (--json). Every pixel must be a finite number.\n",
     .examples = "koksma compare ball.exr reference.exr\n"
                 "koksma compare ball.exr reference.exr -o difference.png\n"
                 "koksma compare ball.exr reference.exr -m relmse:epsilon=0.001,hdr-flip\n",

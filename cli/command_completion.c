@@ -16,7 +16,7 @@
 
 enum { ANSWER_SIZE = 2048 };
 
-/* What a shell offers as completions of an argument. */
+/* The completions that a shell offers for an argument. */
 typedef struct answer {
     char words[ANSWER_SIZE]; /* names, and calls of the script's function that prints the names of a table */
     bool list, files;        /* list: the argument is a list with commas; files: file names, if no word fits */
@@ -120,8 +120,8 @@ static const char *usage_at(const cli_command *command, size_t i)
     return line;
 }
 
-/* Whether a usage begins with literal words to choose from, such as "run", that are followed by other operands.
-   *verbs: these words. */
+/* Returns whether a usage begins with literal words to choose from, such as "run", that are followed by other
+   operands. *verbs: these words. */
 static bool has_verbs(const char *usage, answer *verbs)
 {
     *verbs = (answer){.list = false};
@@ -235,8 +235,8 @@ static void put_commands(void)
 static const char names_function[] = "_koksma_names() { koksma list \"$1\" 2>/dev/null | sed 1d | cut -d' ' -f1; }\n";
 
 /* Bash code that completes a word with a colon by means of `koksma completion spec`. Bash splits words at colons and
-   equals signs and replaces only the part after the last of these, so the code removes the part before from the
-   completions. */
+   equals signs and replaces only the part after the last of these. The code therefore removes the part before it from
+   the completions. */
 static const char bash_specs[] =
     "  local word=${COMP_LINE:0:COMP_POINT}; word=${word##* }\n"
     "  if [[ $word = *:* ]]; then\n"
@@ -255,7 +255,7 @@ static void put_bash(void)
            "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W '",
            names_function);
     put_commands();
-    /* bash makes an equals sign a word, so the option may be two words before the cursor */
+    /* bash treats an equals sign as a word, so the option may be two words before the cursor */
     printf("' -- \"$current\"))\n    return\n  fi\n%s"
            "  if [ \"$current\" = = ]; then current=''; "
            "elif [ \"$before\" = = ]; then before=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
@@ -365,8 +365,8 @@ static void put_fish(void)
     }
 }
 
-/* Returns the parameters of the pattern, measure, integrand or adaptive method `name`, or NULL if there is none of
-   that name. */
+/* Returns the parameters of the pattern, measure, integrand or adaptive method `name`, or NULL if nothing has this
+   name. */
 static const koksma_param *params_of(const char *name)
 {
     const koksma_pattern *pattern = koksma_pattern_find(name);
@@ -436,7 +436,8 @@ const cli_command cli_command_completion = {
     .name = "completion",
     .summary = "print a shell's completion script",
     .synopsis = "bash|zsh|fish\nspec WORD",
-    .details = "In bash: source <(koksma completion bash). 'make install' puts the scripts where the shells look.\n"
+    .details = "To use it in bash, run: source <(koksma completion bash). 'make install' installs the scripts in the "
+               "folders in which the shells search.\n"
                "spec: prints what may follow behind the colon of a pattern or measure, for the scripts.",
     .examples = "koksma completion bash >koksma.bash\n",
     .options = options,

@@ -53,7 +53,8 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     CLI_SOURCE_OPTIONS,
     CLI_CURVE_OPTIONS("curve", "2 sqrt(n); quality: 7 sqrt(n)"),
-    {'o', "output", "FILE.npy|.csv|.txt|{images}", "{curve:output}: the grid, as numbers or as a grey image"},
+    {'o', "output", "FILE.npy|.csv|.txt|{images}",
+     "{curve:output}: write all values to this file, as numbers or as a grey image"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -61,7 +62,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_curve = {
     .name = "curve",
-    .summary = "measures that are functions: power spectrum, pair correlation",
+    .summary = "print measures whose values are functions, such as power spectra",
     .synopsis = "{curve} FILE|-|SPEC@N... [-p PATTERN,..|all -n N,..] [--trials T] [--json]",
     .details = "{curve-meanings}"
                "`koksma plot --curve` draws them.",

@@ -10,7 +10,8 @@
 
 #include "cli.h"
 
-/* The items of an option's list: copies in texts, and pointers to these in at. The list "none" has no items. */
+/* The items of an option that is a list: `texts` has copies of the items, and `at` has pointers to these. The list
+   "none" has no items. */
 typedef struct list {
     char texts[KOKSMA_MAX_SHEET_SCENES][KOKSMA_MAX_SPEC];
     const char *at[KOKSMA_MAX_SHEET_SCENES];
@@ -71,7 +72,7 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments, "--output %s: a datasheet is written as .html or .json", output);
     }
     if (is_page && to_stdout) {
-        return cli_usage_error(arguments, "--json: it goes with no --output, or one that ends in .json");
+        return cli_usage_error(arguments, "--json: it excludes an --output that does not end in .json");
     }
     if (!read_list(arguments, "beside", KOKSMA_MAX_BESIDE, &beside) ||
         !read_list(arguments, "scenes", KOKSMA_MAX_SHEET_SCENES, &scenes) ||
@@ -101,37 +102,32 @@ static const cli_option options[] = {
     {0, "scenes", "SCENE,..|none", "scenes to render (default: ball,checker,cornell)"},
     CLI_UNKNOWN_OPTION,
     {'m', "metric", "METRIC", "metric of the errors in scenes: mae (default), relmse, ldr-flip, ..."},
-    {0, "quick", NULL, "fewer sets, sizes and images: under a minute"},
-    {0, "json", NULL, "the data on stdout, instead of a page"},
+    {0, "quick", NULL, "use fewer sets, sizes and images; takes less than a minute"},
+    {0, "json", NULL, "print the data on stdout instead of writing a page"},
     CLI_RUN_OPTIONS,
     {0},
 };
 
 const cli_command cli_command_datasheet = {
     .name = "datasheet",
-    .summary = "all about one sampler beside others, on one page",
+    .summary = "describe one sampler on one page, compared with others",
     .synopsis = "SPEC|FILE|'my_{n}_{seed}.npy' -o FILE [--beside PATTERN,..|none] [--scenes SCENE,..|none] [--metric "
                 "METRIC] [--quick] "
                 "[--json]",
     .details =
-        "Writes a page with the verdict (at what the sampler is best, where it is beaten, how sure that is), its "
-        "points, "
-        "errors\n"
-        "and coherence in scenes, all measures against n with slopes, errors of integration, spectra, pair "
-        "correlation, verified "
-        "properties\n"
-        "and projections in more dimensions, each with the commands that give the numbers.\n"
+        "Writes a page about the sampler: a verdict (where it is the best, where others are better, and how certain "
+        "that is), its points, its errors and their coherence in scenes, all measures against n with slopes, errors "
+        "of integration, spectra, pair correlation, verified properties, and projections in more dimensions. Each "
+        "part names the commands that compute its numbers.\n"
         "\n"
-        "A name with {n} and {seed} in it is a sampler of files: my_256_3.npy has the 256 points of seed 3. The "
-        "sizes\n"
-        "and seeds that are there decide what is measured, one after the other from the smallest seed on; sizes "
-        "that\n"
-        "are numbers of samples, such as 16, are rendered, each pixel and use with one of the files. --beside takes\n"
-        "such names, too. FILE is one set of points, measured as it is.\n"
+        "A name with {n} and {seed} stands for many files: my_256_3.npy has the 256 points of seed 3. The command "
+        "measures all sizes n for which files exist, with consecutive seeds from the smallest one. It renders scenes "
+        "with sizes that are numbers of samples, such as 16; each pixel and use then takes another file. --beside "
+        "accepts these names, too. FILE is a single set of points.\n"
         "\n"
-        "The numbers of sets and images are fixed, so that equal sets give equal results: 16 sets of 16 to 4,096 "
-        "points and up\n"
-        "to 64 images of each sampler in each scene; with --quick 8 sets of up to 256 points and 8 images.\n",
+        "The numbers of sets and images are fixed, so that equal sets give equal results. There are 16 sets of each "
+        "size from 16 to 4,096 points, and up to 64 images of each sampler in each scene; with --quick 8 sets of up "
+        "to 256 points, and 8 images.\n",
     .examples = "koksma datasheet sobol:scramble=owen -o sheet.html --quick\n"
                 "koksma datasheet jittered -b random,pmj02 --scenes ball -o s.html --quick\n",
     .options = options,

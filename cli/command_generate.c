@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma generate`: generates one point set of a pattern, or a range of its points, maps it by --warp, and writes it
- * to a file or to standard output. Patterns that can generate ranges are written piece by piece, unless --warp is
- * given. --density and --on generate points of varying density and points on a model. The comment in the file has the
- * pattern, the seed and the warp, and for blue-noise patterns the smallest distance of two points.
+ * to a file or to standard output. Points of patterns that can generate ranges are written piece by piece, unless
+ * --warp is given. --density and --on generate points of varying density and points on a model. The comment in the
+ * file has the pattern, the seed and the warp, and for blue-noise patterns the smallest distance of two points.
  */
 #include <koksma/density.h>
 #include <koksma/verify.h>
@@ -13,7 +13,7 @@
 #include "source.h"
 #include "warps.h"
 
-/* Generates all points in memory and writes them. If points->n is 0, the pattern decides how many points it has. */
+/* Generates all points in memory and writes them. If points->n is 0, the pattern determines the number of points. */
 static int generate(const cli_arguments *arguments, const koksma_spec *spec, const koksma_warp *warp, uint64_t seed,
                     const koksma_run *run, koksma_points *points)
 {
@@ -113,14 +113,13 @@ static int run(const cli_arguments *arguments)
         return warp ? cli_usage_error(arguments, "--warp maps points of 2 dimensions, not %d", (int)dim) : CLI_USAGE;
     }
     if (first && (name || !source.n)) {
-        return cli_usage_error(arguments, "--first takes -n N, and no --warp");
+        return cli_usage_error(arguments, "--first needs -n N and excludes --warp");
     }
     const char *density = cli_text(arguments, "density", NULL), *on = cli_text(arguments, "on", NULL);
     if (density || on) {
         if (!source.n || first || warp || (density && on)) {
             return cli_usage_error(arguments,
-                                   "--density and --on exclude each other, and take -n N, no --first and no "
-                                   "--warp");
+                                   "--density and --on need -n N, and exclude each other, --first and --warp");
         }
         code = generate_in(arguments, &source, density, on, seed, &work.run);
         cli_work_end();
@@ -163,13 +162,13 @@ const cli_command cli_command_generate = {
     .summary = "generate the points of a pattern",
     .synopsis = "PATTERN|SPEC@N[@DIM] [-n N] [-d DIM] [-s S] [--warp WARP] [-o FILE]",
     .details =
-        "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'. Behind\n"
-        "them it takes modifiers, as in file:set.txt,shift=1; 'koksma list modifiers' says what each keeps. A "
-        "sampler\n"
-        "of your own is exec:PROGRAM, run with n, dim and seed, or plugin:LIBRARY.so; both take --allow-exec.\n"
+        "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'. "
+        "Modifiers follow the parameters, as in file:set.txt,shift=1; 'koksma list modifiers' describes them. For "
+        "your own sampler use exec:PROGRAM, which is run with n, dim and seed, or plugin:LIBRARY.so; both need "
+        "--allow-exec.\n"
         "\n"
-        "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N; all others\n"
-        "are made whole in memory, where at most 2^28 coordinates fit.\n"
+        "Patterns that have ranges (see 'koksma list patterns') are written piece by piece, for any N. All other "
+        "patterns are generated in memory, with at most 2^28 coordinates.\n"
         "\n"
         "With --density and --on the pattern is random, sample-elimination, progressive-elimination, poisson-disk,\n"
         "poisson-disk-maximal or gaussian-blue-noise; on a model d is in the model's units, and distances are those\n"

@@ -33,7 +33,8 @@ void cli_print_overview(FILE *stream)
 static int run(const cli_arguments *arguments)
 {
     if (arguments->n_operands > 1) {
-        return cli_usage_error(arguments, "it takes the name of one command, or nothing for what all of them do");
+        return cli_usage_error(arguments,
+                               "it takes the name of one command, or nothing for an overview of all commands");
     }
     if (arguments->n_operands == 0) {
         cli_print_overview(stdout);
@@ -53,9 +54,9 @@ static const cli_option options[] = {{0}};
 
 const cli_command cli_command_help = {
     .name = "help",
-    .summary = "print what the commands do, or all about one of them",
+    .summary = "describe all commands in one line each, or one command in full",
     .synopsis = "[COMMAND]",
-    .details = "The same as koksma --help, and koksma COMMAND --help or -h.",
+    .details = "Prints the same text as koksma --help, or as koksma COMMAND --help.",
     .examples = "koksma help rank\n",
     .options = options,
     .run = run,

@@ -3,8 +3,8 @@
  * `koksma integrate`: estimates integrals of functions by means over point sets and prints the errors against n, and
  * the analysis of variance of the functions. Operands are integrands, then sources of points as `koksma measure`
  * takes them; sources of one pattern that differ in their size become one series with a slope. Rows are printed in
- * three tables: errors, slopes, variance. An operand may name a shared library that defines functions; a plan of a
- * study can't name one.
+ * three tables: errors, slopes, variance. An operand may name a shared library that defines functions. Plans of
+ * studies can't name libraries.
  */
 #include <dlfcn.h>
 #include <math.h>
@@ -45,9 +45,9 @@ typedef struct job {
     size_t n_series;
     slope *slopes;
     size_t n_slopes;
-    /* the number of patterns that have only one set, so that there are no trials */
+    /* the number of deterministic patterns, which have one set and thus no trials */
     size_t n_deterministic;
-    char deterministic[KOKSMA_MAX_SPEC]; /* the first pattern that has only one set */
+    char deterministic[KOKSMA_MAX_SPEC]; /* the first deterministic pattern */
     void *libraries[16];
     size_t n_libraries;
 } job;
@@ -405,8 +405,8 @@ static int run_all(job *j)
     const int rows_code = j->rows ? cli_rows_close(j->rows) : CLI_YES;
     if (!code && j->n_deterministic && !cli_flag(arguments, "quiet")) {
         cli_say(arguments->command->name,
-                "%s%s is deterministic: its error is that of one set; :shift=1 shifts at random", j->deterministic,
-                j->n_deterministic > 1 ? ", as others," : "");
+                "%s%s is deterministic, so its error is that of a single set; add :shift=1 for random sets",
+                j->deterministic, j->n_deterministic > 1 ? ", as others," : "");
     }
     return code ? code : rows_code;
 }
@@ -443,10 +443,10 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     CLI_SOURCE_OPTIONS,
-    {'t', "trials", "T", "T sets of each random pattern, seeds S, S+1, .. (default: 32)"},
+    {'t', "trials", "T", "number of sets of each random pattern, with seeds S, S+1, .. (default: 32)"},
     {'s', "seed", "S", "seed of patterns (default: 0)"},
-    {0, "anova", NULL, "the share of each coordinate and pair of coordinates in the variance"},
-    {0, "samples", "N", "with --anova: estimate shares by N points, also where a closed form is known"},
+    {0, "anova", NULL, "print the share of each coordinate and pair of coordinates in the variance"},
+    {0, "samples", "N", "with --anova: estimate shares by N points, even if a closed form is known"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -454,25 +454,28 @@ static const cli_option options[] = {
 
 const cli_command cli_command_integrate = {
     .name = "integrate",
-    .summary = "integrate functions with known integrals, errors against n",
+    .summary = "integrate functions with known integrals; print errors against n",
     .synopsis =
         "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]",
     .details =
-        "rmse is the root mean square of estimate minus integral over the trials, with its 95 % interval; of\n"
-        "one set, and of deterministic patterns, the absolute error. gain is the variance of as many random\n"
-        "points divided by the mean squared error: so many times more random points give this error. Three\n"
+        "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % interval. "
+        "With a single set, which is all that deterministic patterns have, it is the absolute error. gain is the "
+        "variance with random "
+        "points divided by the mean squared error: the factor by which more random points would be needed for the "
+        "same error. Three\n"
         "sizes or more give the slope of log rmse against log n with its interval.\n"
         "\n"
-        "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], a\n"
-        "function of a shared library that exports koksma_function_at (koksma/integrate.h). The library runs with\n"
-        "your rights as soon as it is opened; plans and studies can name none. Where its integral is not known,\n"
-        "rmse is the standard deviation over the trials.\n"
+        "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], which is a "
+        "function of a shared library that exports koksma_function_at (koksma/integrate.h). The library runs with "
+        "your permissions as soon as it is opened; plans cannot name libraries. If the integral of a function is not "
+        "known, rmse is the standard deviation over the trials.\n"
         "\n"
-        "--anova prints Sobol' indices, coordinates numbered from 0: share is that of the component of\n"
-        "exactly these coordinates, total that of all components with any of them; pairs up to 16 dimensions.\n"
-        "Without a closed form they are estimated, with 95 % intervals. With patterns, too, products of\n"
-        "functions of one coordinate have the errors of their components at the largest n: those of all\n"
-        "components add up to the error, and part is a component's mean square over that of the error.\n",
+        "--anova prints the Sobol' indices of coordinates, numbered from 0, and up to 16 dimensions also of pairs. "
+        "share is the part of the variance in the component of exactly these coordinates, total the part in all "
+        "components that contain any of them.\n"
+        "Without a closed form they are estimated, with 95 % intervals. With patterns, --anova also prints the error "
+        "of each component at the largest n, for products of functions of one coordinate. These errors add up to the "
+        "total error. part is the mean square of a component's error divided by that of the total error.\n",
     .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,halton -n 16,64,256\n"
                 "koksma integrate genz-gaussian:difficulty=3 -d 5 -p halton -n 64,256,1024\n"
                 "koksma integrate asian:path=bridge -d 4 --anova\n"

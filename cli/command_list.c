@@ -107,7 +107,7 @@ static const char *scene_title(const char *name)
     return title;
 }
 
-/* Returns what the text after the colon of a pattern's spec gives, itself or as the path of a file. */
+/* Returns what a pattern takes from the text after the colon of its spec, which may be the path of a file. */
 static const char *reads(const koksma_pattern *p)
 {
     return !p->operand                  ? "-"
@@ -117,8 +117,8 @@ static const char *reads(const koksma_pattern *p)
                                         : "parameters";
 }
 
-/* Defines the function list_TABLE. The function prints a row for each x that the expression `next` finds as item i:
-   its name, its meaning, and `columns`. */
+/* Defines the function list_TABLE. It prints one row for each item x of the table, with x->name, its meaning, and
+   `columns`. The expression `next` sets x to item i and is false past the end. */
 #define LIST(table, noun, type, next, name, meaning, columns)                                                        \
     static void list_##table(cli_rows *rows)                                                                         \
     {                                                                                                                \
@@ -175,7 +175,7 @@ LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, x.t
 LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, x.title, (void)x)
 LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, x.title, (void)x)
 
-/* The tables below do not fit LIST; plans, for example, have no descriptions. */
+/* The macro LIST cannot define the functions below; plans, for example, have no descriptions. */
 static void list_plans(cli_rows *rows)
 {
     for (size_t i = 0; koksma_plan_name_at(i); i++) {
@@ -257,7 +257,7 @@ static void list_parameters(cli_rows *rows)
             cli_row_text(rows, "of", p->name);
             cli_row_text(rows, "parameter", p->operand);
             cli_row_text(rows, "what",
-                         p->runs_code                 ? "what it runs, after the colon, with --allow-exec"
+                         p->runs_code ? "program or library to run (after the colon; needs --allow-exec)"
                          : strcmp(p->operand, "PATH") ? "numbers, after the colon"
                                                       : "the file that it reads, after the colon");
             cli_row_text(rows, "default", "-");
@@ -342,10 +342,9 @@ const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
     .synopsis = "[{lists}] [--json]",
-    .details =
-        "uses: a use is a purpose of sample dimensions, such as the position on the lens. 'koksma render -p\n"
-        "USE=PATTERN' samples one use by its own pattern, '-p USE+USE=PATTERN' several uses by one pattern with\n"
-        "all their dimensions.",
+    .details = "uses: a use is a purpose of sample dimensions, such as the position on the lens. 'koksma render -p "
+               "USE=PATTERN' gives one use its own pattern; '-p USE+USE=PATTERN' gives several uses one pattern with "
+               "the dimensions of all of them.",
     .examples = "koksma list patterns\n"
                 "koksma list scenes --json\n",
     .options = options,

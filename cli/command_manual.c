@@ -151,7 +151,7 @@ static const cli_option options[] = {{0}};
 
 const cli_command cli_command_manual = {
     .name = "manual",
-    .summary = "print a manual page, as man reads it",
+    .summary = "print a manual page in the format of man",
     .synopsis = "[COMMAND]",
     .examples = "koksma manual rank | man -l -\n",
     .options = options,

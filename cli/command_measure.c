@@ -2,8 +2,8 @@
 /*
  * `koksma measure`: evaluates measures of points from files and patterns. With one set per source, a row has the
  * exact value or bounds, and the witness if the measure finds one. --trials, --prefixes, --sizes and --paired are
- * handled in measuring.c, which computes means, standard errors and slopes. A search that --time-limit cuts short
- * gives bounds, with a warning.
+ * handled in measuring.c, which computes means, standard errors and slopes. If --time-limit ends a search early, the
+ * row has bounds, and a warning is printed.
  */
 #include <math.h>
 #include <stdio.h>
@@ -216,7 +216,7 @@ static bool parse_warps(measuring *j)
     j->warp = j->warps[0];
     for (size_t i = 1; i < j->n_warps; i++) {
         if (j->warps[i]->domain != j->warp->domain) {
-            cli_usage_error(j->arguments, "--warp %s: its domain is not that of %s", j->warps[i]->name,
+            cli_usage_error(j->arguments, "--warp %s: its domain differs from that of %s", j->warps[i]->name,
                             j->warp->name);
             return false;
         }
@@ -250,14 +250,15 @@ static bool parse_options(measuring *j)
     }
     const size_t contestants = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1);
     if (j->paired && (j->trials < 2 || j->trials > MAX_PAIRED_TRIALS || contestants < 2)) {
-        cli_usage_error(j->arguments, "--paired: it takes --trials of 2 to %d, and two sources or warps or more",
+        cli_usage_error(j->arguments, "--paired: it takes --trials from 2 to %d, and at least two sources or warps",
                         MAX_PAIRED_TRIALS);
         return false;
     }
     return true;
 }
 
-/* The measures that are evaluated without -m. With --warp these are the measures that apply to its domain. */
+/* Returns the measures that are evaluated without -m. With --warp they are the measures that apply to the domain of
+   the warp. */
 static const char *default_measures(const measuring *j)
 {
     static const char *const of_domains[] = {
@@ -325,20 +326,25 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those of its domain)"},
+    {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those for its domain)"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
-    {'t', "trials", "T", "T sets of each pattern, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
+    {'t', "trials", "T",
+     "measure T sets of each pattern, with seeds S, S+1, ..; print mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "K,..|powers",
-     "measure the first K points for each K, as in 16,64,256, and the log-log slope; powers: all powers of two"},
+     "measure the first K points for each K, as in 16,64,256 (powers: all powers of two), and print the log-log "
+     "slope"},
     {0, "at", "X,Y..",
-     "only the local discrepancy at this corner x: the share of the points in [0, x) less its volume"},
+     "print only the local discrepancy at this corner x: the fraction of the points in the box [0, x) minus the "
+     "volume of the box"},
     {0, "sizes", "N,..",
-     "measure a set of each N, as in 16,64,256, and the log-log slope; a file gives its first N points"},
+     "measure a set of N points for each N, as in 16,64,256 (of a file the first N points), and print the log-log "
+     "slope"},
     {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
     {0, "paired", NULL,
-     "with --trials: every further source or warp minus the first, set by set, with 95 % interval"},
-    {0, "time-limit", "SECONDS", "time for each value; a measure that is cut short gives bounds"},
+     "with --trials: also print the difference of every further source or warp from the first, set by set, with its "
+     "95 % interval"},
+    {0, "time-limit", "SECONDS", "time limit for each value; a measure that exceeds it gives bounds"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -350,18 +356,21 @@ const cli_command cli_command_measure = {
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-p PATTERN,..|all -n N,..] [-m MEASURE,..|all] [--json]",
     .details =
         "FILE holds points as text, .csv or .npy. SPEC@N measures N points of a pattern, without a file.\n"
-        "The witness is the region where the supremum is reached: count its points and compare with its volume.\n"
+        "The witness is the region where the supremum is reached. To check a value, compare the fraction of the "
+        "points in this region with its volume.\n"
         "\n"
-        "--prefixes needs a sequence: the first points of other patterns, such as n-rooks, are a strip of the set.\n"
-        "--sizes measures a new set for each N instead, whatever N the source has. 'powers' leaves out sizes that\n"
+        "--prefixes needs a sequence, because the first points of other patterns, such as n-rooks, fill only a strip "
+        "of the square.\n"
+        "--sizes instead measures a new set for each N and ignores the N of the source. 'powers' leaves out sizes "
+        "that\n"
         "a measure does not accept, such as one point for min-distance.\n"
         "--prefixes and --sizes print the fitted slope beside the proven exponent for the pattern and the best "
         "possible one (up to\n"
-        "powers of logarithms). The standard error of a slope comes from the trials; with one set there is none,\n"
-        "and residual_error is the scatter of the values about the line.\n"
+        "powers of logarithms). The standard error of a slope comes from the trials. With one set it is replaced by "
+        "residual_error, the scatter of the values about the fitted line.\n"
         "\n"
-        "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row that ran\n"
-        "out of time has proven bounds: lower and upper. Rows of trials, differences and slopes count how many of\n"
+        "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row whose time "
+        "ran out has proven bounds, lower and upper. Rows of trials, differences and slopes count how many of\n"
         "their values are exact. --time-limit has no effect on other measures and on extreme:grid.\n"
         "disk also stops after 2^28 point tests (lattices of hundreds of points, other sets of thousands); it then\n"
         "reports bounds and warns.\n",

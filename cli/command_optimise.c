@@ -30,8 +30,8 @@ typedef struct job {
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
 
-/* Writes the best set. A file is replaced as a whole, so that there is a complete set even if the program is killed
-   while it writes. */
+/* Writes the best set. A file is replaced as a whole, so that it always has a complete set, even if the program is
+   killed while it writes. */
 static koksma_status write_best(const job *j, const koksma_optimum *best)
 {
     char comment[KOKSMA_MAX_SPEC + 256];
@@ -209,7 +209,7 @@ static int target(job *j)
     }
     if (!text) {
         return cli_text(j->arguments, "band", NULL)
-                   ? cli_usage_error(j->arguments, "--band has an effect with --power only")
+                   ? cli_usage_error(j->arguments, "--band has an effect only with --power")
                    : CLI_YES;
     }
     j->options.rings = (int)ceil(fmin(band * sqrt((double)j->options.n), KOKSMA_SPECTRUM_MAX_HALF));
@@ -234,7 +234,7 @@ static int run(const cli_arguments *arguments)
     }
     for (size_t i = 0; i < sizeof of_scenes / sizeof *of_scenes; i++) {
         if (cli_text(arguments, of_scenes[i], NULL)) {
-            return cli_usage_error(arguments, "--%s has an effect with --scene only", of_scenes[i]);
+            return cli_usage_error(arguments, "--%s has an effect only with --scene", of_scenes[i]);
         }
     }
     const char *power = cli_text(arguments, "power", NULL);
@@ -243,7 +243,7 @@ static int run(const cli_arguments *arguments)
                                                 : "it takes one measure, such as star or l2-disk:r=0.25");
     }
     if (!cli_text(arguments, "output", NULL)) {
-        return cli_usage_error(arguments, "-o FILE, where the best set is kept, is missing");
+        return cli_usage_error(arguments, "-o FILE, the file for the best set, is missing");
     }
     koksma_status status = power ? KOKSMA_OK : koksma_measure_spec(arguments->operands[0], &measure);
     if (status) {
@@ -287,25 +287,29 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out with --from FILE)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {0, "from", "FILE",
-     "the initial set, also PATTERN or SPEC@N (default: latin-hypercube; with --keep net or sequence: sobol)"},
-    {0, "keep", "none|latin|net|sequence", "a structure that the points keep (default: none)"},
+     "the initial set: a file, PATTERN or SPEC@N (default: latin-hypercube; with --keep net or sequence: sobol)"},
+    {0, "keep", "none|latin|net|sequence",
+     "a structure of the initial set that the search preserves (default: none)"},
     {0, "projections", "0+1,0+2,..|pairs",
-     "groups of coordinates; each is measured by itself (default: one group of all)"},
+     "groups of coordinates that are measured separately (default: one group of all coordinates)"},
     {0, "weights", "W,..", "weights of the projections in the root mean square of their values (default: 1)"},
-    {0, "steps", "K", "steps of a fixed amount of work: equal --seed and --steps give equal sets"},
-    {0, "time-limit", "SECONDS", "end after the step in which this time is up (default: 60; with --steps: no limit)"},
+    {0, "steps", "K", "number of steps, each of a fixed amount of work; equal --seed and --steps give equal sets"},
+    {0, "time-limit", "SECONDS",
+     "time limit in seconds; the search ends after the step that exceeds it (default: 60; with --steps: no limit)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
     {'o', "output", "FILE.txt|.csv|.npy", "the best set; the file is rewritten after each gain"},
     {0, "power", "step|gaussian|PATTERN|FILE",
-     "in place of MEASURE: a target for the radial mean of the power spectrum in the plane"},
+     "instead of MEASURE: a target for the radial mean of the power spectrum of 2D points"},
     {0, "band", "B", "with --power: frequencies up to B sqrt(n) (default: 2)"},
-    {0, "scene", "SCENE", "search for a set for this scene's image with -n samples a pixel, to use as file:FILE"},
+    {0, "scene", "SCENE", "search for a set that renders this scene well as file:FILE with -n samples a pixel"},
     CLI_UNKNOWN_OPTION,
-    {0, "held-out", "SCENE,..", "with --scene: other scenes to test the set in (default: six of the library)"},
+    {0, "held-out", "SCENE,..",
+     "with --scene: other scenes in which the set is tested (default: six of the library)"},
     {0, "against", "PATTERN,..|all", "with --scene: patterns to compare the set with (default: 17)"},
-    {0, "candidates", "N", "with --scene: sets to choose from (default: 8)"},
-    {0, "phases", "N", "with --scene: shifts on the torus of each set (default: 4)"},
-    {0, "size", "WxH", "with --scene: pixels (default: the scene's, halved until at most 1,200)"},
+    {0, "candidates", "N", "with --scene: number of candidate sets (default: 8)"},
+    {0, "phases", "N", "with --scene: number of shifts of each candidate on the torus (default: 4)"},
+    {0, "size", "WxH",
+     "with --scene: image size (default: that of the scene, halved until it has at most 1,200 pixels)"},
     {0, "max-trials", "N", "with --scene: images of each candidate and pattern, 8 to 65536 (default: 32)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -319,23 +323,25 @@ const cli_command cli_command_optimise = {
                 "--power TARGET -n N [--band B] -o FILE | --scene SCENE -n SPP [--held-out SCENE,..] [--against "
                 "PATTERN,..] -o FILE",
     .details =
-        "MEASURE is any measure with exact values, such as star or l2-disk:law=area; distances are made large,\n"
-        "all other measures small. Equal arguments with --steps give equal sets, on any number of threads. After\n"
-        "a time limit the row has the number of steps, and --steps with this number gives the same set. FILE\n"
-        "always holds the best set: Ctrl-C (exit code 130) or a kill may end the search, and --from FILE\n"
-        "continues it.\n"
+        "MEASURE is any measure with exact values, such as star or l2-disk:law=area; the search maximises distances "
+        "and minimises all other measures. Equal arguments with --steps give equal sets, on any number of threads. "
+        "If a time limit ends the search, the printed row has the number of steps; --steps with this number gives "
+        "the same set. FILE\n"
+        "always holds the best set: after Ctrl-C (exit code 130) or a kill, --from FILE continues the search.\n"
         "\n"
-        "--keep latin only changes which coordinates form a point; --keep net leaves each coordinate in its\n"
+        "--keep latin permutes the coordinates on each axis; --keep net moves each coordinate only within its "
         "interval of length 1/n. --keep sequence changes the generator matrices of a digital sequence in base 2;\n"
         "the value is then the geometric mean of the measure over the first 2, 4, .., n points, and net-file:FILE\n"
         "reads FILE. Under mpirun the ranks share the work.\n"
         "\n"
-        "--power makes the root mean square difference to a target small, over the plane of frequencies. step is 0\n"
-        "below sqrt(n / pi) and 1 above, gaussian 1 - exp(-pi f^2 / n), a PATTERN the mean of 16 sets; FILE has\n"
-        "lines of a frequency, in units of sqrt(n), and a power. The search starts from gaussian-blue-noise.\n"
+        "--power minimises the root mean square difference between the power spectrum and a target, over the plane "
+        "of frequencies f. The target step is 0 for f below sqrt(n / pi) and 1 above, gaussian is 1 - exp(-pi f^2 / "
+        "n), and PATTERN is the mean spectrum of 16 of its sets. Each line of FILE has a frequency, in units of "
+        "sqrt(n), and a power. The search starts from gaussian-blue-noise.\n"
         "\n"
-        "--scene SCENE renders. Candidates are sets of low L2 discrepancy, with weights from the scene for x, for\n"
-        "y and for both, and shifts of these sets. The confidence intervals of koksma rank eliminate candidates;\n"
+        "--scene SCENE renders. With --scene the candidates are sets of low L2 discrepancy and their shifts. The "
+        "weights of the projections on x, on y and on the plane come from the scene. The confidence intervals of "
+        "koksma rank eliminate candidates;\n"
         "the best one is compared with listed patterns in SCENE and in held-out scenes.\n"
         "gain: 1 - (error of the set / error of the best listed pattern), with a 95 % interval in each scene.\n"
         "shrinks_by: the gain in SCENE minus the gain in the row's scene. The exit code is 1 if the average gain\n"

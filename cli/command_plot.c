@@ -7,8 +7,8 @@
 #include "source.h"
 #include "warps.h"
 
-/* Returns the number of sets that every source must have. The number is 1 for curves that show a file, which is one
-   set, beside means over the sets of a pattern. */
+/* Returns the number of sets that every source must have. The number is 1 if the curve may compare a file, which is
+   one set, with means over the sets of a pattern. */
 static uint64_t trials_of_all(const cli_curves *c)
 {
     const cli_arguments *arguments = c->arguments;
@@ -46,7 +46,8 @@ static int run(const cli_arguments *arguments)
     const bool compare = cli_flag(arguments, "compare");
     const char *name = cli_text(arguments, "curve", compare ? cli_curve_compare.name : cli_curve_points.name);
     if (compare && strcmp(name, cli_curve_compare.name) != 0) {
-        return cli_usage_error(arguments, "--compare has charts of its own: it takes no --curve %s", name);
+        return cli_usage_error(arguments, "--compare excludes --curve %s, because it draws a fixed set of charts",
+                               name);
     }
     if (arguments->n_operands < 1 || !cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments, "it takes points and a picture, as in points.txt -o points.svg");
@@ -76,11 +77,12 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'o', "output", "OUT", "picture to write: .svg, .pdf or .png"},
     CLI_SOURCE_OPTIONS,
-    {'c', "curve", "{chart}", "what is drawn (default: points)"},
+    {'c', "curve", "{chart}", "the curve to draw (default: points)"},
     {0, "compare", NULL, "the same as --curve compare"},
-    {0, "size", "W[xH]", "width of the picture in points or pixels, and height (default: 320 a set, charts 480)"},
-    {0, "title", "TEXT", "heading of the picture (default: what is drawn)"},
-    {0, "theme", "light|dark", "dark on light, or light on dark (default: light)"},
+    {0, "size", "W[xH]",
+     "width and height of the picture in points or pixels (default: 320 for each set, 480 for charts)"},
+    {0, "title", "TEXT", "heading of the picture (default: the name of the curve)"},
+    {0, "theme", "light|dark", "dark lines on a light background, or the reverse (default: light)"},
     {0, "columns", "C", "points: draw C columns of cells"},
     {0, "rows", "R", "points: draw R rows of cells"},
     {0, "grid", "M[xN]", "points: draw M x M cells, or M columns and N rows"},
@@ -88,8 +90,8 @@ static const cli_option options[] = {
     {0, "witness", "MEASURE", "points: draw the region where this measure's supremum is reached, with its value"},
     {0, "warp", "WARP", "points: draw points and cells mapped by WARP: see 'koksma list warps'"},
     {0, "local-discrepancy", NULL,
-     "points: colour the square by the share of the points in the box from the origin, less its area"},
-    {0, "white", "P", "power: the power that is drawn white (default: 2; random points have 1)"},
+     "points: colour each position x of the square by the fraction of the points in the box [0, x) minus its area"},
+    {0, "white", "P", "power: the power that is drawn as white (default: 2; random points have 1)"},
     {'m', "measure", "MEASURE", "convergence, compare: the measure to draw (default: l2-star)"},
     {0, "sizes", "N,..",
      "convergence, compare: draw these n, as in 16,64,256 (default: powers of 4 up to the n of the source)"},

@@ -34,12 +34,12 @@ typedef struct patterns {
     size_t n;
 } patterns;
 
-/* Reads --patterns. *spp: the number of samples N if a pattern is given as SPEC@N. Returns the exit code. */
+/* Reads --patterns. *spp receives N if a pattern is given as SPEC@N. Returns the exit code. */
 static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t *spp)
 {
     const char *list = cli_text(arguments, "patterns", "thesis");
     if (cli_text(arguments, "with", NULL) && !cli_text(arguments, "patterns", NULL)) {
-        return cli_usage_error(arguments, "--with takes --patterns, names of samplers that the command knows");
+        return cli_usage_error(arguments, "--with needs --patterns, with names of samplers that the command knows");
     }
     list = !strcmp(list, "thesis") ? thesis : !strcmp(list, "later") ? later : list;
     char item[KOKSMA_MAX_SPEC];
@@ -48,11 +48,11 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t 
             return CLI_USAGE;
         }
         static char text[KOKSMA_MAX_PATTERNS_TEXT];
-        koksma_render_options options = {0}; /* only its patterns are used */
+        koksma_render_options options = {0}; /* only the patterns in this struct are used */
         if (p->n == MAX_PATTERNS) {
             return cli_usage_error(arguments, "--patterns: more than %d", MAX_PATTERNS);
         }
-        /* the default, for a text that sets patterns of single uses only */
+        /* n-rooks remains the pattern of all uses that the text does not name */
         koksma_status status = koksma_pattern_spec("n-rooks", &options.pattern);
         if (cli_text(arguments, "with", NULL)) {
             memcpy(text, item, sizeof item);
@@ -133,8 +133,8 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     }
 }
 
-/* Prints row i of a ranking. Only JSON rows repeat the values of the whole ranking; the advice on stderr has them for
-   readers. */
+/* Prints row i of a ranking. Only JSON rows repeat the values of the whole ranking; in text output the advice on
+   stderr has them. */
 static void put_row(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_row *table, size_t i,
                     const koksma_ranking *ranking, bool json)
 {
@@ -197,9 +197,9 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
         cli_rank_advise(options, table, &ranking);
     }
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
-        /* if no pattern was ranked in time, the advice says so */
+        /* the advice reports if no pattern was ranked in time */
         if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) {
-            /* a pattern's own reason begins with its name; that of another in its text does not */
+            /* most reasons begin with the name of the pattern, which the message already has */
             const char *name = options->patterns[table[i].pattern], *reason = table[i].reason;
             const size_t length = strlen(name);
             const bool repeats = !strncmp(reason, name, length) && !strncmp(reason + length, ": ", 2);
@@ -240,7 +240,8 @@ static int run(const cli_arguments *arguments)
         command = "python3 -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out}";
     }
     if (!command && cli_text(arguments, "reference", NULL)) {
-        return cli_usage_error(arguments, "--reference takes --with: Koksma's own references are jittered");
+        return cli_usage_error(
+            arguments, "--reference needs --with, because Koksma's own references always use the pattern jittered");
     }
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
@@ -303,19 +304,21 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'n', "spp", "N,..", "samples a pixel, one ranking for each (default: 4,16,64)"},
+    {'n', "spp", "N,..", "numbers of samples per pixel; each gets its own ranking (default: 4,16,64)"},
     {'p', "patterns", "PATTERN,..|thesis|later|all", "patterns to rank, also SPEC@N (default: thesis)"},
-    {0, "size", "WxH", "pixels (default: the scene's, halved until at most 19,200)"},
-    {0, "with", "COMMAND|mitsuba", "a shell command that renders, with {scene}, {pattern}, {spp}, {seed}, {out}"},
+    {0, "size", "WxH", "image size (default: that of the scene, halved until it has at most 19,200 pixels)"},
+    {0, "with", "COMMAND|mitsuba",
+     "shell command of another renderer, with {scene}, {pattern}, {spp}, {seed}, {out}"},
     {0, "reference", "PATTERN", "with --with: the sampler of the reference (default: the first)"},
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
     {'m', "metric", "METRIC",
-     "the error that ranks: mae (default), rmse, relmse, smape, ldr-flip or hdr-flip, with parameters"},
-    {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
+     "error metric by which patterns are ranked: mae (default), rmse, relmse, smape, ldr-flip or hdr-flip, with "
+     "parameters"},
+    {0, "time-limit", "S", "time limit in seconds for all rankings together (default: 60)"},
     CLI_UNKNOWN_OPTION,
-    {0, "max-trials", "N", "images of each pattern at each size, 8 to 65536 (default: 4096)"},
+    {0, "max-trials", "N", "largest number of images of each pattern at each size, 8 to 65536 (default: 4096)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -330,33 +333,35 @@ const cli_command cli_command_rank = {
                 "[--reference PATTERN]] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
-        "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared\n"
-        "as they are used, including random shifts.\n"
+        "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared "
+        "with their modifiers, such as random shifts.\n"
         "\n"
         "The sequence of work depends on the command line, not on the machine: rounds of 8, 16, 32, ... trials\n"
         "until the best pattern is decided, and also the best pattern without bands; then such rounds at half and\n"
         "at twice the size for the first three patterns without bands and the first three of all, with a remark\n"
         "if another pattern is the best at that size; then rounds until every pair is decided. A pair is decided\n"
         "if the confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 % of 1\n"
-        "(equal). A time limit ends the sequence early; a longer limit never names another best pattern. With too\n"
+        "(equal). A time limit ends the sequence early; a longer limit never changes which pattern is named as the "
+        "best. With too\n"
         "little time the answer is 'undecided', with an estimate of the time needed.\n"
         "\n"
         "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the\n"
         "first row. All intervals and decisions of a ranking hold together with 95 % probability, and include the\n"
-        "error of the reference image. A pattern whose first 8 trials exceed its part of the time limit is put\n"
-        "off until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
+        "error of the reference image. A pattern whose first 8 trials exceed its part of the time limit is postponed "
+        "until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
         "\n"
         "coherence: the peak of the error's power spectrum divided by its mean, over the first 8 trials.\n"
-        "'coherent' means that fewer than 0.5 % of noise reaches the value (koksma compare --help). A coherent "
+        "'coherent' means that white noise has such a value with a probability below 0.5 % (koksma compare --help). "
+        "A coherent "
         "error\n"
-        "has bands or another pattern, which eyes notice more than noise of the same size. The advice is\n"
-        "therefore the best pattern whose error is not coherent, and says how much error a coherent one would\n"
-        "save.\n"
+        "has bands or another pattern, which eyes notice more than noise of the same size. The advice therefore "
+        "names the best pattern whose error is not coherent, and how much less error a coherent pattern leaves.\n"
         "\n"
-        "Where the 0.1 % of the pixels with the largest error carry half of it or more (top_share in --json), a\n"
-        "warning says that few pixels decide the order. 'robust' is the error without them. FLIP takes 17\n"
-        "comparisons an image, one for each part of the reference: for hdr-flip 0.7 s at 160 x 120 pixels, for\n"
-        "mae a millisecond.\n"
+        "If the 0.1 % of the pixels with the largest error have at least half of the total error (top_share in "
+        "--json), a warning tells that few pixels decide the order. 'robust' is the error without them. Each image "
+        "is compared "
+        "17 times, with each part of the reference image. At 160 x 120 pixels this takes 0.7 s for hdr-flip and a "
+        "millisecond for mae.\n"
         "\n"
         "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other.\n"
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
@@ -364,9 +369,10 @@ const cli_command cli_command_rank = {
         "\n"
         "--with ranks the samplers of another renderer: COMMAND is run by the shell for every image, with texts\n"
         "in place of {scene}, {pattern}, {spp}, {seed} (0 to 2^31 - 1), {width}, {height} and {out}, the EXR file\n"
-        "to write; {out.pfm} and {out.png} ask for other formats. SCENE and PATTERN are then any texts. Without\n"
-        "--size images have the renderer's own size, and other sizes are not checked. The reference is the mean\n"
-        "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and follow\n"
+        "to write; {out.pfm} and {out.png} ask for other formats. SCENE and PATTERN can then be any texts. Without "
+        "--size images have the default size of the renderer, and other sizes are not checked. The reference is the "
+        "mean\n"
+        "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and depend on "
         "the seed. Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
         "Koksma in a scene of Mitsuba, by the Python package; koksma.mitsuba.rank in Python starts Mitsuba once\n"
         "and is faster.\n"

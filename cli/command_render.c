@@ -77,7 +77,7 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
     }
 }
 
-/* The name of an AOV in files: with '-' for ':'. */
+/* Makes the name of an AOV in files: with '-' for ':'. */
 static void name_layer(const char *aov, char out[16])
 {
     snprintf(out, 16, "%s", aov);
@@ -114,7 +114,7 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
     return status ? status : cli_adaptive_counts(arguments, &layers->samples);
 }
 
-/* An image that takes so many bytes or more is announced, with its memory, before rendering starts. */
+/* Before rendering, a message announces the memory of images that need at least this number of bytes. */
 #define LARGE (1ull << 30)
 
 static double in_gib(uint64_t bytes)
@@ -137,8 +137,7 @@ static bool announce_size(const cli_arguments *arguments, const koksma_scene *sc
     const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : UINT64_MAX;
     if (first > machine) {
         cli_say("render",
-                "%d x %d pixels take %.1f GiB of memory, and this machine has %.1f; take a smaller "
-                "--size%s%s",
+                "%d x %d pixels need %.1f GiB of memory, but this machine has %.1f; use a smaller --size%s%s",
                 options->width, options->height, in_gib(first), in_gib(machine),
                 layers && !adaptive->method ? ", or .pfm, which has no layers" : "",
                 options->splat ? ", or no --splat" : "");
@@ -257,15 +256,17 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'p', "pattern", "[USE[+USE]=]PATTERN...",
-     "pattern of all uses, of one, or of a group, also SPEC@N; may be repeated (default: n-rooks)"},
+     "pattern (or SPEC@N) of all uses, of one use, or of a group; may be repeated (default: n-rooks)"},
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
-    {0, "sky", "L", "light of this radiance from all around, in place of the scene's sky or a bare model's studio"},
+    {0, "sky", "L",
+     "light of this radiance from all directions; replaces the sky of the scene or the default lights of a mesh "
+     "file"},
     {0, "environment", "FILE", "light from an image in latitude and longitude, times --sky"},
     {0, "aov", "LIST",
-     "further layers: direct, indirect, bounce:N, id, half; of an .exr, else files such as IMAGE.direct.png"},
-    {'o', "output", "FILE", "the image, {image-formats}; an .exr has all layers"},
+     "further layers: direct, indirect, bounce:N, id, half; in the .exr, or in files such as IMAGE.direct.png"},
+    {'o', "output", "FILE", "the image file, {image-formats}; an .exr has all layers"},
     CLI_UNKNOWN_OPTION,
     CLI_SAMPLING_OPTIONS,
     CLI_ADAPTIVE_OPTIONS,
@@ -284,18 +285,21 @@ const cli_command cli_command_render = {
         ".ply.gz, .off, .gltf, .glb, .serialized), or a scene of pbrt-v4 (.pbrt) or\n"
         "Mitsuba 3 (.xml).\n"
         "\n"
-        "A use is what sample dimensions are spent on, such as the lens; see 'koksma list uses'. Each use has its\n"
+        "A use is a purpose of sample dimensions, such as the position on the lens; see 'koksma list uses'. Each use "
+        "has its\n"
         "own point set in every pixel. --pairing combines them: 'shuffled' by random permutations, 'aligned' in the\n"
         "order of the pattern, 'native' as one set with all dimensions. Uses joined by '+' (pixel+time=scan-time)\n"
         "share the dimensions of one set. --scope image spreads one set of SPP x pixels points over the whole "
         "image.\n"
         "\n"
-        "--adaptive takes SPP samples in every pixel first, then more in rounds until METHOD or the budget ends it.\n"
+        "--adaptive first takes SPP samples in every pixel, then adds samples in rounds until METHOD stops or the "
+        "budget is spent.\n"
         "\n"
-        "--aov direct,indirect or bounce:0,bounce:1,... are parts of the light, which add up to the image: bounce:N\n"
-        "was reflected N times, direct is bounce:0 + bounce:1. id has the number of the object in a pixel (as\n"
-        "'koksma scene check' lists them, from 1; 0: none). half has the means of every second sample, half-even\n"
-        "and half-odd.\n",
+        "--aov direct,indirect or bounce:0,bounce:1,... splits the light into layers that add up to the image: the "
+        "light of bounce:N was reflected N times, and direct is bounce:0 + bounce:1. id has the number of the object "
+        "in a pixel (as\n"
+        "'koksma scene check' lists them, from 1; 0: none). half gives two layers, half-even and half-odd: the means "
+        "of the samples with even and with odd index.\n",
     .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
                 "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
                 "koksma render cornell --integrator path --aov direct,indirect -o parts.exr\n"

@@ -15,7 +15,7 @@
 
 enum { MAX_PLANS = 16 };
 
-/* Prints table `id` of the plan, with our numbers beside the published numbers. */
+/* Prints table `id` of the plan: our numbers and the published numbers. */
 static koksma_status put_table(koksma_study *study, const char *id, cli_rows *rows)
 {
     koksma_study_row row;
@@ -54,12 +54,13 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     }
     const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
     const bool wanted = options->folder && table && strcmp(table, "none") != 0;
-    if (wanted && strcmp(table, "all") != 0) { /* reports an unknown table before hours of work */
+    if (wanted && strcmp(table, "all") != 0) { /* an unknown table is reported before hours of work */
         koksma_study_row row;
         bool found;
         status = koksma_study_table_row(study, table, SIZE_MAX, &row, &found);
     }
-    work->share = options->folder ? 0.95 : 1; /* fraction of the progress bar; the rest is the report's */
+    work->share = options->folder ? 0.95 : 1; /* fraction of the progress bar for the run; the rest is for the report
+                                                 */
     status = status ? status : koksma_study_run(study, &work->run, summary);
     *refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = *refused ? KOKSMA_OK : status;
@@ -80,8 +81,8 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     return status;
 }
 
-/* Collects the plans of the operands and returns their number. If both papers are given, it adds the plan
-   open-questions, about questions that the papers leave open. */
+/* Collects the plans of the operands and returns their number. If both papers are given, it also adds the plan
+   open-questions. */
 static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX_PLANS])
 {
     bool shirley = false, mitchell = false, open = false;
@@ -140,11 +141,11 @@ static int run(const cli_arguments *arguments)
 static const cli_option option_table[] = {
     {'o', "output", "DIR",
      "folder for results.sqlite, report.html and report.json; an interrupted run continues there"},
-    {0, "trials", "T", "trials of every cell instead of the plan's own number"},
-    {0, "quick", NULL, "every block's 'quick' number of trials, where it has one"},
-    {0, "papers-only", NULL, "leave out the plan open-questions, which both papers together add"},
+    {0, "trials", "T", "number of trials of every cell, instead of the numbers in the plan"},
+    {0, "quick", NULL, "use the 'quick' number of trials of each block that has one"},
+    {0, "papers-only", NULL, "leave out the plan open-questions, which is added if both papers are given"},
     {0, "table", "ID|all|none",
-     "table to print at the end (default: the first); the first plan's where several have one ID"},
+     "table to print at the end (default: the first one); if several plans have this ID, the first plan's table"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -156,7 +157,8 @@ const cli_command cli_command_reproduce = {
     .synopsis = "PAPER... -o DIR [--quick] [--papers-only] [--trials T] [--table ID] [--json]",
     .details =
         "PAPER is shirley1991 or mitchell1992, or your own plan (./my.json; studies/README.md lists the fields).\n"
-        "Both papers together add the plan open-questions: answers to what the papers leave open.\n"
+        "If both papers are given, the plan open-questions is added; it answers questions that the papers leave "
+        "open.\n"
         "Results go to DIR/results.sqlite as they are computed. An interrupted run continues when it is started\n"
         "again, and ends with the same report. The verdict compares our mean with the published one: agrees, fitted\n"
         "(within 25 % in a scene that was fitted to the published numbers), explained (differs for a known reason),\n"

@@ -87,7 +87,8 @@ const cli_command cli_command_scene = {
                "(.xml). An error names file, line, field and reason\n"
                "(exit code 3). A warning reports something odd that can still be rendered (exit code 1). stdout "
                "lists what the\n"
-               "scene contains: the box around each part, and the part of the picture that it covers at most.\n",
+               "scene contains: the bounding box of each part, and the largest region of the image that the part can "
+               "cover.\n",
     .examples = "koksma scene check ball\n",
     .options = options,
     .run = run,

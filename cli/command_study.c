@@ -71,8 +71,8 @@ static int new_plan(const cli_arguments *arguments)
         return cli_usage_error(arguments, "%s: a plan's name ends in .json", path);
     }
     struct stat info;
-    if (!stat(path, &info) && S_ISREG(info.st_mode)) { /* the file may be somebody's work */
-        return cli_usage_error(arguments, "%s: it is there already, and new writes over no file", path);
+    if (!stat(path, &info) && S_ISREG(info.st_mode)) { /* never overwrite a file that a user may have edited */
+        return cli_usage_error(arguments, "%s: it exists already, and 'new' overwrites no file", path);
     }
     const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     int length = (int)strcspn(base, ".");
@@ -94,7 +94,7 @@ static double percent(double part, double of)
     return of > 0 ? 100 * part / of : 0;
 }
 
-static const double RUN_SHARE = 0.95; /* part of the progress bar; the rest is for the report */
+static const double RUN_SHARE = 0.95; /* fraction of the progress bar for the run; the rest is for the report */
 
 static int run_study(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work)
 {
@@ -138,7 +138,7 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
             summary.jobs, summary.done_before, summary.done_now, summary.seconds,
             percent(summary.idle_seconds, summary.workers * summary.seconds),
             percent(summary.store_seconds, summary.processor_seconds),
-            summary.complete ? "" : "; the time is up, and the same command goes on", options->folder);
+            summary.complete ? "" : "; the time limit ended the run; the same command continues it", options->folder);
     }
     return !options->folder || summary.complete ? CLI_YES : CLI_NO;
 }
@@ -208,7 +208,7 @@ static int print_cost(const koksma_study_cost *cost, int threads)
     printf("about %s on %d thread%s, %s MB: %zu jobs, %llu rows", cli_duration(cost->seconds / n, time), n,
            n == 1 ? "" : "s", cli_number(ceil(cost->bytes * 1e-6), size), cost->jobs, (unsigned long long)cost->rows);
     if (cost->references) {
-        printf(", and %zu reference image%s (%s of the time)", cost->references, cost->references == 1 ? "" : "s",
+        printf(", and %zu reference image%s (%s of this time)", cost->references, cost->references == 1 ? "" : "s",
                cli_duration(cost->reference_seconds / n, references));
     }
     puts("");
@@ -269,7 +269,7 @@ static int export_rows(const cli_arguments *arguments)
     if (!formats[format] && *name) {
         return cli_usage_error(arguments,
                                given ? "--format %s: it takes csv, json, npy or sha256"
-                                     : "%s: its name ends in .csv, .json, .npy or .sha256",
+                                     : "%s: the name of an export must end in .csv, .json, .npy or .sha256",
                                given ? given : path);
     }
     format = formats[format] ? format : 0;
@@ -335,17 +335,17 @@ static void put_audit_row(cli_rows *rows, const koksma_audit *a)
    printed bound holds. */
 static void print_audit(const koksma_audit *a)
 {
-    printf("of %lld rows drawn, %lld agree", a->drawn, a->agree);
+    printf("%lld rows drawn, of which %lld agree", a->drawn, a->agree);
     if (a->drawn == a->rows) {
         printf(": these are all\n");
     } else {
         const double unit = pow(10, floor(log10(100 * a->bound)) - 1);
         printf(": with 95 %% confidence fewer than %g %% are wrong\n", ceil(100 * a->bound / unit - 1e-9) * unit);
     }
-    printf("of %zu references made again, %zu agree", a->references, a->references_agree);
-    printf(a->references_missing ? "; the files of %zu are not there\n" : "\n", a->references_missing);
+    printf("%zu reference images rendered again, of which %zu agree", a->references, a->references_agree);
+    printf(a->references_missing ? "; the files of %zu are missing\n" : "\n", a->references_missing);
     if (a->other_rows) {
-        printf("not compared: %lld rows of other revisions, such as %s\n", a->other_rows, a->other);
+        printf("not compared: %lld rows made by other revisions, such as %s\n", a->other_rows, a->other);
     }
 }
 
@@ -428,8 +428,8 @@ static int images(const cli_arguments *arguments)
     size_t n = 0;
     const char *reference = cli_text(arguments, "reference", NULL);
     if (arguments->n_operands != 2 || !reference) {
-        return cli_usage_error(arguments, "images takes a path with places and a reference, as in "
-                                          "images 'out_{spp}_{trial}.exr' --reference ref.exr");
+        return cli_usage_error(arguments, "images takes a path with placeholders and a reference, such as images "
+                                          "'out_{spp}_{trial}.exr' --reference ref.exr");
     }
     cli_metrics metric = {.n = 0};
     if (!cli_one_metric(arguments, &metric) || !cli_work_begin(arguments, "comparing", &work)) {
@@ -442,8 +442,7 @@ static int images(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     if (n > 1 && !strstr(arguments->operands[1], "{trial}")) {
-        cli_say("study", "there is no {trial} in '%s': other names in braces make groups, without intervals",
-                arguments->operands[1]);
+        cli_say("study", "'%s' has no {trial}, so each group has one image and no interval", arguments->operands[1]);
     }
     cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
     put_image_rows(out, metric.specs, rows, n);
@@ -453,8 +452,8 @@ static int images(const cli_arguments *arguments)
 
 /* ---- The command --------------------------------------------------------------------------------------- */
 
-/* Returns false, after an error, if an option is given that the verb does not take. own: the names of the verb's own
-   options, with blanks between them. */
+/* Returns false, after an error, if an option is given that the verb does not accept. own: the names of the options
+   of this verb, separated by blanks. */
 static bool takes_options(const cli_arguments *arguments, const char *own)
 {
     static const char common[] = " threads progress quiet allow-exec exec-seconds unknown help ";
@@ -475,7 +474,7 @@ static int run(const cli_arguments *arguments)
     static const struct {
         const char *name;
         int (*run)(const cli_arguments *arguments);
-        const char *options; /* the names of the options that the verb takes besides the common ones */
+        const char *options; /* names of the options that the verb accepts in addition to the common ones */
     } verbs[] = {
         {"run", run_plans, " output trials quick time-limit "},
         {"quick", run_quick, " output trials quick time-limit patterns measures integrands points scene spp "},
@@ -494,18 +493,18 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'p', "patterns", "LIST", "quick: the patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
+    {'p', "patterns", "LIST", "quick: patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
     {'m', "measures", "LIST", "quick: the measures (default: star,l2-star)"},
-    {0, "integrands", "INTEGRAND,..", "quick: integrands, whose errors are measured, too (default: none)"},
+    {0, "integrands", "INTEGRAND,..", "quick: integrands whose integration errors are measured, too (default: none)"},
     {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
     {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
     CLI_UNKNOWN_OPTION,
     {0, "spp", "LIST", "quick: samples a pixel in the scenes (default: 4,16,64)"},
     {'o', "output", "PATH", "run, quick, images: the folder; new, export: the file (default: -, standard output)"},
-    {0, "trials", "T", "run, quick, estimate: trials of everything instead of the plan's own numbers"},
-    {0, "quick", NULL, "run, quick, estimate: every block's 'quick' number of trials"},
+    {0, "trials", "T", "run, quick, estimate: number of trials, instead of the numbers in the plan"},
+    {0, "quick", NULL, "run, quick, estimate: use the 'quick' number of trials of each block"},
     {0, "time-limit", "S",
-     "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
+     "run: stop after S seconds, with exit code 1 if jobs remain; estimate: time for sample jobs (5)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: seed of the random draw (default: 1)"},
     {0, "reference", "FILE", "images: the reference image"},
@@ -518,7 +517,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_study = {
     .name = "study",
-    .summary = "run patterns x measures or scenes x trials, from a plan",
+    .summary = "evaluate patterns with measures or scenes, as a plan says",
     .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
                 "quick [-p LIST] [-m LIST] [-n LIST] [--scene LIST] -o DIR\n"
                 "new [FILE]\n"
@@ -530,25 +529,26 @@ const cli_command cli_command_study = {
     .details =
         "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
         "the plan's file.\n"
-        "run: runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
+        "run: runs all jobs; each result is written to DIR/results.sqlite when it is finished. An interrupted run "
+        "continues when it is\n"
         "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
-        "quick: writes DIR/plan.json from the options and runs it. Numbers that a pattern does not have are left "
-        "out\n"
-        "and listed. A pattern file:PATH is a file of points.\n"
+        "quick: writes DIR/plan.json from the options and runs it. Numbers of points that a pattern does not accept "
+        "are left out and listed. A pattern file:PATH is a file of points.\n"
         "new: writes an example plan; it overwrites no file.\n"
         "estimate: measures samples and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
         "'sha256' is the hash of the CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
-        "results, fail while a run uses DIR, and refuse results that something else than a run has changed.\n"
+        "results, fail while a run uses DIR, and fail if anything but a run has changed the results.\n"
         "report: writes DIR/report.html.\n"
-        "audit: makes rows of DIR again, and all reference images, and compares them bit for bit; prints what\n"
-        "differs, and below which part of all rows is wrong with 95 % confidence. The exit code is 1 if anything\n"
-        "differs. Rows that another revision of a pattern, measure or the renderer made are counted apart. The verb\n"
-        "changes nothing, and works under mpirun, too.\n"
-        "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
-        "braces, which make groups. 'behind' is how much larger a group's error is than that of the first of its "
-        "spp,\n"
-        "with an interval from the differences of images with equal {trial}, if both groups have the same trials. "
+        "audit: computes rows of DIR and all reference images again, and compares them bit for bit. It prints each "
+        "difference and an upper bound of the fraction of wrong rows (95 % confidence). The exit code is 1 if "
+        "anything\n"
+        "differs. Rows made by other revisions of a pattern, a measure or the renderer are counted separately. audit "
+        "changes nothing, and also works under mpirun.\n"
+        "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in "
+        "braces; images that differ only in {trial} form a group. 'behind' is the relative excess of a group's error "
+        "over the smallest error of a group with the same spp. It has an interval if both groups have the same "
+        "trials, from the differences of images with equal {trial}. "
         "'koksma "
         "compare --help' explains coherence. With -o DIR it writes DIR/report.html, a page with these numbers, "
         "charts "

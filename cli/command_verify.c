@@ -60,8 +60,8 @@ static const char *misspelt(const char *list, char *name, size_t size)
     return NULL;
 }
 
-/* Whether a property of the list fails, was not tested, or was tested in some of the coordinates only. The last two
-   cases are reported on stderr. */
+/* Returns whether a property of the list fails, was not tested, or was tested only in some coordinates. A message on
+   stderr reports a property that was not tested in all coordinates. */
 static bool disappoints(const char *list, const char *source, const koksma_points *points,
                         const koksma_findings *findings)
 {
@@ -83,16 +83,16 @@ static bool disappoints(const char *list, const char *source, const koksma_point
         }
         const int coordinates = find_property(name)->coordinates;
         if (coordinates && points->dim > coordinates) {
-            cli_say("verify", "%s: %s was looked at in the first %d coordinates alone", source, name, coordinates);
+            cli_say("verify", "%s: %s was tested only in the first %d coordinates", source, name, coordinates);
             return true;
         }
     }
     return false;
 }
 
-/* --record: prints the exact value of a measure for the points beside the best known value for as many points, which
-   a set of the pattern `record` has. *is_record: the points have the lower value, or no value is known for so many
-   points. Returns the exit code. */
+/* --record: prints the exact value of a measure for the points, and the best known value for the same number of
+   points, which the pattern `record` has. *is_record: the points have a lower value, or no value is known for this
+   number of points. Returns the exit code. */
 static int put_record(const cli_arguments *arguments, cli_rows *rows, const char *source, const koksma_points *points,
                       const koksma_run *run, bool *is_record)
 {
@@ -116,7 +116,7 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
     if (status) {
         return cli_fail(arguments, status);
     }
-    /* the difference must exceed the rounding error of the coordinates in the known sets */
+    /* a record must differ by more than the rounding errors of the coordinates in the known sets */
     *is_record = !here || value.value < here->value - 1e-11;
     cli_row_text(rows, "source", source);
     cli_row_whole(rows, "n", points->n);
@@ -157,7 +157,7 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(arguments, "no property '%s'; it takes %s", name, all_properties(names, sizeof names));
     }
     if (cli_text(arguments, "measure", NULL) && !cli_flag(arguments, "record")) {
-        return cli_usage_error(arguments, "-m MEASURE has an effect with --record only");
+        return cli_usage_error(arguments, "-m MEASURE has an effect only with --record");
     }
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
@@ -188,9 +188,10 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'e', "expect", "PROPERTY,..", "exit with 1 unless these properties all hold"},
-    {0, "record", NULL, "compare the star discrepancy with the best known value; exit with 1 unless it is lower"},
-    {'m', "measure", "MEASURE", "with --record: another measure than star, such as l2-star"},
+    {'e', "expect", "PROPERTY,..", "exit with code 1 unless all these properties hold"},
+    {0, "record", NULL,
+     "compare the star discrepancy with the best known value; exit with code 1 unless it is lower"},
+    {'m', "measure", "MEASURE", "with --record: measure to compare instead of star, such as l2-star"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     CLI_ROW_OPTIONS,
@@ -202,14 +203,13 @@ const cli_command cli_command_verify = {
     .name = "verify",
     .summary = "check which properties points have",
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--record] [--json]",
-    .details =
-        "Each property is desirable; 'yes' means that the points have it, and the detail explains the value.\n"
-        "{property-meanings}"
-        "\n"
-        "Exit codes: 0 whatever the findings, without --expect; 1 when a property of --expect fails or was not "
-        "looked\n"
-        "at, or points of --record are no record; 2 for a wrong command line, as an unknown property; 3 for points "
-        "that are missing or malformed.",
+    .details = "Each property is desirable; 'yes' means that the points have it, and the detail explains the value.\n"
+               "{property-meanings}"
+               "\n"
+               "Exit codes: 0 for any findings without --expect; 1 when a property of --expect fails or was not "
+               "tested, or when points of --record are no record; 2 for a wrong command line, such as an unknown "
+               "property; 3 for points "
+               "that are missing or malformed.",
     .examples = "koksma verify pattern:sobol@1024\n"
                 "koksma verify points.txt --expect distinct\n",
     .options = options,

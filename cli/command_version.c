@@ -69,7 +69,8 @@ const cli_command cli_command_version = {
     .synopsis = "[--json]",
     .details =
         "kernels: the instruction set of the inner loops, the first of avx512, avx2 and baseline that the processor\n"
-        "has. The environment variable KOKSMA_KERNELS selects another one, or ref: plain C, for tests.\n",
+        "has. The environment variable KOKSMA_KERNELS selects another instruction set, or ref (plain C, for "
+        "tests).\n",
     .examples = "koksma version --json\n",
     .options = options,
     .run = run,

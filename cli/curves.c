@@ -38,7 +38,7 @@ const cli_curve *cli_curve_find(cli_curve_list list, const char *name)
     return NULL;
 }
 
-/* Whether `word` is one of the words in `words`, which have blanks between them. */
+/* Returns whether `word` is one of the words in `words`, which have blanks between them. */
 static bool has_word(const char *words, const char *word)
 {
     for (const char *at = words; *at; at += strcspn(at, " ")) {
@@ -106,7 +106,8 @@ int cli_curves_each_set(cli_curves *c, const char *source,
 {
     cli_source opened;
     int code = cli_source_open(c->arguments, source, &opened);
-    for (uint64_t t = 0; t < (opened.is_pattern ? c->trials : 1) && !code; t++) { /* a file is one set */
+    for (uint64_t t = 0; t < (opened.is_pattern ? c->trials : 1) && !code; t++) { /* a file has only one set, also if
+                                                                                     --trials is above 1 */
         koksma_points points;
         code = cli_source_points(c->arguments, source, c->seed + t, &c->work.run, &points);
         if (!code) {

@@ -25,7 +25,7 @@ typedef struct cli_curves {
     koksma_spectrum_method method;
     cli_work work;
     const char *output;   /* the file of --output, or NULL */
-    double width, height; /* of the picture; 0: the default size */
+    double width, height; /* size of the picture; 0: the default size */
     bool dark;
     const char *witness;     /* plot --witness: the measure, or NULL */
     const koksma_warp *warp; /* plot --warp, or NULL */
@@ -47,13 +47,15 @@ struct cli_curve {
     int (*compute)(cli_curves *c, const char *source, cli_sink *sink);
     const char *columns[CLI_CURVE_COLUMNS + 1]; /* keys of the numbers in a row, ended by NULL */
     struct {
-        /* options of `koksma curve` that have an effect, with blanks between, or NULL if it can't be printed */
+        /* options of `koksma curve` that have an effect on this curve, separated by blanks; NULL: `koksma curve`
+           cannot print it */
         const char *options;
         /* writes the file of --output, or NULL if the curve has no such file */
         koksma_status (*write)(cli_curves *c, const koksma_spectrum *spectrum);
     } print;
     struct {
-        /* options of `koksma plot` that have an effect, with blanks between, or NULL if the command can't draw it */
+        /* options of `koksma plot` that have an effect on this curve, separated by blanks; NULL: `koksma plot` cannot
+           draw it */
         const char *options;
         int (*draw)(cli_curves *c);
         const char *title;             /* heading of a chart, unless --title gives another */
@@ -62,7 +64,7 @@ struct cli_curve {
         bool x_per_root;
         double (*level)(const cli_curves *c); /* the value that random points have, drawn as a dashed line */
         bool of_filters;                      /* the operands are names of pixel filters */
-        /* a file, which is one set, may be shown beside means over a pattern's sets */
+        /* true: one chart may show a file, which is one set, and means over the sets of a pattern */
         bool mixes_files;
     } plot;
 };
@@ -84,17 +86,18 @@ const cli_curve *cli_curve_find(cli_curve_list list, const char *name);
 const char *cli_curve_names(cli_curve_list list, const char *option, const char *comma, const char *last, char *text,
                             size_t size);
 
-/* Options of both `koksma curve` and `koksma plot`. list: "curve" or "chart", the placeholder of cli/texts.c.
-   default_half: the default of --half, as the help shows it. */
+/* Defines options of both `koksma curve` and `koksma plot`. list: "curve" or "chart", a placeholder that cli/texts.c
+   replaces. default_half: the default of --half in the help text. */
 #define CLI_CURVE_OPTIONS(list, default_half)                                                                        \
     {'s', "seed", "S", "seed of patterns (default: 0)"},                                                             \
-        {'t', "trials", "T", "{" list ":trials}: the mean over T sets with seeds S, S+1, .., with standard errors"}, \
+        {'t', "trials", "T",                                                                                         \
+         "{" list ":trials}: print the mean over T sets with seeds S, S+1, .., with standard errors"},               \
         {0, "half", "H",                                                                                             \
-         "{" list ":half}: frequencies up to H in each coordinate (default: " default_half "; at most 2047)"},       \
+         "{" list ":half}: use frequencies up to H in each coordinate (default: " default_half "; at most 2047)"},   \
         {0, "exact", NULL, "{" list ":exact}: sum over all points at each frequency instead of the fast transform"}, \
-        {0, "r-max", "R", "{" list ":r-max}: distances up to R (default: 4 / sqrt(n), at most 1/2)"},                \
+        {0, "r-max", "R", "{" list ":r-max}: use distances up to R (default: 4 / sqrt(n), at most 1/2)"},            \
     {                                                                                                                \
-        0, "bins", "B", "{" list ":bins}: rings of distances (default: 100)"                                         \
+        0, "bins", "B", "{" list ":bins}: number of rings of distances (default: 100)"                               \
     }
 
 enum { CLI_DEFAULT_HALF = KOKSMA_SPECTRUM_MAX_HALF / 2 - 1 }; /* the largest default of --half */
@@ -109,8 +112,8 @@ bool cli_curves_begin(const cli_arguments *arguments, const cli_curve *curve, cl
    complete sets. The caller frees *out with koksma_spectrum_fini. */
 int cli_curves_spectrum(cli_curves *c, const char *source, double per_root, koksma_spectrum *out);
 
-/* Calls `add` for the points of each trial until it fails, as it does for points that are not 2-dimensional. Returns
-   the exit code. */
+/* Calls `add` for the points of each trial until it fails, for example because the points are not 2-dimensional.
+   Returns the exit code. */
 int cli_curves_each_set(cli_curves *c, const char *source,
                         koksma_status (*add)(cli_curves *c, const koksma_points *points, void *context),
                         void *context);

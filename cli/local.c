@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma measure --at X,Y..`: the local discrepancy at a corner, which is the share of the points in the box from
-   the origin to that corner, less the volume of the box. */
+/* `koksma measure --at X,Y..`: the local discrepancy at a corner, which is the fraction of the points in the box from
+   the origin to that corner, minus the volume of the box. */
 #include "local.h"
 
 #include <stdlib.h>
@@ -49,7 +49,7 @@ int measure_local(const cli_arguments *arguments)
         koksma_points points = {0};
         code = cli_source_points(arguments, arguments->operands[i], seed, &work.run, &points);
         if (!code && points.dim != dim) {
-            code = cli_usage_error(arguments, "%s: its points have %d dimensions, and --at %s has %d",
+            code = cli_usage_error(arguments, "%s: the points have %d dimensions, but --at %s has %d",
                                    arguments->operands[i], points.dim, list, dim);
         }
         const koksma_status status = code ? KOKSMA_OK : koksma_local_discrepancy(&points, corner, &value);

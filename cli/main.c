@@ -37,14 +37,15 @@ const cli_command *cli_command_find(const char *name)
 }
 
 /* Checks the environment variable KOKSMA_KERNELS. If it names an instruction set that the machine lacks, the library
-   uses another one; an error keeps users from measuring the speed of the wrong one. */
+   would silently use another one and users would measure the speed of the wrong code; the program reports an error
+   instead. */
 static bool kernels_are_there(void)
 {
     const char *wish = getenv("KOKSMA_KERNELS");
     if (!wish || !*wish || !strcmp(wish, koksma_instruction_set())) {
         return true;
     }
-    cli_say("", "KOKSMA_KERNELS=%s: it takes ref, baseline, avx2 or avx512, where the machine has it", wish);
+    cli_say("", "KOKSMA_KERNELS=%s: it takes ref, baseline, avx2 or avx512, if the machine supports it", wish);
     return false;
 }
 

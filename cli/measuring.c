@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Evaluates measures over many sets or several sizes, for `koksma measure`: running statistics for each measure and
- * size, differences from the first source with equal seeds (--paired), and slopes. A trial is one set, whose first
- * points are measured for --prefixes, or one set of each size for --sizes. After an interruption the statistics of
- * the completed trials are printed.
+ * size, differences from the first source with equal seeds (--paired), and slopes. In a trial --prefixes measures the
+ * first points of one set, and --sizes measures one set of each size. After an interruption the statistics of the
+ * completed trials are printed.
  */
 #include "measuring.h"
 
@@ -56,7 +56,7 @@ static void put_head(measuring *j, const char *source, size_t n, int dim, const 
     }
 }
 
-/* Values of the last columns, NaN where a row has none: the number of trials with exact values, the 95 % interval of
+/* Values of the last columns; NaN if a row has no value: the number of trials with exact values, the 95 % interval of
    the mean, the exponents that theory gives for the pattern and for the best points, and the residual error of a
    slope fitted to one set. */
 typedef struct tail {
@@ -99,9 +99,9 @@ bool measuring_by_size(const measuring *j)
     return cli_text(j->arguments, "prefixes", NULL) || cli_text(j->arguments, "sizes", NULL);
 }
 
-/* Whether the first k points are a set of the pattern for all k, so that a slope describes the pattern and theory
-   applies to it. Sequences, and independent points without cells, have this property. The first k points of other
-   patterns are only a part of a set, such as a strip of cells. */
+/* Returns whether the first k points are a set of the pattern for all k, so that a slope describes the pattern and
+   theory applies to it. Sequences, and independent points without cells, have this property. The first k points of
+   other patterns are only a part of a set, such as a strip of cells. */
 static bool prefixes_are_sets(const koksma_pattern *pattern)
 {
     const bool independent =
@@ -118,8 +118,8 @@ bool measuring_check_prefixes(const measuring *j)
         }
         if (parts.is_pattern && !prefixes_are_sets(parts.spec.pattern)) {
             cli_usage_error(j->arguments,
-                            "--prefixes: %s is no sequence, its first points are a part of a set; --sizes 16,64,256 "
-                            "measures a set of each n",
+                            "--prefixes: %s is no sequence, so its first points are no set of the pattern; use "
+                            "--sizes 16,64,256 to measure a set of each n",
                             parts.spec.pattern->name);
             return false;
         }
@@ -127,8 +127,7 @@ bool measuring_check_prefixes(const measuring *j)
     return true;
 }
 
-/* Returns the number of exact values, or NaN for a measure that samples, because its estimates are neither exact nor
-   bounds. */
+/* Returns the number of exact values, or NaN for a sampled measure, whose estimates are neither exact nor bounds. */
 static double n_exact_of(const measuring *j, size_t measure, size_t count)
 {
     return j->measures[measure].measure->answer == KOKSMA_ANSWER_SAMPLED ? (double)NAN : (double)count;
@@ -189,8 +188,8 @@ static void put_tallies(measuring *j, const char *source, int dim)
     }
 }
 
-/* Chooses the prefixes for a set of n points. Without --prefixes and --sizes there is one, the whole set. Returns the
-   exit code. */
+/* Chooses the prefixes for a set of n points. Without --prefixes and --sizes the only prefix is the whole set.
+   Returns the exit code. */
 static int choose_prefixes(measuring *j, size_t n)
 {
     if (j->powers || !measuring_by_size(j)) {
@@ -202,7 +201,7 @@ static int choose_prefixes(measuring *j, size_t n)
     }
     for (size_t i = 0; i < j->n_prefixes; i++) {
         if (j->prefixes[i] > n) {
-            return cli_usage_error(j->arguments, "%s: %zu points are more than the %zu of the set",
+            return cli_usage_error(j->arguments, "%s: a prefix of %zu points is longer than the set, which has %zu",
                                    j->own_sets ? "sizes" : "prefixes", j->prefixes[i], n);
         }
     }
@@ -256,8 +255,8 @@ typedef struct trial_values {
     bool whole[MAX_MEASURES];
 } trial_values;
 
-/* Evaluates the measures for prefix i. With `--prefixes powers` a measure that does not accept so few points, such as
-   min-distance for one point, is left out. */
+/* Evaluates the measures for prefix i. With `--prefixes powers` it leaves out a measure that needs more points, such
+   as min-distance for one point. */
 static koksma_status tally_set(measuring *j, const koksma_points *points, size_t i, uint64_t trial, bool first,
                                trial_values *v)
 {

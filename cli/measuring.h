@@ -17,24 +17,24 @@ typedef struct measuring {
     size_t n_measures;
     bool all; /* -m all: leave out measures that do not accept a set */
     uint64_t seed, trials;
-    const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the one in use, or NULL */
+    const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the warp that is being measured, or NULL */
     size_t n_warps;
     size_t prefixes[MAX_PREFIXES], n_prefixes;
     bool powers;   /* --prefixes powers: the prefixes are the powers of two */
-    bool own_sets; /* --sizes: a pattern makes a set of each size; there are no prefixes of it */
+    bool own_sets; /* --sizes: generate a new set for each size instead of measuring prefixes of one set */
     double time_limit_s;
     cli_work work;
     size_t n_evaluated; /* number of evaluations begun, for the progress line */
     cli_rows *rows;
-    koksma_tally *tallies; /* statistics of the values, [prefix][measure] */
-    size_t *n_exact;       /* number of trials with exact values, [prefix][measure] */
-    /* number of values of all sources that are only bounds, the search being cut short, [measure] */
+    koksma_tally *tallies; /* [prefix][measure]: statistics of the values */
+    size_t *n_exact;       /* [prefix][measure]: number of trials with exact values */
+    /* [measure]: number of values of all sources that are only bounds because the search was cut short */
     size_t *n_cut;
-    size_t *n_whole;      /* number of trials whose values are exact at all prefixes, [measure] */
-    koksma_joint *joints; /* values for the fitted slopes, [measure] */
-    bool bounds, sampled; /* whether rows have the columns of bounds, and of standard errors */
-    /* --paired: the first source's values, [trial][prefix][measure], and statistics of how much the values of the
-       other sources exceed them */
+    size_t *n_whole;      /* [measure]: number of trials whose values are exact at all prefixes */
+    koksma_joint *joints; /* [measure]: values for the fitted slopes */
+    bool bounds, sampled; /* whether rows have columns for bounds, and for standard errors */
+    /* --paired: firsts has the values of the first source, [trial][prefix][measure]; differences has statistics of
+       how much the values of the other sources exceed these */
     bool paired;
     double *firsts;
     bool *first_is_exact;
@@ -51,7 +51,7 @@ void measuring_close(measuring *j);
 koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value);
 koksma_status measuring_forgive(const measuring *j, koksma_status status);
 
-/* Whether --prefixes or --sizes asks for values at several sizes, with a slope. */
+/* Returns whether --prefixes or --sizes asks for values at several sizes, with a slope. */
 bool measuring_by_size(const measuring *j);
 
 /* Refuses --prefixes for a pattern whose first points are not a set of the pattern. Returns false after an error on

@@ -48,7 +48,7 @@ bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics)
 {
     const bool good = cli_metrics_parse(arguments, metrics);
     if (metrics->n > 1) {
-        cli_usage_error(arguments, "--metric: one metric ranks; 'koksma compare -m' prints several");
+        cli_usage_error(arguments, "--metric: it takes one metric; 'koksma compare -m' prints several");
     } else if (good && !metrics->n) {
         metrics->specs[metrics->n++].metric = koksma_metric_find("mae");
     }

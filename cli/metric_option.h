@@ -14,14 +14,14 @@ typedef struct cli_metrics {
     koksma_metric_spec specs[CLI_MAX_METRICS];
 } cli_metrics;
 
-/* Adds the metrics of --metric, METRIC,.. or all, each once; without this option it adds none. Returns false after an
-   error. */
+/* Adds each metric of --metric, which is a list or `all`, once; without this option it adds none. Returns false after
+   an error. */
 bool cli_metrics_parse(const cli_arguments *arguments, cli_metrics *metrics);
 
 /* Reads --metric as one metric, by default mae. Returns false after an error. */
 bool cli_one_metric(const cli_arguments *arguments, cli_metrics *metrics);
 
-/* Warns when few pixels carry most of the error. subject: what has the error, such as a pattern's name. */
+/* Warns when few pixels carry most of the error. subject: the beginning of the message, such as a pattern's name. */
 void cli_warn_of_few_pixels(const char *command, const char *subject, const char *metric,
                             const koksma_metric_value *value);
 

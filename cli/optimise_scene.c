@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * `koksma optimise --scene SCENE -n SPP`: searches for a point set that makes the error of one scene's image small
- * when every pixel uses it as file:FILE.
+ * `koksma optimise --scene SCENE -n SPP`: searches for a point set that gives the image of one scene a small error if
+ * every pixel uses it as file:FILE.
  *
- * 1. Weights. The radiance at 8 x 8 positions in every pixel, one sample each, is analysed as a two-way layout: the
- *    variance along x, along y, and of the interaction of both (which includes the noise of lights and lenses),
- *    summed over the pixels.
+ * 1. Weights. In every pixel the radiance is sampled once at 8 x 8 positions and analysed as a two-way layout. This
+ * gives the variance along x, along y, and of the interaction of both (which includes the noise of lights and
+ * lenses), summed over the pixels.
  *
- * 2. Candidates. koksma_optimise makes an L2 discrepancy (l2-star, l2-periodic, l2-extreme in turn) of the
- *    projections on x, on y and on the plane small. The weight of a projection is its share of the variance, divided
+ * 2. Candidates. koksma_optimise minimises an L2 discrepancy (l2-star, l2-periodic, l2-extreme in turn) of the
+ * projections on x, on y and on the plane. The weight of a projection is its share of the variance, divided
  *    by the discrepancy of random points. The first three candidates have these weights; the others have these
  *    weights times random factors from 1/4 to 4, because many sets have the same low discrepancy. Each candidate
  *    comes in several phases: shifted on the torus by multiples of a vector of the R2 sequence.
@@ -17,8 +17,8 @@
  *    least error. A candidate is rendered no further once its confidence interval shows a larger error.
  *
  * 4. Evaluation. The chosen set is compared with listed patterns, in the scene itself with other random numbers, and
- *    in held-out scenes, which took no part in steps 1 to 3. A gain in the scene that the held-out scenes do not show
- *    is a matter of luck in that scene.
+ *    in held-out scenes, which took no part in steps 1 to 3. A gain that only the first scene shows is due to chance,
+ *    not to better points.
  */
 #include "optimise_scene.h"
 
@@ -47,7 +47,8 @@ static const char listed[] =
     "fibonacci,fibonacci:shift=1,zaremba,regular,best-candidate";
 static const char scenes[] = "ball,balls,checker,checker-45,cornell,glossy,mirror-block";
 
-/* The candidate sets. The pattern set_pattern below, which is in no table of the library, reads them. */
+/* The candidate sets. The renderer reads the candidates through set_pattern below, which is a pattern outside the
+   library's table. */
 static koksma_points *sets;
 
 typedef struct scene_job {
@@ -70,7 +71,8 @@ typedef struct scene_job {
 typedef struct verdict {
     const char *scene, *role;
     koksma_rank_row own, other;
-    double gain, low, high; /* 1 - error of the set / error of the other, with its interval */
+    double gain, low, high; /* the gain: 1 - (error of the set / error of the best listed pattern), with its interval
+                               */
     bool settled;
     int width, height;
 } verdict;
@@ -165,8 +167,8 @@ static double luminance(const koksma_image *image, size_t p)
                                 : 0.2126 * (double)v[0] + 0.7152 * (double)v[1] + 0.0722 * (double)v[2];
 }
 
-/* Adds the variances of a pixel. In a two-way layout without replicates the mean square along x is on average
-   MS_x = SIDE var_x + var_xy, and likewise along y. */
+/* Adds the variances of a pixel. In a two-way layout without replicates the expected mean square along x is MS_x =
+   SIDE var_x + var_xy, and likewise along y. */
 static void add_pixel(const double *f, size_t pixels, double *variances)
 {
     double rows[SIDE] = {0}, columns[SIDE] = {0}, mean = 0, ms[2] = {0}, rest = 0;
@@ -218,7 +220,7 @@ static koksma_status find_shares(scene_job *j)
         add_pixel(f + p, pixels, variances);
     }
     free(f);
-    /* below, a share of 0 becomes 0.01, because the samples may have missed the variance */
+    /* shares below 0.01 become 0.01, because the samples may have missed the variance */
     for (int k = 0; k < 3; k++) {
         sum += fmax(variances[k], 0);
     }
@@ -230,7 +232,7 @@ static koksma_status find_shares(scene_job *j)
 
 /* ---- Candidates -------------------------------------------------------------------------------------------- */
 
-/* The mean square of each measure for n random points, times n: on the line and in the plane. */
+/* For each measure the mean square for n random points, multiplied by n; on the line and in the plane. */
 static const struct {
     const char *measure;
     double line, plane;
@@ -314,7 +316,7 @@ static koksma_status make_candidates(scene_job *j)
     return status;
 }
 
-/* Ranks the candidates. Counts those that are eliminated, and chooses the one with the least error. */
+/* Ranks the candidates. Counts the eliminated candidates, and chooses the one with the least error. */
 static koksma_status choose(scene_job *j)
 {
     char *names = calloc(j->n, NAME);
@@ -344,8 +346,8 @@ static koksma_status choose(scene_job *j)
 
 /* ---- Evaluation -------------------------------------------------------------------------------------------- */
 
-/* Compares the chosen set with the listed patterns in one scene. In a ranking, 1 + behind is the quotient of a
-   pattern's error and that of row 0. */
+/* Compares the chosen set with the listed patterns in one scene. In a ranking, 1 + behind is the error of a pattern
+   divided by that of row 0. */
 static koksma_status judge(scene_job *j, verdict *v)
 {
     const char *patterns[MOST_PATTERNS + 1];
@@ -494,7 +496,7 @@ static bool parse(scene_job *j)
     }
     if (!cli_text(arguments, "n", NULL) || !cli_text(arguments, "output", NULL)) {
         cli_usage_error(arguments, "%s, is missing",
-                        cli_text(arguments, "n", NULL) ? "-o FILE, where the set is kept"
+                        cli_text(arguments, "n", NULL) ? "-o FILE, the file for the set"
                                                        : "-n SPP, the samples per pixel");
         return false;
     }
@@ -518,9 +520,8 @@ static int report(scene_job *j, koksma_status *status)
     cli_work_end();
     if (!*status && j->n_held_out && !cli_flag(j->arguments, "quiet")) {
         cli_say("optimise",
-                "%zu of %zu candidates eliminated; gain on the best listed pattern %.1f %% in %s, %.1f %% on average "
-                "in %zu "
-                "held-out scenes: it shrinks by %.1f points",
+                "%zu of %zu candidates eliminated; gain over the best listed pattern: %.1f %% in %s, %.1f %% on "
+                "average in %zu held-out scenes, which is %.1f points less",
                 j->eliminated, j->n, 100 * home, j->scene, 100 * mean.gain, j->n_held_out, 100 * (home - mean.gain));
     }
     const int code = cli_rows_close(rows);

@@ -21,7 +21,7 @@
 /* The letter of --help, which no option table may use. */
 enum { LONG_BASE = 1000, HELP = LONG_BASE + CLI_MAX_OPTIONS, HELP_LETTER = 'h' };
 
-static bool complained; /* an error was printed: cli_no_memory() prints no second one */
+static bool complained; /* true: an error was printed, so cli_no_memory() prints nothing */
 
 enum { LEFT = 22, HELP_COLUMN = 29 }; /* the width of "--NAME ARGUMENT", and the column where the help begins */
 
@@ -192,8 +192,8 @@ int cli_end_output(int code)
     return code;
 }
 
-/* Whether a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending; else it
-   prints an error. */
+/* Returns whether a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending; else
+   it prints an error. */
 static bool ending_fits(const cli_arguments *arguments, const char *argument, const char *path)
 {
     const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.');
@@ -219,7 +219,7 @@ static bool ending_fits(const cli_arguments *arguments, const char *argument, co
     return !used;
 }
 
-/* Reads the options that mean the same in all commands that have them. Returns the exit code. */
+/* Reads the options that have the same meaning in all commands. Returns the exit code. */
 static int read_shared_options(cli_arguments *arguments)
 {
     uint64_t digits = CLI_DIGITS;
@@ -242,7 +242,7 @@ static int read_shared_options(cli_arguments *arguments)
             return CLI_USAGE;
         }
         if (!allowed && cli_text(arguments, "exec-seconds", NULL)) {
-            return cli_usage_error(arguments, "--exec-seconds takes --allow-exec");
+            return cli_usage_error(arguments, "--exec-seconds needs --allow-exec");
         }
         koksma_allow_exec(allowed ? seconds : 0);
     }
@@ -282,7 +282,7 @@ const char *cli_text(const cli_arguments *arguments, const char *name, const cha
             return arguments->values[i] ? arguments->values[i] : fallback;
         }
     }
-    abort(); /* the option table lacks the name, which is a bug */
+    abort(); /* a bug: the option table lacks this name */
 }
 
 bool cli_flag(const cli_arguments *arguments, const char *name)
@@ -395,8 +395,8 @@ static bool is_use(const char *name, size_t length)
 }
 
 /* Returns the end of the list item that starts at s: the next comma that does not begin another parameter,
-   "key=value", of the same spec. A new spec is recognised by a ':' before any '=' (a parameter never holds a ':'), by
-   the ';' or '+' of patterns for several uses, or by the name of a use, "USE=", which no parameter has. */
+   "key=value", of the same spec. A new spec is recognised by a ':' before any '=' (a parameter never contains a ':'),
+   by the ';' or '+' of patterns for several uses, or by the name of a use, "USE=", which no parameter has. */
 static const char *item_end(const char *s)
 {
     bool has_parameters = false;

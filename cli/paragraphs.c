@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Prints help texts in lines of at most 80 columns, with as many words on a line as fit. A blank at which no line may
-   end is stored as TIED until it is printed. */
+/* Prints help texts in lines of at most 80 columns, with as many words on a line as fit. A non-breaking blank is
+   stored as TIED until it is printed. */
 #include "paragraphs.h"
 
 #include <stdio.h>

@@ -16,7 +16,7 @@ void cli_fill(const char *text, size_t column, size_t indent);
    line. */
 void cli_fill_use(const char *use, size_t column, size_t indent);
 
-/* Whether a line begins with a word that ends in a colon. */
+/* Returns whether a line begins with a word that ends in a colon. */
 bool cli_is_heading(const char *line);
 
 /* Copies the next paragraph of a text, as one line. A paragraph ends at an empty line, or before a line whose first

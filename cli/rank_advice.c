@@ -85,7 +85,7 @@ static void print_coherence(const koksma_rank_row *row)
     const koksma_coherence_values *c = &row->coherence;
     fprintf(stderr, " (coherence ");
     print_two_digits(c->coherence);
-    fprintf(stderr, ", noise of %zu image%s is below ", c->images, c->images == 1 ? "" : "s");
+    fprintf(stderr, ", the noise of %zu image%s stays below ", c->images, c->images == 1 ? "" : "s");
     print_two_digits(c->noise_high);
     fprintf(stderr, ")");
 }

@@ -5,7 +5,7 @@
 
 #include <koksma/study.h>
 
-/* Prints on stderr which pattern to use, or what is not decided, and the trials that this rests on. */
+/* Prints on stderr which pattern to use or what is undecided, and how many trials were made. */
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking);
 
 #endif

@@ -119,7 +119,7 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
     }
     const bool valid = cli_whole(arguments, "spp", n ? n : 16, 1, KOKSMA_MAX_SPP, &spp);
     if (valid && n && n != spp) {
-        cli_usage_error(arguments, "-p has @%llu and -n %llu", (unsigned long long)n, (unsigned long long)spp);
+        cli_usage_error(arguments, "-p has @%llu, but -n is %llu", (unsigned long long)n, (unsigned long long)spp);
     }
     options->spp = (int)spp;
     *code = CLI_USAGE;
@@ -132,7 +132,7 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
     for (size_t i = 0; koksma_use_at(i); i++) {
         if (options->patterns[i].pattern && !koksma_use_is_spent(scene, options, i)) {
             cli_say(arguments->command->name,
-                    "%s: warning: no sample is spent on %s here; its pattern changes nothing", name,
+                    "%s: warning: this scene needs no samples for %s; the pattern for it has no effect", name,
                     koksma_use_at(i)->name);
         }
     }
@@ -143,7 +143,7 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
         for (int i = 0; i < group->n_uses; i++) {
             if (!koksma_use_is_spent(scene, options, (size_t)group->uses[i])) {
                 cli_say(arguments->command->name,
-                        "%s: warning: no sample is spent on %s here; its coordinates of %s change nothing", name,
+                        "%s: warning: this scene needs no samples for %s; its coordinates of %s have no effect", name,
                         koksma_use_at((size_t)group->uses[i])->name, text);
             }
         }

@@ -19,15 +19,17 @@
     {0, "pairing", "shuffled|aligned|native", "how the point sets of a pixel are combined (default: shuffled)"},     \
         {0, "scope", "pixel|image", "what one point set covers (default: pixel)"},                                   \
         {0, "lights", "all|one|power|uniform|auto",                                                                  \
-         "lights that get a shadow ray: all, or one by estimate (one), by power or uniformly; auto: one for path "   \
-         "among more than 8 lights, else all (default: auto)"},                                                      \
+         "lights that get a shadow ray: all, or one chosen by its estimated contribution (one), by its power, or "   \
+         "uniformly; auto: one for path with "                                                                       \
+         "more than 8 lights, else all (default: auto)"},                                                            \
         CLI_INTEGRATOR_OPTION, {0, "depth", "D", "the most bounces (default: the integrator's)"}, CLI_FILTER_OPTION, \
     {                                                                                                                \
         0, "splat", NULL,                                                                                            \
-            "add each sample to all pixels that the filter reaches, instead of sampling the filter: less error"      \
+            "add each sample to all pixels that the filter reaches, instead of sampling the filter; this has less "  \
+            "error"                                                                                                  \
     }
 
-/* Reads --integrator and --filter; *integrator and *filter hold the defaults before. Returns false after an error
+/* Reads --integrator and --filter; on entry *integrator and *filter have the defaults. Returns false after an error
    that names the option. */
 bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_integrator **integrator,
                                const koksma_filter **filter);
@@ -35,8 +37,8 @@ bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_inte
 /* Reads all options of CLI_SAMPLING_OPTIONS. Returns false after an error that names the option. */
 bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options *options);
 
-/* Reads --spp and the patterns. lines: texts as koksma_render_patterns takes them, one per line, also with @SPP.
-   Returns false after an error and sets *code to the exit code. */
+/* Reads --spp and the patterns. lines: one text per line in the form that koksma_render_patterns accepts, or with
+   @SPP at the end. Returns false after an error and sets *code to the exit code. */
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code);
 
 /* Warns on stderr about each use that was given a pattern although rendering this scene needs no samples for it. */

@@ -10,7 +10,7 @@
 #include "aligned.h"
 #include "cli.h"
 
-/* Text rows are kept until the end, because a column is as wide as its widest cell. */
+/* Text rows are stored until the end, because a column is as wide as its widest cell. */
 struct cli_rows {
     bool json, started, failed;
     cli_cell *cells; /* cells of all rows; a row ends at a cell with a NULL key */
@@ -26,7 +26,8 @@ void cli_set_style(int n_digits, bool all_columns)
     is_long = all_columns;
 }
 
-static cli_rows no_rows = {.failed = true}; /* replaces the rows when memory runs out; it ignores all cells */
+static cli_rows no_rows = {.failed = true}; /* the object that replaces the rows when memory runs out; it ignores all
+                                               cells */
 
 cli_rows *cli_rows_open(bool json)
 {

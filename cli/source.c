@@ -137,7 +137,7 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
         const char *text = arguments->operands[i];
         n_stdin += strcmp(text, "-") ? 0 : n_warps > 1 ? n_warps : 1;
         if (n_stdin > 1) {
-            cli_usage_error(arguments, "-: stdin can be read once");
+            cli_usage_error(arguments, "-: stdin can be read only once");
             return false;
         }
         if (trials > 1 && !cli_source_is_pattern(text)) {
@@ -159,8 +159,8 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
-/* Whether a pattern has sets of n points in dim dimensions. koksma_generate checks this before it starts, and is then
-   stopped at once. */
+/* Returns whether a pattern has sets of n points in dim dimensions. The function starts koksma_generate, which checks
+   this first, and stops it at once. */
 static bool can_serve(const koksma_spec *spec, size_t n, int dim)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
@@ -199,7 +199,7 @@ static int add_operand(cli_arguments *arguments, const char *text)
     return CLI_YES;
 }
 
-/* The values of -n and -d, and the operands that -p all leaves out. */
+/* The values of -n and -d, and a list of the operands that -p all leaves out. */
 typedef struct sizes {
     const char *list; /* the list of -n, or NULL */
     uint64_t dim;
@@ -254,7 +254,7 @@ int cli_sources_expand(cli_arguments *arguments)
         code = strcmp(last, "-") && access(last, F_OK) && !cli_source_is_pattern(last) &&
                        koksma_pattern_spec(last, &unknown)
                    ? cli_fail(arguments, KOKSMA_ARGUMENT)
-                   : cli_usage_error(arguments, "-n %s: there is no pattern without @N to apply it to", of.list);
+                   : cli_usage_error(arguments, "-n %s: it needs a pattern without @N", of.list);
     }
     if (!code && *of.left_out && !cli_flag(arguments, "quiet")) {
         cli_say(arguments->command->name, "-p all leaves out patterns without such a set: %s", of.left_out);
@@ -284,7 +284,8 @@ bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n)
         }
         const uint64_t count = at > spec && at < end && at[-1] == '@' ? strtoull(at, NULL, 10) : 0;
         if (count && *n && *n != count) {
-            cli_usage_error(arguments, "-p: @%llu and @%llu; all patterns have one number of samples a pixel",
+            cli_usage_error(arguments,
+                            "-p: @%llu and @%llu differ; all patterns need the same number of samples a pixel",
                             (unsigned long long)*n, (unsigned long long)count);
             return false;
         }

@@ -7,7 +7,8 @@
 
 /* Options of commands that take points, in addition to their operands. */
 #define CLI_SOURCE_OPTIONS                                                                                           \
-    {'p', "patterns", "PATTERN,..|all", "more patterns, as operands PATTERN or SPEC@N; all: those with such sets"},  \
+    {'p', "patterns", "PATTERN,..|all",                                                                              \
+     "further patterns, PATTERN or SPEC@N; all: every pattern that accepts N and DIM"},                              \
         {'n', "n", "N,..", "number of points of patterns without @N"},                                               \
     {                                                                                                                \
         'd', "dim", "DIM", "number of dimensions of patterns without @N (default: 2)"                                \
@@ -18,10 +19,10 @@
 int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
                       koksma_points *points);
 
-/* Whether an operand has the form "[pattern:]SPEC@N[@DIM]" and is no file. */
+/* Returns whether an operand has the form "[pattern:]SPEC@N[@DIM]" and is no file. */
 bool cli_source_is_pattern(const char *text);
 
-/* Whether a text begins with the name of a pattern. */
+/* Returns whether a text begins with the name of a pattern. */
 bool cli_names_pattern(const char *text);
 
 /* Copies pattern i (0..) of the -p list to `spec`; for "all" these are the patterns of the library that read no file.
@@ -29,10 +30,10 @@ bool cli_names_pattern(const char *text);
 bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC]);
 
 /* Removes "pattern:" and "@N" from each pattern of `text`, "[USE=]SPEC@N;..", and stores N, the number of samples a pixel,
-   in *n, which is 0 as long as no number is known. Returns false after an error if two numbers differ. */
+   in *n. *n is 0 until a number is found. Returns false after an error if two numbers differ. */
 bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n);
 
-/* What an operand names: a file, or a pattern with its number of points and dimensions. */
+/* A parsed operand: a file, or a pattern with its number of points and dimensions. */
 typedef struct cli_source {
     bool is_pattern;
     koksma_spec spec;

@@ -26,7 +26,7 @@ static void put_characters(FILE *out, const char *text)
     }
 }
 
-/* Prints a pattern, measure or scene in quotes. A relative path in it becomes an absolute path from the current
+/* Prints a pattern, measure or scene in quotes. A relative path in the text becomes an absolute path from the current
    directory. */
 static void put_item(FILE *out, const char *item, bool is_scene)
 {
@@ -94,7 +94,7 @@ static bool put_numbers(FILE *out, const cli_arguments *arguments, const char *k
     fprintf(out, "\"%s\": [", key);
     for (size_t i = 0; cli_list_item(list, i, item, sizeof item); i++) {
         if (!*item || item[strspn(item, "0123456789")]) {
-            cli_usage_error(arguments, "--%s %s: '%s' is no whole number", option, list, item);
+            cli_usage_error(arguments, "--%s %s: '%s' is not a whole number", option, list, item);
             return false;
         }
         fprintf(out, "%s%s", i ? ", " : "", item);
@@ -145,7 +145,7 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
     return true;
 }
 
-/* Whether the plan may be written: the folder has no results, or its plan has exactly this text. */
+/* Returns whether the plan may be written: the folder has no results, or its plan has exactly this text. */
 static bool may_write(const char *folder, const char *path, const char *text, size_t size)
 {
     char results[CLI_QUICK_PATH + 32];
@@ -183,8 +183,8 @@ int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, cha
         code = cli_usage_error(arguments, "%s: can't be made: %s", folder, strerror(errno));
     } else if (!may_write(folder, path, text, size)) {
         code = cli_usage_error(arguments,
-                               "%s: there is another plan; take another folder, or 'koksma study run %s -o %s'", path,
-                               path, folder);
+                               "%s: the folder has another plan; use another folder, or 'koksma study run %s -o %s'",
+                               path, path, folder);
     } else {
         const koksma_status status = koksma_plot_write(path, (const unsigned char *)text, size);
         code = status ? cli_fail(arguments, status) : CLI_YES;

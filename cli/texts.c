@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Puts the names of table members into help texts. A synopsis, an option's argument or help, or the details of a
- * command may hold a placeholder in braces. cli_expand replaces it by names, so that a new member of a table appears
- * in help, completion and manual pages:
+ * command may contain a placeholder in braces. cli_expand replaces it by names, so that a new member of a table
+ * appears in help, completion and manual pages:
  *
  *     {curve}, {chart}                     power|rings|...: the curves that are printed, and those that are drawn
  *     {curve:OPTION}, {chart:OPTION}       power, rings, ...: those that take an option
@@ -74,7 +74,7 @@ const char *cli_image_formats(const char *comma, const char *last, char *text, s
     return text;
 }
 
-/* Appends the text that a placeholder, without its braces, is replaced by. Returns false if there is no such
+/* Appends the text that replaces a placeholder, which is given without its braces. Returns false if there is no such
    placeholder. */
 static bool put_placeholder(const char *name)
 {

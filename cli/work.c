@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Long work: threads, the progress line on stderr, and Ctrl-C, which stops the work between blocks and keeps what was
- * done.
+ * Long work: threads, the progress line on stderr, and Ctrl-C, which stops the work between two blocks; finished work
+ * is kept.
  */
 #include <math.h>
 #include <signal.h>
@@ -32,7 +32,7 @@ int cli_study_interrupted(const cli_arguments *arguments, const char *folder)
 {
     if (folder) {
         cli_say(arguments->command->name,
-                "interrupted; what is done is kept in %s, and the same command goes on there", folder);
+                "interrupted; finished work is kept in %s, and the same command continues it", folder);
     }
     return koksma_status_exit_code(KOKSMA_INTERRUPTED);
 }
@@ -111,7 +111,7 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     *work = (cli_work){.what = what, .share = 1, .started_s = cli_seconds()};
     work->run = (koksma_run){
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
-    /* a full disk or a limit on file sizes makes the write fail, and does not kill the program */
+    /* with SIGXFSZ ignored, a write beyond the limit on file sizes fails instead of killing the program */
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * compare: the usual figure of papers on sampling. The figure shows the points of each source, below them their mean
+ * compare: a figure as in many papers on sampling. The figure shows the points of each source, below them their mean
  * power spectra, and below these two charts with all sources: the radial means of the spectra, and the convergence of
  * a measure.
  */
@@ -27,7 +27,9 @@ static int open_panels(cli_curves *c, comparison *m)
     for (int i = 0; i < c->arguments->n_operands && !code; i++) {
         const char *source = c->arguments->operands[i];
         if (!strcmp(source, "-")) {
-            return cli_usage_error(c->arguments, "-: %s reads its sources again; it takes files", c->curve->name);
+            return cli_usage_error(c->arguments,
+                                   "-: %s reads its sources more than once, so it needs files instead of stdin",
+                                   c->curve->name);
         }
         cli_title(source, m->titles[i]);
         m->panels[0][i] = (koksma_panel){.points = &m->points[i], .title = m->titles[i], .swatch = 1 + colours[i]};
@@ -69,9 +71,8 @@ static int draw(cli_curves *c)
 
 const cli_curve cli_curve_compare = {
     .name = "compare",
-    .meaning =
-        "points, power spectra, their radial means and the convergence of a measure, of several sources beside "
-        "each other; means of 10 sets unless --trials is given",
+    .meaning = "compares several sources in one figure: their points, power spectra, radial means of the spectra, "
+               "and convergence of a measure; the means are over 10 sets unless --trials is given",
     .cite = "-",
     .plot = {.options = "half exact measure sizes trials", .draw = draw, .mixes_files = true},
 };

@@ -2,7 +2,8 @@
 /*
  * convergence: a measure's mean over trials against n on logarithmic axes. A line is fitted by least squares to the
  * logarithms; the legend shows its slope and standard error. A dashed line has the slope that theory gives for the
- * pattern, or else the best slope that any points can have. For a file, the set of n points is its first n points.
+ * pattern, or else the best slope that any points can have. The set of n points of a file consists of its first n
+ * points.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@
 
 enum { MAX_SIZES = KOKSMA_MAX_SIZES, PER_SOURCE = 3 };
 
-/* Whether a source has a set of n points. A file has prefixes of all sizes. */
+/* Returns whether a source has a set of n points. A file has prefixes of all sizes. */
 static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
 {
     koksma_points points = {0};
@@ -26,7 +27,8 @@ static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
 }
 
 /* Chooses the sizes of a source: those of --sizes, or else the powers of four from 16 to n for which the source has a
-   set (powers of four are squares, which patterns with cells need), or else only n. Returns false after an error. */
+   set, or else only n. Patterns with cells need square numbers, and powers of four are squares. Returns false after
+   an error. */
 static bool choose_sizes(const cli_curves *c, const cli_source *source, size_t n, size_t *sizes, size_t *count)
 {
     const char *text = cli_text(c->arguments, "sizes", NULL);
@@ -173,7 +175,7 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
         const double rate = source.is_pattern ? koksma_rate(&source.spec, measure->measure, dim) : (double)NAN;
         const bool known = isfinite(rate);
         push_slopes(s, &line, known ? rate : koksma_best_rate(measure->measure, dim),
-                    known ? "theory, without logarithms" : "fastest possible, without logarithms");
+                    known ? "theory, without logarithms" : "fastest possible decay, without logarithms");
     }
     return CLI_YES;
 }

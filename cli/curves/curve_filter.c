@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * filter and filter-response: pixel filters, scaled to integral 1, and the absolute values of their frequency
- * responses in decibels, all filters in one chart. Leakage is the part of the squared response beyond half a cycle a
- * pixel.
+ * responses in decibels, all filters in one chart. Leakage is the fraction of the squared response above half a cycle
+ * per pixel.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@ enum { POSITIONS = 401, LABEL = 96 };
 /* Responses below this level, in decibels, are drawn at this level. */
 static const double floor_db = -80;
 
-/* The integral of a filter, by the midpoint rule. */
+/* Returns the integral of a filter, by the midpoint rule. */
 static double mass(const koksma_filter *filter)
 {
     const int n = 4096;
@@ -75,7 +75,7 @@ static int draw(cli_curves *c)
         curves[i] = (koksma_curve){.label = labels[i], .n = POSITIONS, .xs = xs, .ys = ys, .colour = (size_t)i};
     }
     koksma_chart chart = {.x_label = response ? "cycles a pixel" : "pixels from the middle",
-                          .y_label = response ? "response [dB], -80 at least" : "filter, of integral 1",
+                          .y_label = response ? "response [dB], cut off at -80" : "filter, of integral 1",
                           .curves = curves,
                           .n_curves = (size_t)n};
     const int code = cli_write_chart(c, response ? "Frequency responses of pixel filters" : "Pixel filters", &chart);
@@ -92,8 +92,8 @@ const cli_curve cli_curve_filter = {
 
 const cli_curve cli_curve_filter_response = {
     .name = "filter-response",
-    .meaning = "frequency responses of pixel filters; leakage is the part of the squared response beyond half a "
-               "cycle a pixel",
+    .meaning = "frequency responses of pixel filters; leakage is the fraction of the squared response above half a "
+               "cycle per pixel",
     .cite = "-",
     .plot = {.options = "", .draw = draw, .of_filters = true},
 };

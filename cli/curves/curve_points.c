@@ -37,7 +37,7 @@ static bool choose_cells(const cli_curves *c, const koksma_points *points, koksm
         }
     }
     if (cli_flag(c->arguments, "rooks")) {
-        /* lines of more cells would be closer than a line is wide */
+        /* with more cells the guide lines would overlap */
         columns = rows = points->n < MAX_CELLS ? points->n : 0;
     }
     out->columns = columns;
@@ -104,7 +104,7 @@ static int draw(cli_curves *c)
 
 const cli_curve cli_curve_points = {
     .name = "points",
-    .meaning = "the points, with cells, a measure's witness or the local discrepancy",
+    .meaning = "the points, optionally with cells, the witness of a measure or the local discrepancy",
     .cite = "-",
     .plot = {.options = "columns rows grid rooks witness warp local-discrepancy", .draw = draw},
 };

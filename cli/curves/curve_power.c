@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * power: the periodogram (1/n) |sum exp(-2 pi i k.x)|^2 of 2-dimensional points at every frequency k, as a mean over
- * trials. Rows cover half of the plane of frequencies, since k and -k have the same power. A picture leaves out the
- * frequency 0.
+ * trials. The rows cover half of the frequency plane, because k and -k have the same power. The picture leaves out
+ * the power at frequency 0.
  */
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * quality: two numbers that describe a blue-noise spectrum (Heck, Schlomer & Deussen 2013). Up to the effective
- * Nyquist frequency the spectrum holds less than a tenth of the energy of random points. The oscillation describes
- * the spectrum beyond that frequency, and needs frequencies up to about 6.5 sqrt(n).
+ * Nyquist frequency the mean power is less than a tenth of that of random points. The oscillation describes how far
+ * the power deviates from 1 beyond that frequency; to compute it, the spectrum must reach about 6.5 sqrt(n).
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,9 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
         koksma_spectrum_quality_values q;
         koksma_spectrum_quality(&s, &q);
         if (isnan(q.oscillation) && !cli_flag(c->arguments, "quiet")) {
-            cli_say("curve", "%s: no oscillation: frequencies up to %d end before 5 sqrt(n) beyond the rise%s",
+            cli_say("curve",
+                    "%s: the oscillation is not computed, because the largest frequency, %d, is less than 5 sqrt(n) "
+                    "above the rise of the spectrum%s",
                     source, s.half, s.half < KOKSMA_SPECTRUM_MAX_HALF ? "; try a larger --half" : "");
         }
         sink->points = s.points;
@@ -29,12 +31,11 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
 
 const cli_curve cli_curve_quality = {
     .name = "quality",
-    .meaning =
-        "the effective Nyquist frequency, also over sqrt(n)/2 in steps of 1/sqrt(n), so that a square lattice of "
-        "16 points has 3/4; and oscillation (Heck, Schlomer, Deussen 2013), which takes frequencies up to about "
-        "6.5 sqrt(n): from 85,000 points on --half must ask for them, up to 4096. Memory grows as the square of H: 1 "
-        "GB at "
-        "2047, 4 GB at 4096",
+    .meaning = "the effective Nyquist frequency, also divided by sqrt(n)/2 (a whole multiple of 1/sqrt(n)), and the "
+               "oscillation (Heck, Schlomer, Deussen 2013). The oscillation needs frequencies up to about 6.5 "
+               "sqrt(n); above 85,000 points set --half for this, up to 4096. Memory grows as the square of H: 1 "
+               "GB at "
+               "2047, 4 GB at 4096",
     .cite = "heck2013",
     .compute = compute,
     .columns = {"effective_nyquist", "relative_nyquist", "oscillation"},

@@ -48,9 +48,9 @@ static double anisotropy_of_random(const cli_curves *c)
 
 const cli_curve cli_curve_rings = {
     .name = "rings",
-    .meaning =
-        "the power's mean over |k|, and the anisotropy: the variance of the power along the ring, divided by the "
-        "square of its mean, in dB (Ulichney 1987); random points have -10 log10 of the trials",
+    .meaning = "the mean of the power over rings of equal |k|, and the anisotropy: the variance of the power along "
+               "the ring divided by the square of its mean, in dB (Ulichney 1987). Random points have an anisotropy "
+               "of -10 log10 T with T trials",
     .cite = "ulichney1987",
     .compute = compute,
     .columns = COLUMNS,
@@ -59,7 +59,7 @@ const cli_curve cli_curve_rings = {
 
 const cli_curve cli_curve_radial = {
     .name = "radial",
-    .meaning = "the power's mean over |k|; dashed: 1, of random points",
+    .meaning = "the mean of the power over rings of equal |k|; dashed: 1, as for random points",
     .cite = "ulichney1987",
     .compute = compute,
     .columns = COLUMNS,
@@ -67,7 +67,7 @@ const cli_curve cli_curve_radial = {
              .draw = cli_draw_chart,
              .title = "Radial mean of the power spectrum",
              .x_label = "frequency / √n",
-             .y_label = "power; dashed: 1 of random points",
+             .y_label = "power; dashed: 1, as for random points",
              .y = 1,
              .error = 2,
              .x_per_root = true,
@@ -76,7 +76,8 @@ const cli_curve cli_curve_radial = {
 
 const cli_curve cli_curve_anisotropy = {
     .name = "anisotropy",
-    .meaning = "the variance of the power along a ring, divided by the square of its mean; dashed: of random points",
+    .meaning = "the variance of the power along a ring divided by the square of its mean; dashed: the value for "
+               "random points",
     .cite = "ulichney1987",
     .compute = compute,
     .columns = COLUMNS,
@@ -84,7 +85,7 @@ const cli_curve cli_curve_anisotropy = {
              .draw = cli_draw_chart,
              .title = "Anisotropy of the power spectrum",
              .x_label = "frequency / √n",
-             .y_label = "anisotropy [dB]; dashed: of random points",
+             .y_label = "anisotropy [dB]; dashed: random points",
              .y = 3,
              .x_per_root = true,
              .level = anisotropy_of_random},

@@ -74,7 +74,7 @@ export class Decay {
     const set = this.sets[name] = { name, samples: [], line: null, waiting: 0, why: "" };
     set.label = `${spec}${prefixes ? `, first points of ${n}` : ""}`;
     if (prefixes && state[name].edits.size === 0 && !this.isSequence(spec)) {
-      set.why = "The pattern is no sequence, its first points are a part of a set: choose sets of each size.";
+      set.why = "The pattern is no sequence, so its first points are no set of the pattern: choose sets of each size.";
       this.draw();
       return;
     }

@@ -25,9 +25,9 @@ extern "C" {
 typedef struct koksma_adaptive {
     const char *name, *title, *cite; /* cite: keys of docs/references.bib, separated by blanks */
     const koksma_param *params;      /* array that ends at a member whose name is NULL (NULL: no parameters) */
-    bool own_samples;      /* true: the method places the samples by subdividing the unit square of each dimension
-                              pair, so patterns and pairing have no effect */
-    const void *functions; /* used only inside the renderer */
+    bool own_samples;                /* true: the method places samples by subdividing the unit square of each pair of
+                              dimensions; patterns and pairing then have no effect */
+    const void *functions;           /* used only inside the renderer */
 } koksma_adaptive;
 
 /* Returns method i of the table, or the method with this name, or NULL if there is none. */
@@ -39,20 +39,21 @@ enum { KOKSMA_MAX_SPACES = 16 };
 /* The strata of one pixel in the unit square of one sample dimension pair, such as the lens. */
 typedef struct koksma_space {
     char name[48];          /* the purpose of the dimension pair: "pixel", "light 2", "lobe, vertex 2" */
-    size_t n, n_splits;     /* numbers of strata and of splits; all spaces of a pixel have equal numbers, and their
+    size_t n, n_splits;     /* numbers of strata and of splits. All spaces of a pixel have equal numbers, and their
                                lists have the same order */
-    koksma_stratum *strata; /* array of n; the values are luminances. If a stratum was split in another space only,
-                               its parts all have its cell here, and the mean of their values */
-    koksma_split *splits;   /* array of n_splits, the coarsest first; empty without probes. With reuse=fresh the
-                               splits are the cells of the samples that decided about the split */
+    koksma_stratum *strata; /* array of n; the values are luminances. If a stratum was split only in other spaces,
+                               each of its parts is listed here with the unsplit cell and with the mean value of all
+                               parts */
+    koksma_split *splits;   /* array of n_splits, the coarsest first; empty without probes. With the parameter
+                            reuse=fresh a listed cell is that of the samples that caused the split */
 } koksma_space;
 
 /* The subdivision of one pixel, which koksma_plot_strata draws. */
 typedef struct koksma_strata {
     int x, y;             /* input: coordinates of the pixel */
-    size_t n_spaces;      /* output; spaces whose cells overlap (one-dimensional ones, in aligned strata) are left
-                             out */
-    koksma_space *spaces; /* output; the first space is the one in which neighbouring strata were compared */
+    size_t n_spaces;      /* output: number of spaces. Spaces whose cells overlap are left out: one-dimensional spaces
+                             with aligned strata */
+    koksma_space *spaces; /* output: the spaces. In the first one neighbouring strata were compared */
 } koksma_strata;
 
 /* Frees the spaces and zeroes the struct. strata may be NULL, or zeroed. */
@@ -85,13 +86,12 @@ KOKSMA_API void koksma_adaptive_text(const koksma_adaptive_options *options, cha
 
 /* Statistics of an adaptive rendering. */
 typedef struct koksma_adaptive_report {
-    uint64_t samples;  /* samples of all pixels, including samples that only guided the method; probes are not
-                          counted */
+    uint64_t samples;  /* samples of all pixels; includes samples that only guided the method, but not probes */
     uint64_t first;    /* samples of all pixels in the first round */
     uint64_t rounds;   /* number of rounds after the first */
     uint64_t splits;   /* number of strata that were split */
-    uint64_t needless; /* splits that were not needed: the values of the sample and all probes differ by less than
-                          the threshold */
+    uint64_t needless; /* number of splits that were not needed: the values of the sample and of all probes differed
+                          by less than the threshold */
 } koksma_adaptive_report;
 
 /* Renders a scene with adaptive sampling; allocates out, which koksma_layers_fini frees.

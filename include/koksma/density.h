@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Points whose density follows an image, and points on the surface of a model. Part of libkoksma-lab. These patterns
- * have both forms:
+ * Points whose density follows an image, and points on the surface of a model. Part of libkoksma-lab. Four patterns
+ * support both functions below:
  *
- *     random                   independent points, uniform in density or area: the baseline
+ *     random                   independent points that follow the density or area: the baseline
  *     sample-elimination       weighted sample elimination of `factor` candidates a point (Yuksel 2015)
  *     progressive-elimination  the same, in an order whose prefixes are blue noise
  *     poisson-disk             dart throwing: no two points closer than d

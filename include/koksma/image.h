@@ -174,11 +174,11 @@ KOKSMA_API koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, 
        P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / (its mean over (u, v) != (0, 0));
 
    the coherence is the largest value of P after P is averaged over the images that were added. Errors that are
-   independent between pixels have an expected P of 1 at every frequency, whatever their distribution is, even if
-   the distribution varies over the image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H
-   A^2 / (4 s^2). In frequency rings where finer detail has more power than the mean (blue noise), P is divided by
-   the power of the ring: docs/findings/coherence.md. Equal images added in equal order give bit-identical results.
-   One thread at a time may use the struct. */
+   independent between pixels have an expected P of 1 at every frequency, for any distribution, even if the
+   distribution varies over the image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H A^2 /
+   (4 s^2). In frequency rings where finer detail has more power than the mean (blue noise), P is divided by the power
+   of the ring: docs/findings/coherence.md. Equal images added in equal order give bit-identical results. One thread
+   at a time may use the struct. */
 typedef struct koksma_coherence {
     int width, height;
     size_t images;   /* number of images added, not counting images whose error is the same in every pixel */
@@ -188,7 +188,7 @@ typedef struct koksma_coherence {
 } koksma_coherence;
 
 typedef struct koksma_coherence_values {
-    size_t images;      /* number of images used; if it is 0, the numbers below are NaN */
+    size_t images;      /* number of images used; if it is 0, all other numbers of this struct are NaN */
     double coherence;   /* the peak of P */
     double low, high;   /* 95 % interval (Student's t) of the mean over the images of P at the frequency of the
                            peak, or NaN if there is one image */
@@ -197,10 +197,10 @@ typedef struct koksma_coherence_values {
                            the image */
     double common;      /* fraction, 0 .. 1, of the squared error that all images have in common: 1 for a pattern
                            without random numbers, NaN if there is one image */
-    double noise_low, noise_high; /* interval that contains the coherence of 95 % of white-noise errors with the
-                                     same `common` */
-    double p;                     /* probability that white-noise errors with the same `common` have at least this
-                                     coherence */
+    double noise_low, noise_high; /* interval that contains the coherence of 95 % of the white-noise errors that have
+                                     the same value of `common` */
+    double p;                     /* probability that white-noise errors with the same value of `common` have at least
+                                     this coherence */
     bool coherent;                /* true if p < KOKSMA_COHERENT_P and the coherence is at least
                                      KOKSMA_COHERENT_LEAST */
 } koksma_coherence_values;

@@ -113,10 +113,10 @@ typedef struct koksma_integration_row {
                     it is not known, or if the error is only rounding */
 } koksma_integration_row;
 
-/* The slope of log rmse against log n by least squares, with its 95 % interval. The standard error comes from the
-   trials as in koksma_joint_line, or with one set from the residuals. The fit leaves out sizes whose rmse is only
-   rounding: below 2^-44 of the integral, of the largest estimate or of the root of the variance. All numbers are
-   NaN if fewer than three sizes are left. */
+/* The slope of log rmse against log n by least squares, with its 95 % interval. With several trials the standard
+   error comes from their spread, as in koksma_joint_line; with one set it comes from the residuals. The fit leaves
+   out sizes whose rmse is only rounding: below 2^-44 of the integral, of the largest estimate or of the root of the
+   variance. All numbers are NaN if fewer than three sizes are left. */
 typedef struct koksma_integration_slope {
     size_t count; /* number of sizes used */
     double value, standard_error, low, high;
@@ -171,8 +171,8 @@ typedef struct koksma_sensitivity {
 enum { KOKSMA_MAX_ANOVA_AXES = 8 };
 
 /* Computes the Sobol' indices of the coordinates axes[0] .. axes[n_axes - 1], numbered from 0.
-     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different coordinates below dim. An exact component takes 2^n_axes closed
-              forms, an estimated one 2^n_axes evaluations for each sample
+     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different coordinates below dim. An exact component evaluates 2^n_axes closed
+              forms, an estimated one 2^n_axes function values for each sample
      samples  number of points in each of the 16 sets, up to 2^20; 0: use the closed form if there is one, else 4096
               points
    Errors: ARGUMENT (bad axes or samples, a function with variance 0), MEMORY, INTERRUPTED. */

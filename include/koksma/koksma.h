@@ -169,9 +169,10 @@ KOKSMA_API koksma_status koksma_points_write_mapped(const char *path, const koks
 /* A parameter of a pattern or measure. An array of parameters ends at a member whose name is NULL. */
 typedef struct koksma_param {
     const char *name, *help;
-    double fallback, min, max;  /* default value and closed range; if choices is not NULL, those of the index into
+    double fallback, min, max;  /* default value and closed range. If choices is not NULL, these are indices into
                                    choices */
-    const char *const *choices; /* the words that the parameter accepts, ended by NULL, or NULL if it is a number */
+    const char *const *choices; /* the words that the parameter accepts, ended by NULL; NULL if the parameter is a
+                                   number */
     bool whole;                 /* true: the parameter accepts only whole numbers */
 } koksma_param;
 
@@ -257,7 +258,7 @@ typedef struct koksma_modifier {
     unsigned claims;        /* claims of a pattern that remain true after the modifier */
     unsigned claims_binary; /* claims of a pattern that remain true after the modifier if n is a power of 2 */
     unsigned gives;         /* claims that are true for the points of any pattern after the modifier */
-    /* names, separated by blanks, of the measures whose values it changes only by rounding; "*": all exact
+    /* names, separated by blanks, of the measures whose values the modifier changes only by rounding; "*": all exact
        measures */
     const char *measures;
     const char *keeps; /* description of what the modifier preserves */
@@ -312,7 +313,7 @@ KOKSMA_API koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t
    piece in a few megabytes of memory for any n; another pattern is generated as one set, so n * dim is at most
    KOKSMA_MAX_COORDINATES.
      first  index of the first point; may be above 0 only for sequences that have ranges
-     path, comment  as of koksma_points_write
+     path, comment  as for koksma_points_write
    Errors: those of koksma_generate_range and of koksma_points_write. */
 KOKSMA_API koksma_status koksma_generate_write(const koksma_spec *spec, uint64_t seed, uint64_t first, uint64_t n,
                                                int dim, const char *path, const char *comment, const koksma_run *run);
@@ -326,7 +327,7 @@ KOKSMA_API koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t
 
 /* ---- Measures ----------------------------------------------------------------------------------------- */
 
-enum { KOKSMA_WITNESS_DIM = 16 }; /* above 16 dimensions the witness has kind NONE */
+enum { KOKSMA_WITNESS_DIM = 16 }; /* a witness with more than 16 dimensions has kind NONE */
 
 typedef enum koksma_witness_kind {
     KOKSMA_WITNESS_NONE,

@@ -78,9 +78,9 @@ typedef struct koksma_optimise_options {
     size_t n_projections;
     const koksma_processes *processes; /* processes that share the search; NULL: this process does all of the
                                           work */
-    /* A target in place of a measure: the mean power at the frequencies 1 .. rings (koksma_spectrum_rings), in the
-       plane. The value is the root of the mean square difference, in which ring r counts r times. The search then
-       starts from gaussian-blue-noise. NULL, and rings = 0: a measure */
+    /* A target spectrum that replaces the measure, for 2D points: the wanted mean power at the frequencies 1 .. rings
+       (koksma_spectrum_rings). The search minimises the root mean square difference from this spectrum, with weight r
+       for ring r. It starts from gaussian-blue-noise. NULL, with rings = 0: use the measure */
     const double *power;
     int rings;
 } koksma_optimise_options;
@@ -88,8 +88,8 @@ typedef struct koksma_optimise_options {
 /* A method of search: one line of `koksma list methods`. */
 typedef struct koksma_method {
     const char *name, *title, *cite;
-    /* Returns how well the method suits this search; 0: not at all. koksma_optimise uses the method that returns
-       the largest number. */
+    /* Returns a number that is larger the better the method suits this search; 0: it cannot do this search.
+       koksma_optimise uses the method that returns the largest number. */
     int (*serves)(const koksma_spec *measure, const koksma_optimise_options *options);
     /* Replaces `points`, the best set so far with the given value, by another candidate. The result depends only on
        the arguments (of the options: n, dim, keep and the projections); several threads call the function at
@@ -103,7 +103,7 @@ KOKSMA_API const koksma_method *koksma_method_at(size_t i);
 KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 
 /* Searches for points with a small value of a measure (a large value if the measure is a distance). Allocates out.
-     measure  a measure whose answer is KOKSMA_ANSWER_EXACT; NULL with options->power
+     measure  a measure whose answer is KOKSMA_ANSWER_EXACT, or NULL if options->power is set
      run      if the time limit passes during a step, the search ends after that step; at least one step is done
    Errors: ARGUMENT (a bad option or measure), N, DIM, MEMORY, INTERRUPTED (run->keep_going returned false; out then
    has the best set so far). */
@@ -132,10 +132,10 @@ typedef struct koksma_record {
     size_t n;
     int dim;
     double value;       /* value of the measure for this set */
-    double published;   /* best published value that is known to us, with the digits published; 0: none is known */
+    double published;   /* best published value that we know, with its published digits; 0: we know none */
     const char *source; /* source of the published value: a key of docs/references.bib, or "-" */
     uint64_t seed;      /* `koksma optimise MEASURE -n N -d DIM --seed SEED --steps STEPS` makes the set */
-    uint64_t steps;     /* 0: an earlier form of the search made it */
+    uint64_t steps;     /* 0: an earlier version of the search made the set, and no command reproduces it */
 } koksma_record;
 
 /* Returns record i, sorted by measure and n, or NULL past the last record. */

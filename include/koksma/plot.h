@@ -37,11 +37,12 @@ enum { KOKSMA_PLOT_MAX_DIM = 8 };
 /* Options of a scatter plot. A struct of zeros gives a plain plot. */
 typedef struct koksma_scatter_options {
     double size;             /* side of the picture; 0: 320 */
-    size_t columns, rows;    /* draw guide lines of a grid with so many cells, 0 (no lines) to
-                                KOKSMA_PLOT_MAX_CELLS */
+    size_t columns, rows;    /* numbers of columns and rows into which guide lines divide the square, up to
+                                KOKSMA_PLOT_MAX_CELLS; 0: no lines */
     bool local_discrepancy;  /* colour the background by koksma_local_discrepancy: orange where the box from the
-                                origin has too many points, blue where it has too few. White is 0; full colour is
-                                the largest value on a grid. Cannot be combined with warp */
+                                origin has too many points, blue where it has too few. A value of 0 is white; the
+                                largest absolute value in the picture has the full colour. Cannot be combined with
+                                warp */
     const koksma_warp *warp; /* draw points and guide lines mapped by this warp, with hemispheres seen from above;
                                 NULL: no warp. Needs points of 2 dimensions and cannot be combined with witness */
     const koksma_witness *witness; /* draw this box, line or disk; a box of more than 2 dimensions is drawn as its
@@ -68,8 +69,8 @@ KOKSMA_API koksma_status koksma_plot_scatter(const koksma_points *points, const 
 typedef struct koksma_panel {
     const koksma_points *points; /* NULL: draw the spectrum */
     koksma_scatter_options scatter;
-    const koksma_spectrum *spectrum; /* drawn with frequency (0, 0) in the middle, whose power is left out; black is
-                                        power 0 */
+    const koksma_spectrum *spectrum; /* the spectrum to draw. Frequency (0, 0) is in the middle, without its power; a
+                                        power of 0 is black */
     double white;                    /* power that is drawn white; 0: use 2, so that random points are mid-grey */
     const char *caption;             /* line below the panel; may be NULL */
     const char *title;               /* line above the panel; may be NULL */
@@ -135,7 +136,7 @@ typedef struct koksma_figure {
     double width, height;
     /* true: break a row into several lines if a panel would be less than 128, or a chart less than 300, wide */
     bool wrap;
-    bool dark; /* true: draw light on dark */
+    bool dark; /* true: draw light lines on a dark background */
 } koksma_figure;
 
 /* Draws a figure. Errors: those of koksma_plot_scatter and koksma_plot_chart; also ARGUMENT for a figure without

@@ -311,11 +311,11 @@ KOKSMA_API koksma_status koksma_render_only(const koksma_scene *scene, const kok
 
 /* Further images of a render (arbitrary output variables). All but `id` have the channels of the image. Light that was
    reflected or refracted r times, mirrors and glass included, is in "bounce:r", r = 0 (seen) to KOKSMA_MAX_DEPTH + 1;
-   ambient light, and the light between surfaces of an irradiance cache, counts as reflected once more than light of
-   lights at the same place. "direct" is r = 0 and 1, "indirect" the rest: both, or all bounces, add up to the image
-   within the rounding of floats. "id" is the number of the object that most samples of a pixel hit first: i + 1 for
-   koksma_scene_part_at(i), 0 for none. "half:even" and "half:odd" are the means of every second sample of a pixel, from
-   the first and from the second on. */
+   ambient light and the indirect light of an irradiance cache count as reflected one time more than light that
+   reaches the same surface directly from a light. "direct" is the light with r = 0 and 1, "indirect" all other light.
+   The sum of these two, and the sum of all bounces, equal the image within the rounding of floats. "id" is the number
+   of the object that most samples of a pixel hit first: i + 1 for koksma_scene_part_at(i), 0 for none. "half:even"
+   and "half:odd" are the means of the samples of a pixel with even and with odd index. */
 enum { KOKSMA_MAX_AOVS = 72 };
 typedef struct koksma_aovs {
     int n;
@@ -328,7 +328,8 @@ typedef struct koksma_aovs {
 KOKSMA_API koksma_status koksma_aovs_parse(const char *text, koksma_aovs *out);
 
 /* Renders as koksma_render_layers and allocates the images of `aovs`, which the caller must free also after an error.
-   The image can differ by the rounding of floats from that of koksma_render, as all scenes take the same pipeline.
+   The image can differ from that of koksma_render by the rounding of floats, because this function renders all scenes
+   with the same pipeline.
    Errors: those of koksma_render; ARGUMENT (splatting). */
 KOKSMA_API koksma_status koksma_render_aovs(const koksma_scene *scene, const koksma_render_options *options,
                                             const koksma_run *run, koksma_aovs *aovs, koksma_layers *out);

@@ -422,9 +422,8 @@ KOKSMA_INLINE uint32_t koksma_shuffled(uint32_t i, uint32_t order)
     return koksma_mirror(koksma_owen_hash(koksma_mirror(i), order));
 }
 
-/* Returns the row of a table of a digital sequence that half byte n of the index selects; n = 0 is the lowest half
-   byte of the index, the uppermost of j, which has the bits of the index in reverse order. Rows have `width` (2 or
-   4) words. */
+/* Returns the row of a table of a digital sequence that half byte n of an index selects; half byte 0 is the lowest. j
+   is the index with its 32 bits in reverse order. Rows have `width` (2 or 4) words. */
 KOKSMA_INLINE koksma__four koksma__row(const uint32_t *table, uint32_t width, uint32_t n, uint32_t j)
 {
     const uint32_t fourfold = n < 7 ? j >> (26 - 4 * n) : j << 2;
@@ -470,7 +469,7 @@ KOKSMA_INLINE koksma__four koksma__digital(const uint32_t *table, uint32_t width
     uint32_t j = koksma_owen_hash(koksma_mirror(i), order);
     koksma__four x;
 #if defined(KOKSMA_VECTOR)
-    /* Keeps gcc from computing j and its first row twice, the second time for the next iteration of a loop. */
+    /* Without this barrier gcc computes j and its first table row a second time, for the next iteration of a loop. */
     __asm__("" : "+r"(j));
 #endif
     x = koksma__xor(koksma__xor(koksma__row(table, width, 0, j), koksma__row(table, width, 1, j)),
@@ -846,7 +845,7 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
    The shuffle makes samples less even if N is not a power of two: N samples are then several runs of points, one
    for each one bit of N, with gaps between the runs. Their RMS L2 star discrepancy is 1.19 times that of one run in
    the mean over N = 1 to 1024, and at most 1.64 times (N = 98). Without the shuffle the same coordinate of two
-   domains would differ by a constant, whatever N is. */
+   domains would differ by a constant for every N. */
 KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 {
     const uint64_t alpha[2] = {(uint64_t)0xC13FA9A9u << 32 | 0x02A6328Fu, (uint64_t)0x91E10DA5u << 32 | 0xC79E7B1Du};

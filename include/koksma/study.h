@@ -156,7 +156,7 @@ typedef struct koksma_audit {
    the stored results. The choice of rows depends on the seed and the stored results, not on the number of threads.
    Under mpirun all ranks work and must be able to read the folder; rank 0 gets the result.
    Errors: ARGUMENT (rows below 0), MISSING, MALFORMED (the folder has no results of a study, or they are too
-   damaged to read), IO, MEMORY, INTERRUPTED. A difference is not an error. */
+   damaged to read), IO, MEMORY, INTERRUPTED. A difference between stored and recomputed results is not an error. */
 KOKSMA_API koksma_status koksma_study_audit(const koksma_audit_options *options, const koksma_run *run,
                                             koksma_audit *out);
 
@@ -196,8 +196,8 @@ typedef struct koksma_study_row {
     koksma_study_verdict verdict; /* verdict on the mean */
 } koksma_study_row;
 
-/* Computes row i of a published table from the results so far. A table over several n has one row for each pattern
-   and n.
+/* Computes row i of a published table from the results so far. A table over several numbers of points n has one row
+   for each pattern and n.
      id     id of the table, such as "5.1"; if several plans have this id, the table of the first plan
      found  receives false past the last row
    Errors: UNKNOWN (id), IO, MEMORY. */

@@ -21,7 +21,7 @@ typedef struct koksma_property {
 
 /* One result of koksma_verify: whether the points have a property, and a number that the property's meaning
    explains. `subject` names the coordinates ("0,1" or "all") or the cells ("4 x 8") that were tested, or is "-";
-   `detail` says how the value came about. */
+   `detail` explains how the value was found. */
 typedef struct koksma_finding {
     const char *property;
     char subject[48];

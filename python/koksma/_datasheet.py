@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Datasheets: all about one sampler beside others, on one page."""
+"""Datasheets: one page that measures one sampler and compares it with others."""
 from __future__ import annotations
 
 import ctypes

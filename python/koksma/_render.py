@@ -164,7 +164,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
             if not 0 <= budget < math.inf:
                 raise ArgumentError(f"budget {budget}: it takes samples a pixel; 0: no limit")
             if method.method.contents.own_samples and pattern != "n-rooks":
-                raise ArgumentError(f"pattern '{pattern}': adaptive method {adaptive} draws strata of its own")
+                raise ArgumentError(f"pattern '{pattern}': the adaptive method {adaptive} places its own samples")
             method.budget = budget
             if aov:
                 method.aovs = pointer(further)

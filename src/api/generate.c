@@ -18,7 +18,7 @@ static koksma_status check_spec(const koksma_spec *spec, const koksma_pattern *p
 {
     return memchr(spec->path, '\0', sizeof spec->path)
                ? koksma__modifiers_check(p->name, spec->modifiers)
-               : koksma__fail(KOKSMA_ARGUMENT, "the path of a spec is longer than %d characters",
+               : koksma__fail(KOKSMA_ARGUMENT, "the path in the spec is longer than %d characters",
                               KOKSMA_MAX_SPEC - 1);
 }
 
@@ -47,8 +47,8 @@ bool koksma__spec_is_deterministic(const koksma_spec *spec)
     return deterministic;
 }
 
-/* Checks that patterns which run other programs' code are allowed. A call that stops at once, to check a
-   pattern's arguments, needs no permission. */
+/* Fails if the pattern runs external code without permission. A call that stops at once, to check the arguments of a
+   pattern, needs no permission. */
 static koksma_status check_permission(const koksma_spec *spec, const koksma_pattern *p, const koksma_run *run)
 {
     if (!koksma__keep_going(run, 0)) {
@@ -114,14 +114,15 @@ koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint
     if (!koksma_has_ranges(spec)) {
         char text[KOKSMA_MAX_SPEC];
         koksma_spec_text(spec, text);
-        return koksma__fail(KOKSMA_UNSUPPORTED, "%s: no ranges: the pattern makes all points together", text);
+        return koksma__fail(KOKSMA_UNSUPPORTED,
+                            "%s: the pattern has no ranges, because it generates all points together", text);
     }
     const uint64_t most = KOKSMA_MAX_INDEX < SIZE_MAX ? KOKSMA_MAX_INDEX + 1 : SIZE_MAX;
     const uint64_t end = p->claims & KOKSMA_CLAIM_SEQUENCE ? KOKSMA_MAX_INDEX + 1 : n;
     KOKSMA__FAIL_IF(end > KOKSMA_MAX_INDEX + 1 || (!(p->claims & KOKSMA_CLAIM_SEQUENCE) && n > most), KOKSMA_N,
                     "%s: n = %llu: at most %llu points", p->name, (unsigned long long)n, (unsigned long long)most);
     KOKSMA__FAIL_IF(first > end || out->n > end - first, KOKSMA_N,
-                    "%s: first = %llu with %zu points: the last point has number %llu", p->name,
+                    "%s: first = %llu with %zu points ends beyond the last point, which has number %llu", p->name,
                     (unsigned long long)first, out->n, (unsigned long long)end - 1);
     return generate(spec, p, seed, n, first, run, out);
 }

@@ -6,8 +6,8 @@
 
 #include "core/visibility.h"
 
-/* Whether a pattern's spec gives the same points for every seed: the pattern claims DETERMINISTIC, and neither a
-   modifier nor a parameter "scramble" or "shuffle" makes it random. */
+/* Returns whether the spec gives the same points for every seed. This holds if the pattern claims DETERMINISTIC and
+   neither a modifier nor a parameter "scramble" or "shuffle" makes it random. */
 KOKSMA__LAB bool koksma__spec_is_deterministic(const koksma_spec *spec);
 
 /* Checks a pattern's spec for points of `dim` dimensions: its parameters, modifiers and path. Errors: ARGUMENT, DIM. */

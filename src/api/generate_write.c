@@ -15,8 +15,8 @@ typedef struct job {
     bool ranges;
 } job;
 
-/* Generates the points of a range from j->first + done on, or the whole set. With several pieces only the writer
-   reports progress. */
+/* Generates the part of the range that begins at j->first + done, or the whole set. If there are several pieces, only
+   the writer reports progress. */
 static koksma_status make(const job *j, uint64_t done, const koksma_run *run, koksma_points *piece)
 {
     const koksma_run quiet = {.threads = run ? run->threads : 0};
@@ -30,7 +30,7 @@ static koksma_status write_pieces(const job *j, const char *path, const char *co
 {
     koksma__points_writer writer;
     koksma_points last = {1, piece->dim, piece->xs};
-    if (j->ranges) { /* a request that cannot be generated to its last point must not change the file */
+    if (j->ranges) { /* fail before the file is opened if the last point cannot be generated */
         KOKSMA__TRY(make(j, j->n - 1, run, &last));
     }
     KOKSMA__TRY(make(j, 0, run, piece));
@@ -53,18 +53,20 @@ koksma_status koksma_generate_write(const koksma_spec *spec, uint64_t seed, uint
     const job j = {spec, seed, first, n, koksma_has_ranges(spec)};
     KOKSMA__FAIL_IF(dim < 1 || dim > KOKSMA_MAX_DIM, KOKSMA_DIM, "dim = %d: the number of dimensions is 1 to %d", dim,
                     KOKSMA_MAX_DIM);
-    KOKSMA__FAIL_IF(!spec->pattern || n == 0, KOKSMA_ARGUMENT, "%s: it takes the spec of a pattern, and n from 1",
-                    __func__);
+    KOKSMA__FAIL_IF(!spec->pattern || n == 0, KOKSMA_ARGUMENT,
+                    "%s: it takes the spec of a pattern, and n of 1 or more", __func__);
     KOKSMA__FAIL_IF(n > KOKSMA_MAX_INDEX + 1 || first > KOKSMA_MAX_INDEX + 1 - n, KOKSMA_N,
-                    "%s: n = %llu from first = %llu: no point has a number above %llu", spec->pattern->name,
-                    (unsigned long long)n, (unsigned long long)first, (unsigned long long)KOKSMA_MAX_INDEX);
-    KOKSMA__FAIL_IF(first && !(j.ranges && spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE), KOKSMA_UNSUPPORTED,
-                    "%s: first = %llu is for sequences that have ranges, such as sobol, halton and r-sequence",
-                    spec->pattern->name, (unsigned long long)first);
+                    "%s: n = %llu from first = %llu ends beyond the last point, which has number %llu",
+                    spec->pattern->name, (unsigned long long)n, (unsigned long long)first,
+                    (unsigned long long)KOKSMA_MAX_INDEX);
+    KOKSMA__FAIL_IF(
+        first && !(j.ranges && spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE), KOKSMA_UNSUPPORTED,
+        "%s: first = %llu: only sequences that have ranges accept this, such as sobol, halton and r-sequence",
+        spec->pattern->name, (unsigned long long)first);
     const size_t most = (j.ranges ? (size_t)PIECE : KOKSMA_MAX_COORDINATES) / (size_t)dim;
     KOKSMA__FAIL_IF(!j.ranges && n > most, KOKSMA_N,
-                    "%s: n = %llu: its points are made together, and %zu of dim = %d fit into one set; patterns with "
-                    "ranges, such as sobol and jittered, are written piece by piece",
+                    "%s: n = %llu: the pattern generates all points together, and at most %zu points of dim = %d fit "
+                    "into one set; use a pattern with ranges, such as sobol or jittered",
                     spec->pattern->name, (unsigned long long)n, most, dim);
     koksma_points piece;
     koksma_status status = koksma_points_init(&piece, n < most ? (size_t)n : most, dim);

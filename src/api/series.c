@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Convergence rates of discrepancies, from the claims of a pattern (rates that no points can exceed: lower_bounds.c).
- * With the exponent r, a discrepancy falls as n^-r:
+ * Convergence rates of discrepancies that follow from the claims of a pattern. (The rates that no points can exceed
+ * are in lower_bounds.c.) With the exponent r, a discrepancy falls as n^-r:
  *   independent points                                  1/2: the sum of n independent terms
- *   one uniform point in each cell of a cubic grid      1/2 + 1/(2 dim): only cells that a region's boundary cuts have
+ *   one uniform point in each cell of a cubic grid 1/2 + 1/(2 dim): only cells that a region's boundary cuts have
  *                                                       any variance, n^(1 - 1/dim) of them (Beck and Chen 1987)
  *   the same with a given number of columns             1/2: a boundary cuts a fixed share of the cells
  *   centres of a cubic grid, or near them, for boxes    1/dim: a side can cut a whole layer of cells unfairly; no
@@ -30,14 +30,15 @@ koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_
     status = status ? status : koksma__array_check("sizes", sizes, n_sizes, sizeof *values);
     for (size_t i = 0; i < n_sizes && !status; i++) {
         const koksma_points prefix = {sizes[i], points->dim, points->xs};
-        KOKSMA__FAIL_IF(prefix.n == 0 || prefix.n > points->n, KOKSMA_N, "prefixes: %zu points: the set has %zu",
-                        prefix.n, points->n);
+        KOKSMA__FAIL_IF(prefix.n == 0 || prefix.n > points->n, KOKSMA_N,
+                        "prefixes: a prefix of %zu points is longer than the set, which has %zu", prefix.n,
+                        points->n);
         status = koksma_evaluate(measure, &prefix, run, &values[i]);
     }
     return status;
 }
 
-/* Whether the number of columns is the same for every n, so that cells become more elongated as n grows. */
+/* Returns whether the number of columns is the same for every n, so that cells become more elongated as n grows. */
 static bool columns_are_given(const koksma_spec *spec)
 {
     for (int k = 0; spec->pattern->params && spec->pattern->params[k].name; k++) {

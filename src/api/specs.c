@@ -36,7 +36,7 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
         const size_t length = (size_t)(end - rest);
         if (length == 0 || length >= KOKSMA_MAX_SPEC - 80) {
             return koksma__fail(KOKSMA_ARGUMENT,
-                                "%s: it takes a text of 1 to %d characters after the colon, as in %s:%s", name,
+                                "%s: the text after the colon must have 1 to %d characters, as in %s:%s", name,
                                 KOKSMA_MAX_SPEC - 81, name, pattern->operand);
         }
         memcpy(spec->path, rest, length);

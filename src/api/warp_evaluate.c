@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Evaluates measures of points that a warp has mapped to another domain. Half-planes are treated as in
-   measures/edge.c and measures/l2_edge.c but in this domain; disks of one radius and caps have closed forms
-   (measures/shared/warp_disks.h). Sampled disks are those that meet the unit disk: the radius follows the disk
-   law, and centres are uniform within 1 + radius of the unit disk's centre. */
+   measures/edge.c and measures/l2_edge.c, but within the domain of the warp. Disks of one radius and spherical caps
+   have closed forms (measures/shared/warp_disks.h). Sampled disks are those that meet the unit disk: the radius
+   follows the disk law, and centres are uniform within 1 + radius of the unit disk's centre. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +25,7 @@ typedef struct job {
     koksma__domain_kind kind;
     size_t n, dim;
     const double *xs;
-    koksma__sum *sums; /* two sums for each block of rows: over pairs, and of potentials */
+    koksma__sum *sums; /* for each block of rows the sum over pairs and the sum of potentials */
 } job;
 
 static koksma_status sum_rows(void *context, size_t block)
@@ -63,7 +63,7 @@ static koksma_status l2_edge(job *j, const koksma_run *run, koksma_value *out)
     return status;
 }
 
-/* The squared local discrepancy of a random disk. */
+/* Computes the squared local discrepancy of a random disk. */
 static double sample_disk(const job *j, koksma__disk_law law, double r_max, uint64_t seed, uint64_t index)
 {
     double u[2], v[2];
@@ -100,7 +100,7 @@ static koksma_status disk_sampled(const job *j, const koksma_spec *measure, cons
     return stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* The measures that each domain supports, for error texts. */
+/* Names of the measures that each domain supports, for error messages. */
 static const char *const taken[] = {
     [KOKSMA_DOMAIN_DISK] = "edge, l2-edge, l2-disk and disk-sampled",
     [KOKSMA_DOMAIN_TRIANGLE] = "edge and l2-edge",
@@ -135,8 +135,8 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
     }
     char text[KOKSMA_MAX_SPEC];
     koksma_spec_text(spec, text);
-    return koksma__fail(KOKSMA_UNSUPPORTED, "%s: not measured under the warp %s, which takes %s", text, warp->name,
-                        taken[warp->domain]);
+    return koksma__fail(KOKSMA_UNSUPPORTED, "%s: this measure does not support the warp %s, which accepts %s", text,
+                        warp->name, taken[warp->domain]);
 }
 
 koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *measure, const koksma_points *points,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The permission to run other people's code, kept as one number per thread. The caller of the library gives it; data
-   cannot: no spec, plan, scene or store can hold the permission. core/parallel.c and the MPI server hand it to the
-   threads that they start. */
+/* The permission to run external code, stored as one number per thread. Only the caller of the library can give it;
+   no spec, plan, scene or store can contain it. core/parallel.c and the MPI server hand it to the threads that they
+   start. */
 #include "core/allow.h"
 
 enum { MOST_SECONDS = 86400 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_allow_exec: whether a pattern may run the program or library that its path names, and how a thread hands
+/* koksma_allow_exec decides whether a pattern may run the program or library that its path names. A thread passes
    this permission to the threads that it starts. */
 #ifndef KOKSMA_CORE_ALLOW_H
 #define KOKSMA_CORE_ALLOW_H
@@ -8,8 +8,8 @@
 
 #include "core/visibility.h"
 
-/* The number of seconds for which the calling thread lets a pattern's program run; 0 where the thread allows none. A
-   new thread passes its creator's number to koksma_allow_exec. */
+/* Returns the number of seconds for which the calling thread lets a pattern's program run; 0: the thread allows no
+   programs. A new thread passes the number of the thread that created it to koksma_allow_exec. */
 KOKSMA__LAB double koksma__exec_seconds(void);
 
 #endif

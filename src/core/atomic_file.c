@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A file is written under a temporary name in its target folder, synced, and renamed when it is whole (POSIX rename
- * is atomic), so that readers and later runs see the old file or the new one; then the folder is synced. After a loss
- * of power the file is the old or the new one, whole; if the program had ended with success, it is the new one. A new
- * folder whose entry in the folder above was not synced can be lost with its contents, so that making a folder also
- * syncs the folder above it.
+ * A file is written under a temporary name in its target folder, synced, and renamed when it is complete (POSIX
+ * rename is atomic), so that readers and later runs see the old file or the new one. Then the folder is synced. After
+ * a power failure the file is either the complete old file or the complete new one; it is the new one if the program
+ * had ended with success. A power failure can destroy a new folder and its contents if the parent folder was not
+ * synced. Therefore this file also syncs the parent of each folder that it makes.
  *
  * The temporary name has 64 random bits, and O_EXCL makes a new file: a file that somebody else placed there under
- * the same name is never opened. A process number in the name would not do, as processes in different containers
- * often have equal numbers. All steps use the folder's descriptor, which refers to the same folder even when a folder
- * above it is renamed.
+ * the same name is never opened. A process number in the name would not be unique, because processes in different
+ * containers often have equal numbers. All steps use the folder's descriptor, which refers to the same folder even
+ * when a folder above it is renamed.
  *
- * The writer holds a lock (flock) on its temporary file for as long as it lives. A file with a temporary name that
- * belongs to the user, has no other hard link and can be locked was left by a process that died; the next writer into
- * the folder removes it. A writer whose new file was removed by another process before it was locked finds no link to
- * the file, and makes another one. On a file system without locks no left-over file is removed.
+ * The writer locks (flock) its temporary file until it ends. A file with a temporary name that belongs to the user,
+ * has no other hard link and can be locked was left by a process that died; the next writer into the folder removes
+ * it. If another process removed the new file before the writer locked it, the writer finds that the file has no link
+ * and makes another one. On a file system without locks, left-over files are not removed.
  */
 #define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH */
 #include "core/atomic_file.h"
@@ -36,14 +36,14 @@ static const char prefix[] = ".koksma-";
 enum { PREFIX = sizeof prefix - 1, RANDOM = 16, TRIES = 100 };
 
 typedef struct koksma__output {
-    char *path, *name; /* path: for messages; name: within the folder */
+    char *path, *name; /* path: name of the file in messages; name: its name within the folder */
     char temporary[PREFIX + RANDOM + 1];
     int folder; /* -1: the target is not a plain file */
     int descriptor;
     int reason; /* errno of the first write that failed */
 } output;
 
-/* Writes bytes and keeps errno of the first failure, which stdio would lose. */
+/* Writes bytes and stores errno of the first failure, which stdio would lose. */
 static ssize_t put(void *cookie, const char *bytes, size_t size)
 {
     output *o = cookie;
@@ -75,7 +75,7 @@ static void remove_if_dead(int folder, const char *name)
     if (fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) || !is_ours(&info)) {
         return;
     }
-    /* open for writing, which NFS requires of a process that locks */
+    /* NFS locks a file only if it is open for writing */
     const int descriptor = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor >= 0 && !fstat(descriptor, &opened) && is_ours(&opened) && opened.st_ino == info.st_ino &&
         !flock(descriptor, LOCK_EX | LOCK_NB)) {
@@ -86,8 +86,8 @@ static void remove_if_dead(int folder, const char *name)
     }
 }
 
-/* Removes temporary files that dead processes left. A process that writes many files into one folder looks there
-   once. */
+/* Removes temporary files that dead processes left. A process that writes many files into one folder searches the
+   folder only once. */
 static void remove_leftovers(int folder)
 {
     static atomic_ullong last;
@@ -111,14 +111,15 @@ static void remove_leftovers(int folder)
 
 /* ---- Opening --------------------------------------------------------------------------------------------- */
 
-/* Opens a folder; one that may be written but not read is opened by O_PATH. */
+/* Opens a folder, with O_PATH if the folder may be written but not read. */
 static int open_folder(int at, const char *path, int flags)
 {
     const int folder = openat(at, path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags);
     return folder < 0 && errno == EACCES ? openat(at, path, O_PATH | O_DIRECTORY | O_CLOEXEC | flags) : folder;
 }
 
-/* Moves a descriptor above 0, 1 and 2, to which other code writes even where those streams were closed. */
+/* Returns a copy of the descriptor above 2, because other code writes to descriptors 0 to 2 even if these streams
+   were closed. */
 static int above_streams(int descriptor)
 {
     if (descriptor < 0 || descriptor > STDERR_FILENO) {
@@ -129,7 +130,7 @@ static int above_streams(int descriptor)
     return other;
 }
 
-/* Makes a new temporary file and locks it. False: errno says why. */
+/* Makes a new temporary file and locks it. If it fails, it returns false and sets errno. */
 static bool make_temporary(output *o)
 {
     struct stat info;
@@ -155,8 +156,9 @@ static bool make_temporary(output *o)
     return false;
 }
 
-/* The descriptor of the stream that a path such as "/dev/stdout" or "/dev/fd/3" means, if the process has it open; -1
-   for any other path. A redirected stream's file keeps what was written before, and later output follows. */
+/* Returns the descriptor that a path such as "/dev/stdout" or "/dev/fd/3" names if the process has it open; -1 for
+   any other path. If the stream was redirected to a file, the earlier contents of the file remain, and new output is
+   appended. */
 static int descriptor_of(const char *path)
 {
     int number = -1, used = 0;
@@ -168,7 +170,7 @@ static int descriptor_of(const char *path)
     return numbered && used > 0 && !path[used] ? number : -1;
 }
 
-/* The target of a symbolic link that points to no file yet; NULL for any other path. */
+/* Returns the target of a symbolic link whose target does not exist yet; NULL for any other path. */
 static char *new_target(const char *path)
 {
     char to[4096];
@@ -187,8 +189,8 @@ static char *new_target(const char *path)
     return target;
 }
 
-/* Opens a target that is not a plain file, such as a device or pipe: renaming a file over it would replace it. False:
-   the target is a plain file, or does not exist. */
+/* Opens a target that is not a plain file, such as a device or pipe: renaming a file over it would replace it.
+   Returns false if the target is a plain file or does not exist. */
 static bool open_special(const char *path, output *o)
 {
     struct stat info;
@@ -207,8 +209,8 @@ static bool open_special(const char *path, output *o)
     return true;
 }
 
-/* Opens a temporary file below `folder`, whose descriptor the output then owns, following no symbolic links. False:
-   errno says why. */
+/* Opens a temporary file below `folder`, whose descriptor the output then owns, following no symbolic links. If
+   it fails, it returns false and sets errno. */
 static bool open_within(int folder, const char *path, output *o)
 {
     struct stat info;
@@ -234,7 +236,7 @@ static bool open_within(int folder, const char *path, output *o)
         return false;
     }
     if (!fstatat(folder, path, &info, AT_SYMLINK_NOFOLLOW) && S_ISREG(info.st_mode)) {
-        fchmod(o->descriptor, info.st_mode & 0777); /* a private file stays private */
+        fchmod(o->descriptor, info.st_mode & 0777); /* the new file gets the permissions of the old one */
     }
     return true;
 }
@@ -310,7 +312,7 @@ koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__
         }
         koksma__fail(KOKSMA_IO, "%s: can't be written: %s", o->path,
                      reason == EISDIR            ? "it is a directory"
-                     : folder && reason == ELOOP ? "its folder is a link, which is not followed here"
+                     : folder && reason == ELOOP ? "its folder is a symbolic link, which is not followed here"
                                                  : strerror(reason));
         end(o);
         return KOKSMA_IO;
@@ -326,13 +328,13 @@ void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA_
 
 /* ---- Closing --------------------------------------------------------------------------------------------- */
 
-/* Syncs a folder. A file system that cannot sync folders, or a folder that may not be read, is no error. */
+/* Syncs a folder. It is no error if the file system cannot sync folders, or if the folder may not be read. */
 static bool sync_folder(int folder)
 {
     return !fsync(folder) || errno == EINVAL || errno == EBADF || errno == ENOTSUP;
 }
 
-/* Syncs the folder that holds `path`. False: errno says why. */
+/* Syncs the folder that holds `path`. If it fails, it returns false and sets errno. */
 static bool sync_above(const char *path)
 {
     size_t length = strlen(path);
@@ -388,7 +390,7 @@ koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
     if (o->folder >= 0 && !placed) {
         unlinkat(o->folder, o->temporary, 0);
     }
-    /* a plain file needs no check of close() after fsync */
+    /* after a successful fsync, close() of a plain file cannot lose data */
     if (o->folder < 0 && close(o->descriptor) && !o->reason) {
         o->reason = errno;
     }

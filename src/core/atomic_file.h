@@ -14,20 +14,21 @@ typedef struct koksma__atomic_file {
     struct koksma__output *output; /* the file behind the stream */
 } koksma__atomic_file;
 
-/* Opens a file for writing. With folder NULL, path is the user's: "-" is standard output; streams, devices and pipes
-   are written directly; of a symbolic link the target is replaced, not the link. Otherwise path is a name below
+/* Opens a file for writing. If folder is NULL, the user chose the path: "-" is standard output; streams, devices and
+   pipes are written directly; a symbolic link remains, and its target is replaced. Otherwise path is a name below
    folder that the program chose: symbolic links below folder are not followed, and a link in the file's place is
    replaced. Errors: IO, MEMORY. */
 KOKSMA__LAB koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file);
 
 enum { KOKSMA__TEMPORARY_PATH = 64 };
 
-/* Gives the path of the temporary file while it is open, for a library that opens files by name. For plain files
-   only. */
+/* Returns the path of the temporary file while it is open, for a library that opens files by name. Works only for
+   plain files. */
 KOKSMA__LAB void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH]);
 
 /* Closes the file. If keep is true, the file is synced and renamed to its final name; if keep is false, or a step
-   fails, an older file of that name stays. Errors: IO, with the system's reason for the first write that failed. */
+   fails, an older file of that name stays. Errors: IO; the message has the system's reason for the first write that
+   failed. */
 KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);
 
 /* Opens a file, writes the bytes and closes it. */

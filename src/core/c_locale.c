@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * strtod and vsnprintf in the locale "C", on this thread alone (uselocale), because a host program may have chosen
- * a decimal comma. The locale object is made once and kept until the process ends.
+ * Calls strtod and vsnprintf in the locale "C", because the host program may have chosen a decimal comma. uselocale
+ * changes the locale only for this thread. The locale object is created once and exists until the process ends.
  */
 #include "core/c_locale.h"
 
@@ -13,8 +13,8 @@
 
 static locale_t c_locale;
 
-/* Never freed. glibc and musl make this locale without allocating memory; if a libc refuses it, uselocale(0) below
-   leaves the caller's locale as it is. */
+/* This locale is never freed. glibc and musl create it without allocating memory. If another libc cannot create it,
+   uselocale(0) below does not change the caller's locale. */
 static void make_c_locale(void)
 {
     c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Numbers as text, the same whatever the host program's locale is: libc's own functions write 0,5 and stop reading
-   0.5 at the point once a program in Germany has called setlocale(LC_ALL, ""), as those with Qt or GTK do. All
+/* Converts between numbers and text in the same way under every locale of the host program. After a program in
+   Germany has called setlocale(LC_ALL, ""), as Qt and GTK do, the functions of libc write 0,5 and read 0.5 as 0. All
    conversions of numbers with a decimal point use these functions (tests/lint/locale.sh); whole numbers may use
    libc's. The locale is switched for the duration of the call and in its thread only, so that the host program's code
    never runs under a locale that it did not choose. */

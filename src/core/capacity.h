@@ -8,8 +8,9 @@
 
 #include "core/status.h"
 
-/* Returns the array `items` with capacity for one item more than n: `first` items at first, then twice the old
-   capacity. When memory runs out it returns NULL and sets the error's text; the old array stays valid. */
+/* Returns the array `items` with capacity for one item more than n. The first capacity is `first` items; later ones
+   are twice the old capacity. When memory runs out it returns NULL and sets the error's text; the old array stays
+   valid. */
 static inline void *koksma__room_for_one(void *items, size_t n, size_t *capacity, size_t first, size_t item_size)
 {
     if (n < *capacity) {
@@ -25,9 +26,9 @@ static inline void *koksma__room_for_one(void *items, size_t n, size_t *capacity
     return grown;
 }
 
-/* Adds an item, all zero, at the end of the array that *array points to and returns the item. Only this function may
-   have lengthened the array, whose capacity is the smallest power of two from *n on. When memory runs out it returns
-   NULL and sets the error's text. */
+/* Adds an item, all zero, at the end of the array that *array points to and returns the item. The array must have
+   been lengthened only by this function, so that its capacity is the smallest power of two >= *n. When memory runs
+   out it returns NULL and sets the error's text. */
 static inline void *koksma__add_one(void *array, size_t *n, size_t item_size)
 {
     char *items;

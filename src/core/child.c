@@ -2,15 +2,15 @@
 /*
  * Runs a program as a child process, for samplers that are programs. Three processes take part:
  *
- *     caller   reads what the program prints, and checks the time limit and run->keep_going
- *     keeper   a fork of the caller, connected to it by a socket. It adopts all orphans below it
- *              (PR_SET_CHILD_SUBREAPER), so that no daemon, fork or new session of the program escapes: when the
- *              program has ended, or when the caller closes its end of the socket or dies, the keeper kills all its
- *              descendants
+ *     caller   reads the output of the program, and checks the time limit and run->keep_going
+ *     keeper   a fork of the caller, connected to it by a socket. It adopts all orphaned descendants
+ *              (PR_SET_CHILD_SUBREAPER), so that no daemon, fork or new session of the program escapes. When the
+ *              program ends, or the caller closes its end of the socket or dies, the keeper kills all its descendants
  *     program  in a process group of its own, with a limit on memory and no core file
  *
- * A keeper is needed because adopting orphans is a property of a whole process, which a library must not set for its
- * host. Between fork and exec the child makes only calls that are safe after fork in a process of several threads.
+ * A separate keeper is needed because a process adopts orphans as a whole, and a library must not change this for its
+ * host program. Between fork and exec the child makes only calls that are safe after fork in a process of several
+ * threads.
  */
 #define _GNU_SOURCE /* pipe2, ppoll */
 #include "core/child.h"
@@ -48,8 +48,8 @@ enum { OUT, ERR, KEEPER, N_ENDS, STEP_MS = 20, CHUNK = 1 << 16, SHOWN = 200, MOS
 /* The message that the keeper sends at its end, or that the program's process sends if it cannot start the
    program. */
 typedef struct outcome {
-    int error;  /* errno of a failed start; 0: the program was started */
-    int status; /* the exit status as of waitpid */
+    int error;  /* 0: the program was started; otherwise errno of the failed start */
+    int status; /* the exit status that waitpid returned */
 } outcome;
 
 /* ---- The program and its keeper: these functions make only calls that are safe after fork ----------------- */
@@ -84,7 +84,8 @@ static _Noreturn void become_program(const koksma__child *child, const int ends[
 static void close_others(const int ends[N_ENDS])
 {
     unsigned first = 0;
-    for (int round = 0; round <= N_ENDS; round++) { /* closes the gaps between the three, in rising order */
+    for (int round = 0; round <= N_ENDS; round++) { /* ends has the three descriptors in increasing order; close those
+                                                       between them */
         unsigned next = ~0u;
         for (int e = 0; e < N_ENDS; e++) {
             next = (unsigned)ends[e] >= first && (unsigned)ends[e] < next ? (unsigned)ends[e] : next;
@@ -98,7 +99,7 @@ static void close_others(const int ends[N_ENDS])
     }
 }
 
-/* Kills this process's children, as /proc lists them. */
+/* Kills all children of this process, which /proc lists. */
 static void kill_children(void)
 {
     char text[4096];
@@ -120,11 +121,11 @@ static void kill_children(void)
 
 static void on_child(int number)
 {
-    (void)number; /* the handler does nothing; the signal ends ppoll */
+    (void)number; /* an empty handler: the signal only has to end ppoll */
 }
 
-/* Waits until the program ends or the caller shuts its end of the socket. The program is not reaped yet, so that no
-   other process can get its number. */
+/* Waits until the program ends or the caller shuts its end of the socket. It does not reap the program yet, so that
+   no other process can get its number. */
 static void await(pid_t program, int socket)
 {
     const struct sigaction action = {.sa_handler = on_child};
@@ -156,7 +157,7 @@ static _Noreturn void keep(const koksma__child *child, const int ends[N_ENDS])
         tell(ends[KEEPER], errno, 0);
         _exit(1);
     }
-    setpgid(program, program); /* both sides call setpgid, as either may run first */
+    setpgid(program, program); /* both processes call setpgid, because either may run first */
     close(ends[OUT]);
     close(ends[ERR]);
     await(program, ends[KEEPER]);
@@ -179,10 +180,10 @@ typedef struct conversation {
     double started_s;
     char *output;
     size_t size, capacity;
-    char line[SHOWN], last[SHOWN]; /* of standard error: the current line, and the last that was not empty */
+    char line[SHOWN], last[SHOWN]; /* the current line of standard error, and its last line that was not empty */
     size_t length;
     outcome outcome;
-    bool heard;           /* an outcome has come from the keeper or the program */
+    bool heard;           /* true: the keeper or the program has sent an outcome */
     koksma_status status; /* why the program is being stopped */
 } conversation;
 
@@ -240,7 +241,7 @@ static void take_message(conversation *c, const char *bytes, size_t count)
 static void take_outcome(conversation *c, const char *bytes, size_t count)
 {
     if (count >= sizeof c->outcome &&
-        !c->heard) { /* keep the first: a program that cannot start sends one before its keeper */
+        !c->heard) { /* keep the first outcome: a program that cannot start sends one before its keeper does */
         memcpy(&c->outcome, bytes, sizeof c->outcome);
         c->heard = true;
     }
@@ -363,7 +364,8 @@ koksma_status koksma__child_run(const koksma__child *child, const koksma_run *ru
     if (!status) {
         talk(&c, chunk);
         while (waitpid(keeper, NULL, 0) < 0 &&
-               errno == EINTR) { /* ECHILD, where the host ignores SIGCHLD, ends the loop */
+               errno == EINTR) { /* the loop also ends with ECHILD, which waitpid returns if the host program ignores
+                                    SIGCHLD */
         }
         status = judge(&c);
     }

@@ -7,7 +7,8 @@
 
 typedef struct koksma__child {
     const char *name;       /* the program's name in error messages */
-    char *const *arguments; /* ends with NULL; the first is the program's path, used without a search */
+    char *const *arguments; /* arguments, ended by NULL; the first is the path of the program, for which PATH is not
+                               searched */
     double seconds;         /* the time limit */
     size_t most_output;     /* limit of bytes on standard output */
     uint64_t most_memory;   /* limit of data for each of its processes, in bytes */

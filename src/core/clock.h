@@ -8,8 +8,8 @@
 /* Seconds on a clock that never goes back. Any thread may call it. */
 KOKSMA__LAB double koksma__now_s(void);
 
-/* Replaces the clock, for tests that must not depend on the speed of the machine: koksma__now_s then returns what
-   `clock` returns, called from any thread. NULL restores the system's clock. */
+/* Replaces the clock, for tests that must not depend on the speed of the machine: koksma__now_s then returns the
+   result of `clock`, which any thread may call. NULL restores the system's clock. */
 void koksma__set_clock(double (*clock)(void));
 
 #endif

@@ -3,8 +3,8 @@
  * The smallest distance between two points of a set in the plane, by divide and conquer (Shamos & Hoey 1975): the
  * closest pair lies in the left half of the points, in the right half, or across the line between the halves. A pair
  * across the line can be closer than the best pair so far only if both points are nearer to the line, and to each
- * other in y, than that pair; few points are. On the torus the points near a side are searched once more, together
- * with copies of the points near the opposite side.
+ * other in y, than that pair; this holds for few points. On the torus a second search covers the points near a side
+ * together with copies of the points near the opposite side.
  */
 #include "core/closest_pair.h"
 
@@ -18,7 +18,7 @@
 
 enum { PAIRS_AT_ONCE = 1 << 20 };
 
-/* A point, or its copy in a neighbouring tile, whose coordinates are rounded by less than ROUNDED. */
+/* A point or its copy in a neighbouring tile; its coordinates have rounding errors of less than ROUNDED. */
 typedef struct place {
     double x, y;
     const double *point;
@@ -29,7 +29,7 @@ static const double ROUNDED = 0x1p-51;
 typedef struct search {
     const koksma_run *run;
     bool torus, stopped;
-    /* best: the least squared distance so far; reach: a pair further apart than this in x or in y cannot be closer */
+    /* best: the least squared distance so far; reach: a pair whose x or y differ by more than this is not closer */
     double best, reach;
     size_t pairs, n_done, n;
 } search;
@@ -58,7 +58,8 @@ static void try_pair(search *s, const double *p, const double *q)
     }
 }
 
-/* Finds the closest pair among n places in the order of x, and sorts them by y on the way. scratch: capacity n. */
+/* Finds the closest pair among n points that are sorted by x, and sorts them by y at the same time. scratch: capacity
+   n. */
 static void divide(search *s, place *at, place *scratch, size_t n)
 {
     if (n < 2 || s->stopped || !(s->best > 0)) {
@@ -99,8 +100,8 @@ static koksma_status find(search *s, place *places, size_t n)
     return s->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* Collects the points less than `margin` from a side, and the copies less than `margin` beyond a side; out may be
-   NULL, to count only. */
+/* Collects in `out` the points less than `margin` from a side, and the copies less than `margin` beyond a side, and
+   returns their number; out may be NULL. */
 static size_t lay_out_sides(const koksma_points *points, double margin, place *out)
 {
     size_t m = 0;

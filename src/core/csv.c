@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* CSV as in RFC 4180: a field has quotes only where a reader needs them, so that plain tables stay plain. */
+/* Writes CSV (RFC 4180). A field gets quotes only if readers need them. */
 #include "core/csv.h"
 
 #include <math.h>
@@ -39,7 +39,7 @@ size_t koksma__csv_whole(uint64_t number, char text[KOKSMA__CSV_NUMBER])
 size_t koksma__csv_number(double number, char text[KOKSMA__CSV_NUMBER])
 {
     _Static_assert((int)KOKSMA__CSV_NUMBER >= (int)KOKSMA__DECIMAL_ROOM,
-                   "koksma__decimal_write writes to the same text");
+                   "koksma__decimal_write needs at most the capacity of a CSV number");
     const size_t length = isnan(number) ? 0 : koksma__decimal_write(number, text);
     return length || isnan(number) ? length : (size_t)koksma__snprintf(text, KOKSMA__CSV_NUMBER, "%.17g", number);
 }

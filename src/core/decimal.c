@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Converts decimal numbers to doubles and back by exact arithmetic in 128 bits, without a table of approximate powers
- * and without undecided cases. Numbers that do not fit, and all numbers where the compiler has no integers of 128
- * bits, are left to libc.
+ * and without undecided cases. libc converts numbers that do not fit, and all numbers if the compiler has no 128-bit
+ * integers.
  *
  * Reading w 10^-k, w < 2^64, k <= 27: 5^k fits into 64 bits. With w and 5^k shifted so that their top bits are set,
  * the quotient of w 2^63 by 5^k has 63 or 64 bits; if there is a remainder, the lowest bit is set, which makes
  * rounding to 53 bits exact.
  *
- * Writing x = m 2^e from 1e-4 to 1 with 17 digits: p is such that x 10^p has 17 digits, 17 <= p <= 20, and m 5^p fits
- * into 100 bits: so x 10^p = m 5^p 2^(e + p) is m 5^p shifted, and the bits shifted out decide the rounding, with
- * ties to even as in printf.
+ * Writing x = m 2^e from 1e-4 to 1 with 17 digits: choose p, 17 <= p <= 20, such that x 10^p has 17 digits; m 5^p
+ * then fits into 100 bits. x 10^p = m 5^p 2^(e + p) is m 5^p shifted, and the bits that are shifted out decide the
+ * rounding, with ties to even as in printf.
  */
 #include "core/decimal.h"
 
@@ -55,7 +55,7 @@ bool koksma__decimal_read(const char *text, char **end, double *out)
         const unsigned digit = (unsigned)*s - '0';
         if (digit <= 9) {
             first = first || !digit ? first : s;
-            w = 10 * w + digit; /* w wraps around for more digits than fit; such a number is left to libc below */
+            w = 10 * w + digit; /* if there are too many digits, w wraps around; libc reads such a number below */
         } else if (*s == '.' && !point) {
             point = s;
         } else {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Discrete Fourier transforms of one sequence: for convolutions, of a power of two in permuted order; otherwise of
-   any length, in order. */
+/* Discrete Fourier transforms of one sequence: either of any length with the result in order, or of a power of two
+   with the result in permuted order, which is enough for convolutions. */
 #ifndef KOKSMA_CORE_DFT_H
 #define KOKSMA_CORE_DFT_H
 
@@ -24,20 +24,20 @@ void koksma__fourier_back(const koksma__fourier *f, size_t n, double *re, double
 
 typedef struct koksma__dft {
     size_t length, padded; /* padded: the length of the convolution; 0: the sums are computed by the definition */
-    double *re, *im;       /* exp(-i pi j^2 / length), or exp(-2 pi i j / length) */
+    double *re, *im;       /* table of exp(-i pi j^2 / length) for convolutions, or of exp(-2 pi i j / length) */
     double *filter_re, *filter_im;
 } koksma__dft;
 
-/* The power of two up to which f must have tables for `length`, or 0. The scratch arrays below have as many
-   numbers. */
+/* Returns the power of two up to which f must have tables for `length`, or 0 if no tables are needed. The scratch
+   arrays of the functions below have this number of elements. */
 KOKSMA__LAB size_t koksma__dft_padded(size_t length);
 
 /* Plans transforms of `length` numbers by the tables f; koksma__dft_fini releases them. Errors: MEMORY. */
 KOKSMA__LAB koksma_status koksma__dft_init(koksma__dft *dft, const koksma__fourier *f, size_t length);
 KOKSMA__LAB void koksma__dft_fini(koksma__dft *dft);
 
-/* The sums over j of x_j exp(-2 pi i j k / length), x_j at index j * stride; scratch_re and scratch_im have `padded`
-   numbers, or `length` if that is more. */
+/* Computes the sums over j of x_j exp(-2 pi i j k / length), where x_j is at index j * stride; scratch_re and
+   scratch_im have `padded` numbers, or `length` if that is more. */
 KOKSMA__LAB void koksma__dft_transform(const koksma__dft *dft, const koksma__fourier *f, size_t stride, double *re,
                                        double *im, double *scratch_re, double *scratch_im);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * exp, log, erf and its inverse for points, whose bits are the same on every machine. A libm's results differ in the
- * last bits between machines (glibc's exp depends on whether there is a fused multiply-add). These functions use only
- * sums and products, which IEEE 754 rounds the same way everywhere.
+ * exp, log, erf and inverse erf with the same bits on every machine, for computing points. A libm's results differ in
+ * the last bits between machines (glibc's exp depends on whether there is a fused multiply-add). These functions use
+ * only sums and products, which IEEE 754 rounds the same way everywhere.
  */
 #ifndef KOKSMA_CORE_ELEMENTARY_H
 #define KOKSMA_CORE_ELEMENTARY_H
@@ -21,8 +21,8 @@ static inline double koksma__power_of_two(int k)
 }
 
 /* exp(x) = 2^k exp(r), x = k ln 2 + r, |r| <= ln 2 / 2, with ln 2 in two parts (Cody & Waite 1980) and Taylor's
-   series up to r^13, which leaves out less than 5e-18. The result is the nearest double in 98 cases of 100, and else
-   a neighbour of it; below x = -708, where results would lose digits, it is 0. */
+   series up to r^13, which leaves out less than 5e-18. The result is the nearest double in 98 of 100 cases, otherwise
+   a neighbour of it. Below x = -708, where results would lose digits, the function returns 0. */
 static inline double koksma__exp(double x)
 {
     if (!(x >= -708)) {
@@ -91,9 +91,9 @@ static inline double koksma__erf(double x)
     return copysign(1 - 0x1.20dd750429b6dp-1 * koksma__exp(-square) / fraction, x);
 }
 
-/* The t with erf(t) = x, |x| <= 1; for x = 1 it is 6, beyond which koksma__erf is 1. Giles's approximation (2012),
-   accurate to 4e-7 of t except in the last 1e-7 of x, then Halley's iteration (erf'' = -2 t erf'), each step of which
-   triples the number of correct digits. */
+/* Returns t with erf(t) = x, for |x| <= 1. For x = 1 it returns 6, because koksma__erf is 1 above 6. The method is
+   Giles's approximation (2012), which has a relative error below 4e-7 unless 1 - |x| < 1e-7, and then Halley's
+   iteration (erf'' = -2 t erf'), each step of which triples the number of correct digits. */
 static inline double koksma__inverse_erf(double x)
 {
     static const double middle[] = {2.81022636e-8,  3.43273939e-7,  -3.5233877e-6, -4.39150654e-6, 2.1858087e-4,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* JSON text for exports, reports and the program's --json. A value is a comma if another one stands before it, its
-   key if it has one, and its text; a stack holds the closing brackets of the open objects and arrays. Texts are
-   copied byte by byte: quotes, backslashes and control characters are escaped, and what is not valid UTF-8 (RFC 3629:
-   no overlong forms, no surrogates, nothing above U+10FFFF) is replaced by U+FFFD, because file names may hold any
-   bytes and JSON may not. Numbers do not follow the host's locale. */
+/* JSON text for exports, reports and the program's --json. For each value it writes a comma if another value precedes
+   it, the key if it has one, and the text. A stack has the closing brackets of all open objects and arrays. Quotes,
+   backslashes and control characters in texts are escaped. Bytes that are not valid UTF-8 (RFC 3629: no overlong
+   forms, no surrogates, nothing above U+10FFFF) are replaced by U+FFFD, because file names may have any bytes and
+   JSON may not. Numbers do not follow the host's locale. */
 #include "core/json_writer.h"
 
 #include <math.h>
@@ -77,8 +77,8 @@ static void begin(koksma__json_writer *w, const char *key, const char *bracket, 
     begin_value(w, key);
     append(w, bracket, 1);
     if (w->depth == KOKSMA__JSON_DEPTH) {
-        w->status =
-            koksma__fail(KOKSMA_ARGUMENT, "JSON: more than %d objects and arrays in each other", KOKSMA__JSON_DEPTH);
+        w->status = koksma__fail(KOKSMA_ARGUMENT, "JSON: objects and arrays are nested more than %d deep",
+                                 KOKSMA__JSON_DEPTH);
         return;
     }
     w->ends[w->depth++] = end;

@@ -23,8 +23,8 @@ typedef struct koksma__json_writer {
     bool in_html; /* set by the caller: write < > & as \u003c and so on, for text inside <script> */
     bool comma;   /* the next value needs a comma before it */
     int depth;
-    char ends[KOKSMA__JSON_DEPTH]; /* closing brackets of what is open */
-    koksma_status status;          /* of the first failure; koksma_error_text() is its text */
+    char ends[KOKSMA__JSON_DEPTH]; /* closing brackets of the open objects and arrays */
+    koksma_status status;          /* status of the first failure; koksma_error_text() has its text */
 } koksma__json_writer;
 
 /* Begins an object or an array, which koksma__json_end ends. */
@@ -54,8 +54,8 @@ KOKSMA__LAB void koksma__json_write_number(koksma__json_writer *w, const char *k
 /* Writes a number with the given number of significant digits (1 to 17). */
 KOKSMA__LAB void koksma__json_write_rounded(koksma__json_writer *w, const char *key, double value, int digits);
 
-/* Writes an integer. Readers that turn JSON numbers into doubles lose digits beyond 2^53: write seeds and hashes as
-   text. */
+/* Writes an integer. Many readers convert JSON numbers to doubles, which lose digits above 2^53: write seeds and
+   hashes as text. */
 KOKSMA__LAB void koksma__json_write_whole(koksma__json_writer *w, const char *key, int64_t value);
 
 /* Writes true or false. */
@@ -67,11 +67,12 @@ KOKSMA__LAB void koksma__json_write_json(koksma__json_writer *w, const char *key
 /* Begins a new line before the next value. */
 KOKSMA__LAB void koksma__json_break(koksma__json_writer *w);
 
-/* For one value a line: writes the buffer and a newline to the stream and empties the buffer; returns the status. */
+/* Writes the buffer and a newline to the stream, empties the buffer and returns the status; for files with one value
+   per line. */
 KOKSMA__LAB koksma_status koksma__json_line(koksma__json_writer *w, FILE *stream);
 
-/* Gives the text to the caller, who frees it; after a failure frees it and returns the status. The writer is then
-   empty. */
+/* Gives the text to the caller, who frees it. After a failure it frees the text and returns the status. The writer is
+   then empty. */
 KOKSMA__LAB koksma_status koksma__json_finish(koksma__json_writer *w, char **text, size_t *size);
 
 /* Frees the buffer of a writer that is not finished. */

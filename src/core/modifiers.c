@@ -69,16 +69,16 @@ static void scramble(uint64_t seed, double value, koksma_points *points)
     }
 }
 
-/* The digits of x in a base, as an integer: x is the double nearest to, or just above, a multiple of base^-digits, as
-   in nets. */
+/* Returns the digits of x in a base as an integer. x is the double nearest to, or just above, a multiple of
+   base^-digits, as in nets. */
 static uint64_t digits_in_base(double x, double scale)
 {
     const uint64_t floor = (uint64_t)(x * scale);
     return floor + ((double)(floor + 1) / scale <= x) - ((double)floor / scale > x);
 }
 
-/* The image of a digit under the permutation at a node of the tree of digits: Fisher-Yates with one call of the
-   generator for each position. */
+/* Returns the image of a digit under the permutation at a node of the tree of digits: a Fisher-Yates shuffle with one
+   call of the generator for each position. */
 static uint32_t permuted(uint64_t seed, uint32_t lane, uint64_t node, uint32_t base, uint32_t digit)
 {
     uint32_t order[MOST_BASE];
@@ -108,7 +108,7 @@ static void scramble_in_base(uint64_t seed, double value, koksma_points *points)
     for (size_t c = 0; c < points->n * dim; c++) {
         const uint64_t x = digits_in_base(points->xs[c], scale);
         uint64_t y = 0;
-        /* the node's number: the digits before, after the numbers of all nodes of shorter prefixes */
+        /* number of the node whose path is the preceding digits; nodes of shorter paths have lower numbers */
         for (int m = 0; m < digits; m++) {
             const uint64_t before = x / powers[digits - m], digit = x / powers[digits - m - 1] % base;
             y = y * base +
@@ -159,7 +159,7 @@ static void mirror(uint64_t seed, double value, koksma_points *points)
     }
 }
 
-/* x + u on the torus; never returns 1. */
+/* Shifts x by u on the torus; the result is never 1. */
 static void shift_by(uint64_t seed, koksma_points *points)
 {
     double u[KOKSMA_MAX_DIM + 1];
@@ -202,42 +202,46 @@ static const struct {
 } rows[] = {
     {{"owen", "nested uniform scrambling of binary digits (1), or none (0)", "owen1995", 1, 1, true,
       OF_DIGITS | OF_GROUPS, OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
-      "elementary intervals in base 2: nets, and strata where n is a power of 2; t-value in base 2"},
+      "the number of points in each elementary interval in base 2: nets, their t-value, and strata if n is a power "
+      "of 2"},
      scramble},
     {{"digital-shift", "xor of the binary digits with those of one random point (1), or none (0)", "lecuyer2002", 1,
       1, true, OF_DIGITS | OF_GROUPS, OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
-      "elementary intervals in base 2: nets, and strata where n is a power of 2; t-value in base 2"},
+      "the number of points in each elementary interval in base 2: nets, their t-value, and strata if n is a power "
+      "of 2"},
      flip_digits},
     {{"axes", "a random order of the coordinates (1), or none (0)", "-", 1, 1, true, OF_CUBE, 0, 0, "*",
-      "every measure, and all strata that do not single out a coordinate"},
+      "the values of all measures, and all strata that treat the coordinates equally"},
      permute_axes},
     {{"mirror", "each coordinate reflected about 1/2 or not, at random (1), or none (0)", "-", 1, 1, true,
       OF_CUBE | OF_GROUPS, 0, 0, MIRROR_MEASURES,
-      "strata, distances, and measures that do not single out the corner 0: not star, l2-star and l2-modified"},
+      "strata, distances, and all measures except star, l2-star and l2-modified, which depend on the corner 0"},
      mirror},
-    {{"phase", "shifted on the torus by the vector that shift has for this seed (1 or more), or not (0)",
-      "cranley1976", 1, UINT32_MAX, false, ON_TORUS | KOKSMA_CLAIM_DETERMINISTIC, 0, 0, TORUS_MEASURES,
-      "distances and measures on the torus (l2-periodic, diaphony, disk), lattices; the same for every seed"},
+    {{"phase", "shifted on the torus by the random vector of this seed (1 or more), or not (0)", "cranley1976", 1,
+      UINT32_MAX, false, ON_TORUS | KOKSMA_CLAIM_DETERMINISTIC, 0, 0, TORUS_MEASURES,
+      "distances and measures on the torus (l2-periodic, diaphony, disk), and lattices; equal for every seed of the "
+      "pattern"},
      shift_to_phase},
     {{"shift", "shifted on the torus by one random vector (1), or not (0)", "cranley1976", 1, 1, true, ON_TORUS, 0,
       KOKSMA_CLAIM_UNBIASED, TORUS_MEASURES,
-      "distances and measures on the torus (l2-periodic, diaphony, disk), lattices"},
+      "distances and measures on the torus (l2-periodic, diaphony, disk), and lattices"},
      shift},
     {{"owen-base", "nested uniform scrambling of the digits in this base (2 to 64), or none (0)", "owen1995", 2,
       MOST_BASE, true, KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE,
-      0, KOKSMA_CLAIM_UNBIASED, "", "elementary intervals in that base: nets in the base, and their t-value there"},
+      0, KOKSMA_CLAIM_UNBIASED, "",
+      "the number of points in each elementary interval in that base: nets in that base and their t-value"},
      scramble_in_base},
     {{"tent", "the tent (baker's) transform 1 - |2 x - 1| of each coordinate (1), or none (0)", "hickernell2002", 1,
       1, false,
       KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |
           KOKSMA_CLAIM_DETERMINISTIC,
-      0, 0, "", "uniformity in the mean; the same for every seed"},
+      0, 0, "", "uniformity in the mean; the map does not depend on the seed"},
      fold},
 };
 
 enum { COUNT = sizeof rows / sizeof *rows };
 
-_Static_assert((int)COUNT <= (int)KOKSMA_MAX_MODIFIERS, "koksma_spec has room for all of them");
+_Static_assert((int)COUNT <= (int)KOKSMA_MAX_MODIFIERS, "koksma_spec has capacity for all modifiers");
 
 const koksma_modifier *koksma_modifier_at(size_t i)
 {

@@ -15,24 +15,24 @@ typedef struct koksma__all_params {
 
 void koksma__all_params_init(koksma__all_params *all, const koksma_param *own);
 
-/* Where the modifiers at the end of "PATH,shift=1,phase=3" begin: at a comma, or at the text's end. A part with a dot
-   or a slash still belongs to the path: x,shift=1.txt is a file's name. */
+/* Returns where the modifiers at the end of "PATH,shift=1,phase=3" begin: at a comma, or at the end of the text. A
+   part with a dot or a slash still belongs to the path: x,shift=1.txt is a file's name. */
 KOKSMA__LAB const char *koksma__modifiers_of_path(const char *text);
 
 /* Applies all modifiers whose value is not 0 to points in [0,1), which stay in [0,1). */
 void koksma__modify(const double *values, uint64_t seed, koksma_points *points);
 
-/* Modifier i as a parameter. Its default 0 may be below its range. */
+/* Modifier i as a parameter. The default of a modifier, 0, may be below its range. */
 koksma_param koksma__modifier_param(size_t i);
 
-/* Whether any of the modifiers given depends on the seed. */
+/* Returns whether any applied modifier depends on the seed. */
 KOKSMA__LAB bool koksma__modifiers_are_random(const double *values);
 
-/* Whether any of the modifiers given works on digits. Claims about rates of decay that need strata in another base
-   than 2 are then lost. */
+/* Returns whether any applied modifier changes digits. The points then lose claims about rates of decay that need
+   strata in a base other than 2. */
 bool koksma__modifiers_of_digits(const double *values);
 
-/* The claims of a pattern that still hold for n points after its modifiers. */
+/* Returns the claims of a pattern that are still true for n points after its modifiers. */
 KOKSMA__LAB unsigned koksma__claims_left(const koksma_spec *spec, size_t n);
 
 #endif

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The quality t of nets: n = b^m points are a (t,m,s)-net in base b if every elementary interval, a product of
- * [a/b^k, (a+1)/b^k), of volume b^(t-m) holds b^t of them (Niederreiter 1992). Smaller is better; t = m always holds,
- * and a (t,m,s)-net is a (t+1,m,s)-net, so that the least t is found by trying t = 0, 1, 2, ... in turn.
+ * [a/b^k, (a+1)/b^k), of volume b^(t-m) holds b^t of them (Niederreiter 1992). Smaller t is better. All points are an
+ * (m,m,s)-net, and a (t,m,s)-net is also a (t+1,m,s)-net, so trying t = 0, 1, 2, ... in turn finds the least t.
  *
  * Unless b is a power of two, most fractions a/b^k are not exact doubles: 1/5 times 5 rounds to 1, but 1/49 times 49
- * to less than 1. So a stratum is bounded by the doubles nearest to its fractions (a quotient of whole numbers is
- * rounded once), and a coordinate that is the double nearest to a/b^k counts as this fraction. Equal fractions have
- * the same nearest double, so that the stratum of x among b^k is its stratum among b^m divided by b^(m-k); each
- * coordinate's stratum is therefore searched for only once. There are C(m - t + s - 1, s - 1) shapes of intervals
- * with m - t digits, and each costs a pass over the points.
+ * to less than 1. Therefore the bounds of a stratum are the doubles nearest to a/b^k (the quotient of two whole
+ * numbers is rounded once), and a coordinate that equals the double nearest to a/b^k is treated as this fraction.
+ * Equal fractions have the same nearest double. The index of the stratum of x among b^k is therefore its index among
+ * b^m, divided by b^(m-k) and rounded down; each coordinate's stratum is searched for only once. There are C(m - t +
+ * s - 1, s - 1) shapes of intervals with m - t digits, and each shape takes one pass over the points.
  */
 #include "core/net.h"
 
@@ -55,7 +55,7 @@ void koksma__net_fini(koksma__net *net)
     *net = (koksma__net){0};
 }
 
-/* A search for intervals of one volume that do not hold exactly `each` points. */
+/* A search for intervals of one volume that do not contain exactly `each` points. */
 typedef struct search {
     const koksma__net *net;
     const int *use;
@@ -67,7 +67,7 @@ typedef struct search {
     bool stopped;
 } search;
 
-/* Whether all intervals of the current shape hold the same number of points; also false when the run was
+/* Returns whether all intervals of the current shape hold the same number of points; also false when the run was
    cancelled. */
 static bool is_even(search *s)
 {
@@ -89,7 +89,7 @@ static bool is_even(search *s)
             return false;
         }
     }
-    return true; /* no interval has more than its share, so that none has less */
+    return true; /* the total is fixed, so if no interval has too many points, none has too few */
 }
 
 /* Tries all ways to distribute `left` digits over coordinates k and later. */

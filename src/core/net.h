@@ -6,8 +6,8 @@
 
 #include <koksma/koksma.h>
 
-/* The index of the stratum of x among m equal ones, whose bounds are the doubles nearest to j/m. x = 1 is in the
-   last. */
+/* Returns the index of the stratum of x among m equal strata, whose bounds are the doubles nearest to j/m. x = 1 is
+   in the last stratum. */
 size_t koksma__stratum(double x, size_t m);
 
 /* The digits of points in a base, the input of koksma__net_quality. */
@@ -15,15 +15,17 @@ typedef struct koksma__net {
     size_t base, n, row; /* row: number of coordinates of a point */
     int digits;          /* the largest exponent with base^digits <= n */
     uint32_t powers[33]; /* base^k */
-    /* strata: each coordinate's stratum among base^digits, point by point; counts: capacity n */
+    /* strata: index of each coordinate's stratum among base^digits, point by point; counts: capacity n */
     uint32_t *strata, *counts;
 } koksma__net;
 
-/* Needs base >= 2 and points that koksma__points_check accepts; koksma__net_fini frees the net. Errors: MEMORY. */
+/* Prepares a net for base >= 2 and points that koksma__points_check accepts; koksma__net_fini frees it. Errors:
+   MEMORY. */
 koksma_status koksma__net_init(const koksma_points *points, size_t base, koksma__net *net);
 void koksma__net_fini(koksma__net *net);
 
-/* The least t for which the first base^m points, m <= digits, form a (t,m,dim)-net in the coordinates use[0..dim).
+/* Returns the least t for which the first base^m points, m <= digits, form a (t,m,dim)-net in the coordinates
+   use[0..dim).
    Errors: INTERRUPTED. */
 koksma_status koksma__net_quality(const koksma__net *net, int m, const int *use, int dim, const koksma_run *run,
                                   int *t);

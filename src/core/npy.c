@@ -19,7 +19,7 @@ void koksma__npy_put_header(FILE *stream, const char *descr, const char *shape)
     fprintf(stream, "%-*s\n", length - 1, header);
 }
 
-/* Whether a double's lowest byte comes first in memory, so that doubles can be written without conversion. */
+/* Returns whether a double's lowest byte comes first in memory, so that doubles can be written without conversion. */
 static bool is_little_endian(void)
 {
     const double one = 1;

@@ -15,7 +15,10 @@
 #include <unistd.h>
 #endif
 
-enum { MANY = 1 << 22 }; /* twice the size of a large page, so that a whole large page lies inside */
+enum {
+    MANY = 1 << 22
+}; /* twice the size of a large page, so that the block contains at least one complete large
+                            page */
 
 void koksma__large_pages(void *memory, size_t bytes)
 {

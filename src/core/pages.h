@@ -4,9 +4,9 @@
 
 #include <stddef.h>
 
-/* Asks the system for large pages in a fresh block of memory of many megabytes; smaller blocks are left alone. The
-   first access to a fresh block takes as long as filling it several times, most of that time for each page. The
-   system may ignore the request. */
+/* Asks the system for large pages in a new block of many megabytes; for smaller blocks it does nothing. The first
+   access to each page of a new block is slow: it takes longer than filling the page several times. The system may
+   ignore the request. */
 void koksma__large_pages(void *memory, size_t bytes);
 
 #endif

@@ -99,7 +99,8 @@ static void look(pool *p, const koksma_run *run)
     }
 }
 
-/* How often the caller asks keep_going while the helpers finish their last blocks, which may take long. */
+/* Interval at which the caller calls keep_going while the other threads finish their last blocks, which may take
+   long. */
 static const long LOOK_NS = 50000000;
 
 static void wait_for_helpers(pool *p, const koksma_run *run)
@@ -132,7 +133,7 @@ koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__b
     int n_helpers = 0;
     size_t wanted = (size_t)koksma__threads(run);
     wanted = wanted < n_blocks ? wanted : n_blocks;
-    pthread_mutex_lock(&p.lock); /* held so that no helper ends before it is counted */
+    pthread_mutex_lock(&p.lock); /* the lock is held so that no thread ends before it is counted */
     while ((size_t)n_helpers + 1 < wanted && !pthread_create(&helpers[n_helpers], NULL, work, &p)) {
         n_helpers++; /* if a thread cannot be created, the job only takes longer */
     }

@@ -12,19 +12,19 @@
 
 typedef koksma_status (*koksma__block_function)(void *context, size_t block);
 
-/* Runs f(context, 0) .. f(context, n_blocks-1), in any order, on run->threads threads (the caller's is one of them).
-   Asks run->keep_going between blocks; stops at the first failure and returns its status and text. run may be
-   NULL. */
+/* Runs f(context, 0) .. f(context, n_blocks-1), in any order, on run->threads threads, one of which is the caller's.
+   Calls run->keep_going between blocks, stops at the first failure and returns its status and text. run may be NULL.
+   */
 KOKSMA__LAB koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__block_function f,
                                            void *context);
 
-/* The number of threads that `run` requests. */
+/* Returns the number of threads that `run` requests. */
 KOKSMA__LAB int koksma__threads(const koksma_run *run);
 
-/* Returns false when run->keep_going asks to stop. */
+/* Returns false if run->keep_going returned false. */
 KOKSMA__LAB bool koksma__keep_going(const koksma_run *run, double fraction_done);
 
-/* Fails with INTERRUPTED, for a call that run->keep_going has stopped. */
+/* Sets the error text for a call that run->keep_going stopped, and returns INTERRUPTED. */
 KOKSMA__LAB koksma_status koksma__fail_interrupted(void);
 
 #endif

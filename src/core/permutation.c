@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A random permutation by the inside-out form of the Fisher-Yates shuffle: O(n), one random word for each element. */
+/* A random permutation by the inside-out form of the Fisher-Yates shuffle: It takes O(n), with one random word for
+   each element. */
 #include "core/random.h"
 
 void koksma__random_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation)

@@ -10,16 +10,16 @@
 #include "core/read_file.h"
 #include "core/visibility.h"
 
-/* An error unless dim is a valid number of dimensions and n points of that dimension fit into one set. Errors:
-   ARGUMENT, DIM. */
+/* Fails unless dim is a valid number of dimensions and n points of that dimension fit into one set. Errors: ARGUMENT,
+   DIM. */
 KOKSMA__LAB koksma_status koksma__points_fit(size_t n, int dim);
 
-/* An error unless the set has points, its size is within the limits, and each coordinate is in [0,1] (NaN is not).
-   Every public function that takes points, unless it documents another rule, makes this check first. Errors:
-   ARGUMENT, DIM. */
+/* Fails unless the set has points, its size is within the limits, and each coordinate is in [0,1] (NaN is not). Every
+   public function that takes points, unless it documents another rule, makes this check first. Errors: ARGUMENT, DIM. */
 KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
 
-/* koksma_points_read, with who named the file: `by` decides which kinds of files may be opened (core/read_file.h). */
+/* Like koksma_points_read; `by` tells who named the file and thus which kinds of files may be opened
+   (core/read_file.h). */
 koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points);
 
 /* Readers by format. Error messages call the source `name`. On failure points is left empty. */
@@ -39,19 +39,19 @@ koksma_status koksma__writer_open(const char *path, uint64_t n, int dim, const c
                                   koksma__points_writer *writer);
 
 /* Writes more points. After a failed write it does nothing; koksma__writer_close reports the failure. Error:
-   INTERRUPTED, when run->keep_going asks to stop. */
+   INTERRUPTED if run->keep_going returned false. */
 koksma_status koksma__writer_put(koksma__points_writer *writer, const koksma_points *points, const koksma_run *run);
 
 /* Closes the file. If status is OK, the new file takes its final name; otherwise an older file of that name stays.
    Returns status, or IO. */
 koksma_status koksma__writer_close(koksma__points_writer *writer, koksma_status status);
 
-/* Writes all rows with one call: koksma_points_write without the check that coordinates are in [0,1]. */
+/* Writes all rows with one call, like koksma_points_write, but does not check that coordinates are in [0,1]. */
 koksma_status koksma__numbers_write(const char *path, const koksma_points *rows, const char *comment,
                                     const koksma_run *run);
 
-/* Writers by format: the header before the points, and the points. `progress` is the fraction of the whole file that
-   was written before these points; `share` is the fraction that they make up. */
+/* The writers of each format: one writes the header, one the points. `progress` is the fraction of the whole file
+   that was written before these points; `share` is the fraction that they make up. */
 typedef struct koksma__progress {
     const koksma_run *run;
     double done, share;

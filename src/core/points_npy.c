@@ -22,7 +22,7 @@ static koksma_status malformed(const char *name, const char *reason)
     return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: %s", name, reason);
 }
 
-/* The text after 'key': in the header's dictionary; NULL: the dictionary lacks the key. */
+/* Returns the text after 'key': in the header's dictionary, or NULL if the dictionary lacks the key. */
 static const char *find_value(const char *header, const char *key)
 {
     char quoted[32];
@@ -58,7 +58,8 @@ static koksma_status parse_shape(const char *name, const char *shape, layout *ou
         return malformed(name, "no points");
     }
     KOKSMA__FAIL_IF(sizes[1] > KOKSMA_MAX_DIM || sizes[0] > KOKSMA_MAX_COORDINATES / sizes[1], KOKSMA_MALFORMED,
-                    "%s: npy header: claims %llu points of %llu dimensions, more than fit", name, sizes[0], sizes[1]);
+                    "%s: npy header: claims %llu points of %llu dimensions, which is more than one set can have",
+                    name, sizes[0], sizes[1]);
     out->n = (size_t)sizes[0];
     out->dim = (size_t)sizes[1];
     return KOKSMA_OK;
@@ -121,7 +122,7 @@ static double decode(const unsigned char *bytes, const layout *l)
     return x;
 }
 
-/* Stores number `item` of the file in the points; fails if the number is not a coordinate. */
+/* Stores number `item` of the file in the points; fails if the number is not in [0,1]. */
 static koksma_status put_item(const char *name, const layout *l, size_t item, double x, koksma_points *points)
 {
     KOKSMA__FAIL_IF(!(x >= 0 && x <= 1), KOKSMA_MALFORMED, "%s: item %zu: coordinate %.17g is outside [0,1]", name,
@@ -161,8 +162,8 @@ static koksma_status check_length(FILE *stream, const char *name, const layout *
     const long end = ftell(stream);
     fseek(stream, here, SEEK_SET);
     KOKSMA__FAIL_IF((size_t)(end - here) / l->item_size < l->n * l->dim, KOKSMA_MALFORMED,
-                    "%s: npy header: claims %zu points of dim %zu, and the file holds %zu numbers", name, l->n,
-                    l->dim, (size_t)(end - here) / l->item_size);
+                    "%s: npy header: claims %zu points of dim %zu, but the file has %zu numbers", name, l->n, l->dim,
+                    (size_t)(end - here) / l->item_size);
     return KOKSMA_OK;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Points as text: one point a line, `%.17g`, with `# key value` lines in front. Reading accepts blanks, commas and
-   tabs between fields, comments, and a CSV header. A line `# n N` or `# dim D` must match the points. So must `n N`
-   and `dim D` in a preamble of plain `key number` lines that a line `points` ends, the form of test files with known
-   values. */
+/* Reads and writes points as text: one point per line, with numbers as `%.17g`, after lines `# key value`. Reading
+   accepts blanks, commas and tabs between fields, comments, and a CSV header. A line `# n N` or `# dim D` must match
+   the points. Test files with known values have another form: a preamble of lines `key number`, ended by a line
+   `points`. Its lines `n N` and `dim D` must also match. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,17 +18,17 @@ enum { MAX_LINE = 1 << 18, BLOCK = 2 * MAX_LINE, SHOWN = 40 };
 typedef struct reader {
     FILE *stream;
     const char *name;
-    char *block; /* BLOCK + 1 bytes; those from at to held are not read yet */
+    char *block; /* BLOCK + 1 bytes; those from `at` to `held` have not been used yet */
     size_t at, held;
     bool at_end;
-    char *line; /* points into the block */
+    char *line; /* the line, as a pointer into the block */
     size_t line_number, length;
-    uint64_t bytes; /* total of all lines so far */
+    uint64_t bytes; /* total length of all lines so far */
     bool header_seen;
-    bool in_preamble; /* after a `key number` line, before `points` */
+    bool in_preamble; /* true after a line `key number`, until the line `points` */
     size_t header_fields;
     unsigned long long promised_n, promised_dim; /* 0: nothing promised */
-    size_t capacity;                             /* of xs, in coordinates */
+    size_t capacity;                             /* capacity of xs, in coordinates */
     koksma_points *points;
 } reader;
 
@@ -84,7 +84,8 @@ static const char *skip_blanks(const char *s)
     return s;
 }
 
-/* From the end of a field to the start of the next; at most one comma or semicolon between. NULL: there are two. */
+/* Returns the start of the next field, given the end of a field. One comma or semicolon may be between them; with two
+   it returns NULL. */
 static const char *next_field(const char *s)
 {
     s = skip_blanks(s);
@@ -109,8 +110,8 @@ static koksma_status read_promise(reader *r, const char *line, const char *forma
         if (promise) {
             *promise = strtoull(digits, NULL, 10);
             KOKSMA__FAIL_IF(*promise > KOKSMA_MAX_COORDINATES, KOKSMA_MALFORMED,
-                            "%s: line %zu: claims %s = %llu, more than the %zu that fit", r->name, r->line_number,
-                            key, *promise, KOKSMA_MAX_COORDINATES);
+                            "%s: line %zu: claims %s = %llu, but at most %zu fit into one set", r->name,
+                            r->line_number, key, *promise, KOKSMA_MAX_COORDINATES);
         }
     }
     return KOKSMA_OK;
@@ -132,7 +133,7 @@ static bool take_preamble(reader *r, const char *s, koksma_status *status)
         return false;
     }
     koksma__strtod(s, &end);
-    if (end != s) { /* begins with a number: "nan 0.5" is a bad point */
+    if (end != s) { /* a line that begins with a number, such as "nan 0.5", is a bad point, not a header */
         return false;
     }
     r->in_preamble = true;
@@ -158,8 +159,8 @@ static koksma_status append(reader *r, double x)
     return KOKSMA_OK;
 }
 
-/* Whether a first line is a CSV header: each field begins with a letter or _, perhaps after a quote. If the line has
-   commas or semicolons, names may contain blanks. */
+/* Returns whether a first line is a CSV header: each field begins with a letter or _, perhaps after a quote. If the
+   line has commas or semicolons, names may contain blanks. */
 static bool take_header(reader *r, const char *s)
 {
     const char *separators = strpbrk(s, ",;") ? ",;" : " \t";
@@ -222,7 +223,7 @@ static koksma_status read_row(reader *r, const char *s)
         r->points->dim = fields;
     }
     KOKSMA__FAIL_IF(fields != r->points->dim, KOKSMA_MALFORMED,
-                    "%s: line %zu: ragged row: %d coordinates where the rows before have %d", r->name, r->line_number,
+                    "%s: line %zu: ragged row: %d coordinates, but the rows before have %d", r->name, r->line_number,
                     fields, r->points->dim);
     return KOKSMA_OK;
 }
@@ -251,7 +252,7 @@ static koksma_status take_line(reader *r)
         return status;
     }
     if (r->in_preamble) {
-        return malformed(r, "neither a key with a number nor the line 'points' that ends them");
+        return malformed(r, "the line is neither a key with a number nor the line 'points'");
     }
     if (r->points->dim == 0 && !r->header_seen && take_header(r, s)) {
         return KOKSMA_OK;
@@ -268,7 +269,7 @@ static koksma_status check_promises(const reader *r, size_t n)
                     r->promised_n);
     KOKSMA__FAIL_IF((r->promised_dim && r->promised_dim != (unsigned)dim) ||
                         (r->header_fields && r->header_fields != (size_t)dim),
-                    KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates and the header claims %llu", r->name,
+                    KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates, but the header claims %llu", r->name,
                     r->line_number, dim, r->promised_dim ? r->promised_dim : r->header_fields);
     return KOKSMA_OK;
 }

@@ -15,7 +15,7 @@
 /* What a random number is used for. Numbers with different purposes are independent. Add new purposes at the end
    only: the bits of every pattern depend on these numbers. */
 typedef enum koksma__purpose {
-    KOKSMA__PURPOSE_SEED = 1, /* deriving a seed from a seed */
+    KOKSMA__PURPOSE_SEED = 1, /* derives a seed from another seed */
     KOKSMA__PURPOSE_POINT,    /* the position of a point in the cube or in its cell */
     KOKSMA__PURPOSE_SHUFFLE,  /* a random permutation */
     KOKSMA__PURPOSE_DART,     /* a candidate point that may be rejected */
@@ -45,8 +45,8 @@ static inline koksma__words koksma__random(uint64_t seed, uint32_t purpose, uint
     return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
 }
 
-/* 128 random bits by 7 rounds, the fewest that pass BigCrush (Salmon et al. 2011, table 2). Used in the
-   renderer, which draws more random numbers than any other part of the library. */
+/* Returns 128 random bits by 7 rounds, the smallest number of rounds that passes BigCrush (Salmon et al. 2011, table
+   2). Used in the renderer, which draws more random numbers than any other part of the library. */
 static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane)
 {
     const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};
@@ -55,13 +55,13 @@ static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose,
     return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
 }
 
-/* A double in [0,1) with 53 random bits. */
+/* Returns a double in [0,1) with 53 random bits. */
 static inline double koksma__unit(uint32_t high, uint32_t low)
 {
     return (double)(((uint64_t)high << 21) | (low >> 11)) * 0x1p-53;
 }
 
-/* Two doubles in [0,1): the pair that the kernel `uniform` gives at `index`. */
+/* Computes two doubles in [0,1): the pair that the kernel `uniform` gives at `index`. */
 static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane, double pair[2])
 {
     const koksma__words r = koksma__random(seed, purpose, index, lane);
@@ -69,14 +69,15 @@ static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t
     pair[1] = koksma__unit(r.w[2], r.w[3]);
 }
 
-/* A seed for part `index` of the purpose that `seed` serves, derived from `seed`. */
+/* Returns a seed for part `index` of the work that `seed` was meant for, derived from `seed`. */
 static inline uint64_t koksma__random_seed(uint64_t seed, uint64_t index, uint32_t lane)
 {
     const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_SEED, index, lane);
     return (uint64_t)r.w[1] << 32 | r.w[0];
 }
 
-/* A whole number below n < 2^32 from 32 random bits (multiply-shift: the bias is below n / 2^32). */
+/* Returns a whole number below n < 2^32, computed from 32 random bits (multiply-shift: the bias is below n / 2^32).
+   */
 static inline uint32_t koksma__below(uint32_t word, uint32_t n)
 {
     return (uint32_t)(((uint64_t)word * n) >> 32);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Opens input files, for every reader. A scene, plan or model from a stranger may name a device without end, a fifo
- * that nobody writes to, or a sparse file of any size. Therefore a file named by another file is opened only if it is
+ * Opens input files, for every reader. A scene, plan or model from an untrusted source may name an endless device, a
+ * fifo without a writer, or a sparse file of any size. Therefore a file named by another file is opened only if it is
  * a plain file, and is read only up to the limit of its kind (file_kinds.def), after a check of its first bytes.
  * stat() is called before open(), because opening alone makes some devices act; fstat() then checks the file that was
- * opened. O_NONBLOCK keeps open() from waiting where a fifo replaced the file between the two calls, and on files of
- * /proc. A fifo that the user names is opened without O_NONBLOCK, as reading would otherwise end before another
- * program has begun to write.
+ * opened. With O_NONBLOCK, open() does not wait for files of /proc, or if a fifo replaced the file between the two
+ * calls. A fifo that the user names is opened without O_NONBLOCK; otherwise reading would end before another program
+ * has begun to write.
  */
 #include "core/read_file.h"
 
@@ -47,7 +47,7 @@ static koksma_status fail_read(const char *name, int reason)
     return koksma__fail(exhausted ? KOKSMA_SYSTEM : KOKSMA_MISSING, "%s: can't be read: %s", name, strerror(reason));
 }
 
-/* Fails if the path is not a file that may be read, or the file is too long. */
+/* Fails if the path is not a readable file, or if the file is too long. */
 static koksma_status check_file(const char *path, const struct stat *info, koksma__file_kind kind, koksma__named by,
                                 bool terminal)
 {
@@ -58,11 +58,11 @@ static koksma_status check_file(const char *path, const struct stat *info, koksm
                    : koksma__fail(KOKSMA_MISSING, "%s: can't be read: it is a device", path);
     }
     if (!S_ISREG(info->st_mode)) {
-        return by == KOKSMA__BY_USER ? KOKSMA_OK
-                                     : koksma__fail(KOKSMA_MISSING,
-                                                    "%s: can't be read: it is a pipe or socket, and only plain files "
-                                                    "are read here",
-                                                    path);
+        return by == KOKSMA__BY_USER
+                   ? KOKSMA_OK
+                   : koksma__fail(KOKSMA_MISSING,
+                                  "%s: can't be read: it is a pipe or socket, but only plain files are accepted here",
+                                  path);
     }
     return (uint64_t)info->st_size > koksma__file_most(kind) ? koksma__file_too_long(path, kind) : KOKSMA_OK;
 }
@@ -114,12 +114,12 @@ void koksma__file_close(FILE *stream)
 
 koksma_status koksma__check_text(const unsigned char *bytes, size_t size)
 {
-    return memchr(bytes, 0, size) ? koksma__fail(KOKSMA_MALFORMED, "no text in UTF-8: it has a zero byte")
+    return memchr(bytes, 0, size) ? koksma__fail(KOKSMA_MALFORMED, "not a UTF-8 text: it has a zero byte")
                                   : KOKSMA_OK;
 }
 
-/* The number of bytes to allocate at first: a plain file's length and one more, which detects the end; 0 for a
-   pipe. */
+/* Returns the number of bytes to allocate first: for a plain file its length plus 1, to detect the end; for a pipe 0.
+   */
 static size_t length_of(FILE *stream, size_t most)
 {
     struct stat info;

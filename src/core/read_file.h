@@ -22,12 +22,12 @@ typedef enum koksma__file_kind {
 typedef enum koksma__named { KOKSMA__BY_USER, KOKSMA__BY_FILE } koksma__named;
 
 /* Opens a file for reading; koksma__file_close ends it. It waits only for the writer of a fifo that the user named.
-   Errors: MISSING (absent, unreadable or not a plain file), MALFORMED (too long), SYSTEM (no descriptor or memory is
-   left). */
+   Errors: MISSING (the file is absent, unreadable or not plain), MALFORMED (it is too long), SYSTEM (no descriptor or
+   memory is left). */
 koksma_status koksma__file_open(const char *path, koksma__file_kind kind, koksma__named by, FILE **stream);
 void koksma__file_close(FILE *stream);
 
-/* The size limit of a kind in bytes, and the error for a longer file: MALFORMED. */
+/* Return the size limit of a kind in bytes, and the error for a longer file: MALFORMED. */
 uint64_t koksma__file_most(koksma__file_kind kind);
 koksma_status koksma__file_too_long(const char *name, koksma__file_kind kind);
 
@@ -37,22 +37,22 @@ enum { KOKSMA__FILE_START = 512 };
    text need not name the file. */
 typedef koksma_status koksma__check_start(const unsigned char *bytes, size_t size);
 
-/* Fails with MALFORMED if there is a zero byte: the file is UTF-16 or no text. */
+/* Fails with MALFORMED if the bytes contain a zero, because the file is then UTF-16 or not a text. */
 KOKSMA__LAB koksma__check_start koksma__check_text;
 
-/* A whole file in memory, followed by a zero byte; the caller frees *bytes. check may be NULL. Errors: those of
-   koksma__file_open and check, MEMORY. */
+/* Reads a whole file into memory and appends a zero byte; the caller frees *bytes. check may be NULL. Errors: those
+   of koksma__file_open and check, MEMORY. */
 KOKSMA__LAB koksma_status koksma__read_file(const char *path, koksma__file_kind kind, koksma__named by,
                                             koksma__check_start *check, unsigned char **bytes, size_t *size);
 
-/* The hash of a file of points that a pattern names, computed in a fixed amount of memory. Errors: those of
+/* Computes the hash of a file of points that a pattern names, in a fixed amount of memory. Errors: those of
    koksma__file_open. */
 KOKSMA__LAB koksma_status koksma__hash_file(const char *path, uint64_t *hash);
 
 enum { KOKSMA__MAX_PATH = 4096 };
 
-/* The path of a file that the file `name` mentions, relative to that file's folder; false when the path is too
-   long. */
+/* Makes the path of a file that the file `name` mentions, relative to that file's folder. Returns false if the path
+   is too long. */
 KOKSMA__LAB bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH]);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SHA-256 (FIPS 180-4, section 6.2): blocks of 64 bytes are mixed into a state of eight words by 64 rounds. The
    constants are the first 32 bits of the fractional parts of the cube roots of the first 64 primes, and of the square
-   roots of the first eight. Where an x86 processor has instructions for SHA-256, they do two rounds each, eight times
-   as fast in all; KOKSMA_KERNELS=ref and =baseline do without. */
+   roots of the first eight. If an x86 processor has instructions for SHA-256, each does two rounds, and hashing is
+   eight times as fast. KOKSMA_KERNELS=ref and =baseline do not use them. */
 #include "core/sha256.h"
 
 #include <stdatomic.h>
@@ -53,7 +53,7 @@ static void mix_plain(uint32_t state[8], const unsigned char block[64])
                (rotate(b, 17) ^ rotate(b, 19) ^ b >> 10);
     }
     memcpy(s, state, sizeof s);
-    for (int i = 0; i < 64; i += 8) { /* the indices of a to h rotate, which saves moving their values */
+    for (int i = 0; i < 64; i += 8) { /* rotating the indices of a to h saves moving their values */
         mix_round(s, 0, constants[i] + w[i]);
         mix_round(s, 1, constants[i + 1] + w[i + 1]);
         mix_round(s, 2, constants[i + 2] + w[i + 2]);
@@ -71,7 +71,8 @@ static void mix_plain(uint32_t state[8], const unsigned char block[64])
 #ifdef KOKSMA_X86_KERNELS
 #define WITH_SHA __attribute__((target("sha,sse4.1,ssse3")))
 
-/* The state as the instructions take it: words a, b, e, f in one register and c, d, g, h in the other, from the top. */
+/* The state in the order that the instructions need: words a, b, e, f in one register and c, d, g, h in the other,
+   beginning with the highest word. */
 typedef struct lanes {
     __m128i abef, cdgh;
 } lanes;
@@ -84,7 +85,7 @@ WITH_SHA static inline void mix_4(lanes *s, __m128i words, const uint32_t *add)
     s->abef = _mm_sha256rnds2_epu32(s->abef, s->cdgh, _mm_shuffle_epi32(sum, 0x0e));
 }
 
-/* The next four words of the message, from the last 16: w[0] are the oldest. */
+/* Computes the next four words of the message from the last 16; w[0] has the oldest four. */
 WITH_SHA static inline __m128i next_4(__m128i w0, __m128i w1, __m128i w2, __m128i w3)
 {
     return _mm_sha256msg2_epu32(_mm_add_epi32(_mm_sha256msg1_epu32(w0, w1), _mm_alignr_epi8(w3, w2, 4)), w3);

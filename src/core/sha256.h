@@ -19,7 +19,7 @@ typedef struct koksma__sha256 {
 KOKSMA__LAB void koksma__sha256_init(koksma__sha256 *hash);
 KOKSMA__LAB void koksma__sha256_add(koksma__sha256 *hash, const void *bytes, size_t size);
 
-/* The hash of all bytes that were added, as 64 hexadecimal digits. */
+/* Writes the hash of all bytes that were added as 64 hexadecimal digits. */
 KOKSMA__LAB void koksma__sha256_finish(koksma__sha256 *hash, char text[KOKSMA__SHA256_TEXT]);
 
 #endif

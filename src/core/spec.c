@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Specs as text, "name" or "name:key=value,key=value", are parsed with the table of parameters of a pattern or
-   measure, and printed in a canonical form: parameters in table order without those at their default, numbers as the
-   shortest decimal that reads back to the same double. api/specs.c looks up the names of patterns and measures. */
+   measure, and printed in a canonical form: parameters are in table order, those at their default are left out, and
+   numbers are the shortest decimals that read back to the same double. api/specs.c looks up the names of patterns and
+   measures. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +27,8 @@ static koksma_status parse_choice(const char *member, const koksma_param *param,
     return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%s: it takes %s", member, param->name, text, words);
 }
 
-/* Checks a value's range. A modifier's value 0 means that the modifier is not applied, and may be below its range. */
+/* Checks a value's range. The value 0 of a modifier, which may be below its range, means that the modifier is not
+   applied. */
 static koksma_status check_range(const char *member, const koksma_param *param, double value)
 {
     if (param->whole && value != floor(value)) {
@@ -120,7 +122,8 @@ koksma_status koksma__params_parse(const char *member, const koksma_param *param
 koksma_status koksma__spec_split(const char *text, char *name, const char **rest)
 {
     if (!text) {
-        return koksma__fail(KOKSMA_ARGUMENT, "there is no text of a spec, such as name or name:key=value,key=value");
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "the spec is empty; it takes a text such as name or name:key=value,key=value");
     }
     const size_t length = strcspn(text, ":");
     if (length == 0 || length >= 64) {
@@ -132,7 +135,7 @@ koksma_status koksma__spec_split(const char *text, char *name, const char **rest
     return KOKSMA_OK;
 }
 
-/* The shortest decimal that reads back to the same double; whole numbers have no exponent. */
+/* Writes the shortest decimal that reads back to the same double; whole numbers have no exponent. */
 static void shortest(double value, char *text, size_t size)
 {
     if (value == floor(value) && fabs(value) < 1e15) {
@@ -202,7 +205,7 @@ koksma_status koksma__modifiers_check(const char *pattern, const double *values)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; koksma_modifier_at(i) && !status; i++) {
-        if (values[i] == 0) { /* not applied: always accepted */
+        if (values[i] == 0) { /* 0 means not applied and is always accepted */
             continue;
         }
         const koksma_param params[] = {koksma__modifier_param(i), {0}};

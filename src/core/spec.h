@@ -8,26 +8,25 @@
 
 #include "core/visibility.h"
 
-/* Parses "key=value,key=value" with a table of parameters (NULL: there are none); values are set to the defaults
-   first. */
+/* Parses "key=value,key=value" with a table of parameters (NULL: there are no parameters); all values start with
+   their defaults. */
 KOKSMA__LAB koksma_status koksma__params_parse(const char *member, const koksma_param *params, const char *text,
                                                double *values);
 
-/* Whether all values are in their ranges. Errors: ARGUMENT. */
+/* Fails unless all values are in their ranges. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__params_check(const char *member, const koksma_param *params, const double *values);
 koksma_status koksma__modifiers_check(const char *pattern, const double *values);
 
-/* Whether a pattern or measure supports a number of dimensions. Errors: DIM. */
+/* Fails unless a pattern or measure supports a number of dimensions. Errors: DIM. */
 koksma_status koksma__dim_check(const char *member, int dim, int min_dim, int max_dim);
 
 /* Appends ":key=value,…" with the parameters that differ from their defaults. */
 KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
 
-/* Splits a spec: the name before the colon, of up to 63 letters, and the start of the parameters. Errors:
-   ARGUMENT. */
+/* Splits a spec into the name before the colon, which has up to 63 letters, and the parameters. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
 
-/* The arguments for the functions of a pattern or measure, from its spec. */
+/* Makes the arguments for the functions of a pattern or measure from its spec. */
 koksma_args koksma__spec_arguments(const koksma_spec *spec, const koksma_run *run);
 
 #endif

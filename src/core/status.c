@@ -63,7 +63,7 @@ size_t koksma__utf8_length(const unsigned char *text)
     return overlong || no_character ? 0 : length;
 }
 
-/* Control characters are escaped, also those of Latin-1 (U+0080 to U+009F), because terminals obey them. */
+/* Control characters are escaped, including U+0080 to U+009F, because terminals would execute them. */
 void koksma_text_escape(char *text, size_t size)
 {
     static const char hex[] = "0123456789abcdef";
@@ -89,7 +89,7 @@ void koksma_text_escape(char *text, size_t size)
 
 koksma_status koksma__fail(koksma_status status, const char *format, ...)
 {
-    char text[TEXT_SIZE]; /* a separate buffer, as arguments may point into error_text */
+    char text[TEXT_SIZE]; /* a separate buffer, because arguments may point into error_text */
     va_list arguments;
     va_start(arguments, format);
     koksma__vsnprintf(text, sizeof text, format, arguments);
@@ -101,7 +101,7 @@ koksma_status koksma__fail(koksma_status status, const char *format, ...)
 
 koksma_status koksma__fail_memory(size_t bytes)
 {
-    return koksma__fail(KOKSMA_MEMORY, "out of memory: %zu bytes could not be had", bytes);
+    return koksma__fail(KOKSMA_MEMORY, "out of memory: %zu bytes could not be allocated", bytes);
 }
 
 koksma_status koksma__fail_in(koksma_status status, const char *name)
@@ -128,17 +128,19 @@ bool koksma__missing(const char *function, const char *names, const void *const 
 
 koksma_status koksma__array_check(const char *what, const void *array, size_t n, size_t bytes)
 {
-    KOKSMA__FAIL_IF(!array && n, KOKSMA_ARGUMENT, "%s is NULL, and n = %zu", what, n);
-    return n <= PTRDIFF_MAX / bytes ? KOKSMA_OK
-                                    : koksma__fail(KOKSMA_ARGUMENT, "%s: n = %zu is more than memory has", what, n);
+    KOKSMA__FAIL_IF(!array && n, KOKSMA_ARGUMENT, "%s is NULL, although n = %zu", what, n);
+    return n <= PTRDIFF_MAX / bytes
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_ARGUMENT, "%s: n = %zu is more than memory can hold", what, n);
 }
 
 koksma_status koksma__run_check(const char *function, const koksma_run *run)
 {
-    KOKSMA__FAIL_IF(run && run->threads < 0, KOKSMA_ARGUMENT, "%s: run->threads = %d: it is 0, for all, or more",
-                    function, run->threads);
+    KOKSMA__FAIL_IF(run && run->threads < 0, KOKSMA_ARGUMENT,
+                    "%s: run->threads = %d: it takes 0 (all processors) or a positive number", function,
+                    run->threads);
     KOKSMA__FAIL_IF(run && !(run->time_limit_s >= 0), KOKSMA_ARGUMENT,
-                    "%s: run->time_limit_s = %g: it is 0, for none, or a number of seconds", function,
+                    "%s: run->time_limit_s = %g: it takes 0 (no limit) or a positive number of seconds", function,
                     run->time_limit_s);
     return KOKSMA_OK;
 }

@@ -6,22 +6,22 @@
 
 #include "core/visibility.h"
 
-/* Keeps the text for koksma_error_text() and returns status, so that a failing function ends with
-   `return koksma__fail(KOKSMA_N, "jittered: …", …);`. koksma_text_escape() makes
-   the text one line of UTF-8. */
+/* Stores the text for koksma_error_text() and returns status, so that a failing function ends with `return
+   koksma__fail(KOKSMA_N, "jittered: …", …);`. koksma_text_escape() makes the text one line of UTF-8. */
 KOKSMA__LAB koksma_status koksma__fail(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* The number of bytes of the UTF-8 character (RFC 3629) at the text's start; 0 if the bytes are not valid UTF-8. */
+/* Returns the number of bytes of the UTF-8 character (RFC 3629) at the start of the text; 0 if the bytes are not
+   valid UTF-8. */
 size_t koksma__utf8_length(const unsigned char *text);
 
-/* Fails with MEMORY and the text for a block of `bytes` that malloc or realloc did not give. */
+/* Sets the error text for a block of `bytes` that malloc or realloc could not allocate, and returns MEMORY. */
 KOKSMA__LAB koksma_status koksma__fail_memory(size_t bytes);
 
 /* Puts a name in front of the text of the last failure ("PATH: reason") and returns status. */
 KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name);
 
 /* The checks that a public function begins with: KOKSMA__REQUIRE(points, out) returns ARGUMENT and names the first
-   NULL pointer in the error text; KOKSMA__REQUIRE_OR(result, ...) returns another result, or nothing, as in
+   NULL pointer in the error text; KOKSMA__REQUIRE_OR(result, ...) returns `result` instead; in a void function write
    KOKSMA__REQUIRE_OR(, text); KOKSMA__REQUIRE_RUN(run) accepts NULL, or a run whose values are in range. */
 #define KOKSMA__REQUIRE_OR(result, ...)                                                                              \
     do {                                                                                                             \
@@ -35,8 +35,8 @@ KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name
 
 /* Macros that end a function early with a status. KOKSMA__TRY(call) returns the status of a call that failed;
    KOKSMA__FAIL_IF(condition, status, format, ...) returns koksma__fail(status, format, ...);
-   KOKSMA__REQUIRE_MEMORY(pointer, bytes) fails where malloc gave NULL. These macros free nothing: the function must
-   not hold memory when it uses them. */
+   KOKSMA__REQUIRE_MEMORY(pointer, bytes) fails if the pointer from malloc is NULL. These macros free nothing: the
+   function must not hold memory when it uses them. */
 #define KOKSMA__TRY(call)                                                                                            \
     do {                                                                                                             \
         const koksma_status failed_ = (call);                                                                        \
@@ -57,8 +57,8 @@ KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name
         }                                                                                                            \
     } while (0)
 
-/* Whether one of n pointers is NULL; the error text then names it. `names` holds the pointers' names, separated by
-   commas. */
+/* Returns whether one of n pointers is NULL; the error text then names it. `names` holds the pointers' names,
+   separated by commas. */
 KOKSMA__LAB bool koksma__missing(const char *function, const char *names, const void *const *pointers, size_t n);
 
 /* Checks an array of n items of a given size: `array` must not be NULL, unless n is 0, and its size in bytes must fit

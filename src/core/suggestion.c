@@ -62,7 +62,7 @@ const char *koksma_closest_name(const char *word, koksma_name_at *name, const vo
         return NULL;
     }
     const char *closest = NULL, *candidate;
-    size_t fewest = 1 + (length + 1) / 3; /* a word that needs more edits than that resembles no name */
+    size_t fewest = 1 + (length + 1) / 3; /* largest number of edits between a word and a name that resembles it */
     for (size_t i = 0; (candidate = name(table, i)) != NULL; i++) {
         const size_t beginning = common_beginning(word, candidate), size = strlen(candidate);
         if (size > MAX_WORD) {

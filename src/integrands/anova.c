@@ -7,16 +7,16 @@
  *     component   sum over v within u of (-1)^(|u| - |v|) V(v) / D
  *
  * If the integrand has a closed form of V, the indices are computed from it. Otherwise they are pick-freeze estimates
- * from N pairs of points A, B: with B_v for the point B with its coordinates v replaced by A's, so that f(A) and
- * f(B_v) share x_v only,
+ * from N pairs of points A, B: where B_v is the point B with coordinates v replaced by those of A, so that A and B_v
+ * have only x_v in common,
  *
  *     V(v) = mean of f(A) (f(B_v) - f(B))              (Saltelli et al. 2010)
  *     D - V(not u) = mean of (f(A) - f(A_u))^2 / 2     (Jansen 1999), A_u: A with B's coordinates u
  *
  * A and B are the two halves of the coordinates of Owen-scrambled Sobol' points, or of random points if Sobol' points
  * do not have so many dimensions. SETS scramblings give independent estimates; the result is their mean, with an
- * interval by Student's t. The mean of f over A and B is subtracted from f, which reduces the variance of V's
- * estimate if the mean is far from 0.
+ * interval by Student's t. The mean of f over A and B is first subtracted from f. This reduces the variance of the
+ * estimate of V if the mean is far from 0.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,10 +30,10 @@
 enum { SETS = 16, SAMPLES = 4096, MOST_SAMPLES = 1 << 20 };
 
 typedef struct parts {
-    double component, closed, total, variance; /* component, closed and total are shares of the variance */
+    double component, closed, total, variance; /* component, closed and total are fractions of the variance */
 } parts;
 
-/* Marks the coordinates of the subset of u that `bits` describes as held. */
+/* Sets `held` for the coordinates of the subset of u that `bits` describes. */
 static void hold(const int *axes, size_t n_axes, unsigned bits, bool others, int dim, bool *held)
 {
     for (int i = 0; i < dim; i++) {
@@ -44,7 +44,7 @@ static void hold(const int *axes, size_t n_axes, unsigned bits, bool others, int
     }
 }
 
-/* The sign, +1 or -1, of a subset's term in the component of u. */
+/* Returns the sign, +1 or -1, of the term of a subset in the component of u. */
 static int sign_of(unsigned bits, size_t n_axes)
 {
     size_t missing = n_axes;
@@ -81,7 +81,7 @@ typedef struct job {
     parts sets[SETS];
 } job;
 
-/* The values of f at points whose held coordinates come from the half `from` of the points, and whose other
+/* Computes f at points whose held coordinates come from the half `from` of the coordinates, and whose other
    coordinates come from the other half. */
 static koksma_status values_of(const job *j, const koksma_points *both, bool from_b, const bool *held,
                                koksma_points *mixed, double *values)
@@ -112,7 +112,7 @@ static double centre(size_t n, double *a, const double *b)
     return koksma__sum_value(&square) / (2 * (double)n);
 }
 
-/* room: scratch for three values of each point. */
+/* room: memory for three values of each point. */
 static koksma_status estimate(const job *j, const koksma_points *both, koksma_points *mixed, double *room, bool *held,
                               parts *p)
 {
@@ -207,7 +207,7 @@ koksma_status koksma_integral_sensitivity(const koksma_integral *integral, const
             fresh = fresh && axes[i] != axes[k];
         }
         KOKSMA__FAIL_IF(!fresh, KOKSMA_ARGUMENT,
-                        "koksma_integral_sensitivity: axes: %d: it takes different ones, 0 to %d", axes[k],
+                        "koksma_integral_sensitivity: axes: %d: it takes different numbers from 0 to %d", axes[k],
                         integral->dim - 1);
     }
     if (samples || !integral->explained) {

@@ -3,11 +3,11 @@
  * asian: the discounted payoff exp(-R T) max(G - K, 0) of an Asian call option on the geometric mean G of the prices
  * at d equal steps up to T = 1 (Kemna & Vorst 1990; Glasserman 2004, 3.2), with the initial price S = 100, rate R =
  * .05 and prices S exp((R - v^2 / 2) t + v W(t)). Each x_k is mapped to a normal number z_k, and the z_k to the
- * Brownian motion W: by steps in time (path=steps), or by the Brownian bridge, which sets the last time first and
- * then always the middle of the widest gap (Caflisch, Morokoff & Owen 1997), which puts most of the variance into the
- * first coordinates.
+ * Brownian motion W: by steps in time (path=steps), or by the Brownian bridge (Caflisch, Morokoff & Owen 1997). The
+ * bridge sets the last time first and then always the middle of the widest gap, so that the first coordinates have
+ * most of the variance.
  *
- * log G = mu + sum a_k z_k with weights a of the path, and sum a_k^2 = s^2, so that with h = (mu - log K) / s
+ * log G = mu + sum a_k z_k, where the weights a_k depend on the path and sum a_k^2 = s^2. With h = (mu - log K) / s,
  *
  *     integral / discount       exp(mu + s^2 / 2) Phi(h + s) - K Phi(h)
  *     E(E(f | x_u)^2)           E of the product of two payoffs whose logarithms have the correlation
@@ -50,7 +50,7 @@ static double normal_plane(double h, double k, double rho)
     return normal(h) * normal(k) + half * step * sum / (2 * M_PI);
 }
 
-/* mu and s, the mean and standard deviation of log G. */
+/* Computes mu and s, the mean and standard deviation of log G. */
 static double log_mean(const koksma_integral *f)
 {
     const double v = f->params[1], mean_time = (f->dim + 1.0) / (2.0 * f->dim);
@@ -66,7 +66,7 @@ static double deviation(const koksma_integral *f)
     return sqrt(square);
 }
 
-/* E(E(f | x_u)^2), where rho is the share of x_u in the variance of log G. */
+/* Returns E(E(f | x_u)^2), where rho is the share of x_u in the variance of log G. */
 static double explained_square(const koksma_integral *f, double rho)
 {
     const double mu = log_mean(f), s = deviation(f), K = f->params[0], h = (mu - log(K)) / s;
@@ -85,13 +85,13 @@ static double explained(const koksma_integral *f, const bool *held)
     return explained_square(f, square / all) - f->value * f->value;
 }
 
-/* The weights of the bridge. A middle m between times l and r has W_m = ((r - m) W_l + (m - l) W_r) / (r - l) +
-   sqrt((m - l) (r - m) / ((r - l) d)) z. From the last gap to the first, the weight of W_m in the mean is passed on
-   to z, W_l and W_r. */
+/* Computes the weights of the Brownian bridge. A middle m between times l and r has W_m = ((r - m) W_l + (m - l) W_r)
+   / (r - l) + sqrt((m - l) (r - m) / ((r - l) d)) z. For each gap, from the last to the first, the weight of W_m in
+   the mean is distributed to z, W_l and W_r. */
 static koksma_status bridge_weights(koksma_integral *f)
 {
     const size_t d = (size_t)f->dim;
-    /* pairs l, r; the middle of each gap makes two gaps of it */
+    /* the gaps as pairs l, r; the middle of a gap divides it into two gaps */
     size_t *gaps = malloc(4 * d * sizeof *gaps), n = 1, z = d;
     double *weight = malloc((d + 1) * sizeof *weight);
     if (!gaps || !weight) {
@@ -162,9 +162,10 @@ static double at(const koksma_integral *f, const double *x)
 static const char *const paths[] = {"steps", "bridge", NULL};
 
 static const koksma_param params[] = {
-    {"strike", "K; the initial price is 100", 100, 1, 10000, NULL, false},
-    {"volatility", "v, the deviation of the logarithm of the price after a year", 0.2, 0.001, 5, NULL, false},
-    {"path", "how the normal numbers make the path", 0, 0, 1, paths, true},
+    {"strike", "strike price K; the initial price is 100", 100, 1, 10000, NULL, false},
+    {"volatility", "volatility v: standard deviation of the logarithm of the price after a year", 0.2, 0.001, 5, NULL,
+     false},
+    {"path", "construction of the path from normal numbers", 0, 0, 1, paths, true},
     {0},
 };
 

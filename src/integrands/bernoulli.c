@@ -4,7 +4,7 @@
  * Pillichshammer 2010). Its integral is 1. Continued with period 1, it has r - 2 continuous derivatives; for r = 1 it
  * has a jump. r is the smoothness. The mean of B_r^2 is (r!)^2 |B_2r| / (2 r)!.
  *
- * Variation of B_r over [0,1]: B_r' = r B_{r-1}. For even r the only extremum inside is at 1/2; for odd r from 3 on
+ * Variation of B_r over [0,1]: B_r' = r B_{r-1}. For even r the only extremum inside (0, 1) is at 1/2. For odd r >= 3
  * there are two, at the roots of B_{r-1}, and B_r(0) = B_r(1/2) = B_r(1) = 0.
  */
 #include <math.h>
@@ -26,7 +26,7 @@ static double polynomial(int r, double x)
     return value;
 }
 
-/* The root of B_r in (0, 1/2) for even r, by bisection: B_r is monotone on [0, 1/2]. */
+/* Returns the root of B_r in (0, 1/2) for even r, by bisection: B_r is monotone on [0, 1/2]. */
 static double root(int r)
 {
     double low = 0, high = 0.5;
@@ -85,8 +85,8 @@ static double at(const koksma_integral *f, const double *x)
 }
 
 static const koksma_param params[] = {
-    {"r", "degree, which is the smoothness", 2, 1, MOST, NULL, true},
-    {"w", "weight of the first coordinate", 1, 1e-6, 100, NULL, false},
+    {"r", "degree r of the polynomial, which is the smoothness", 2, 1, MOST, NULL, true},
+    {"w", "weight w of the first coordinate", 1, 1e-6, 100, NULL, false},
     {"decay", "coordinate j has the weight w j^-decay", 2, 0, 10, NULL, false},
     {0},
 };

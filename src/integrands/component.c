@@ -21,7 +21,7 @@ static double factor_at(const koksma_integral *f, int axis, double x)
     return f->factors[axis].at ? f->factors[axis].at(x) : f->factor(f, axis, x);
 }
 
-/* The value of the component; context points to the component. */
+/* Returns the value of the component at x; context points to the component. */
 static double at(const double *x, int dim, void *context)
 {
     const koksma_integral *f = context, *whole = f->whole;
@@ -33,13 +33,13 @@ static double at(const double *x, int dim, void *context)
     return product;
 }
 
-/* Opens the integrand again; the component owns the copy. */
+/* Opens a second copy of the integrand, which the component owns. */
 static koksma_status open_whole(const koksma_integral *integral, koksma_integral **out)
 {
     koksma_integral_facts facts;
     koksma_integral_about(integral, &facts);
     KOKSMA__FAIL_IF(!integral->factors, KOKSMA_UNSUPPORTED,
-                    "%s: it is no product of functions of one coordinate, whose components are known", facts.text);
+                    "%s: components are known only for products of functions of one coordinate", facts.text);
     return koksma_integral_open(facts.text, facts.dim, out);
 }
 
@@ -64,15 +64,15 @@ koksma_status koksma_integral_component(const koksma_integral *integral, const i
         return status;
     }
     koksma_integral *f = *out;
-    f->whole = whole; /* closed together with the component */
+    f->whole = whole; /* closed when the component is closed */
     f->function.context = f;
     f->chosen = calloc((size_t)whole->axes, sizeof *f->chosen);
     status = f->chosen ? KOKSMA_OK : koksma__fail_memory((size_t)whole->axes);
     for (size_t k = 0; k < n_axes && !status; k++) {
         if (axes[k] < 0 || axes[k] >= whole->axes || f->chosen[axes[k]]) {
-            status =
-                koksma__fail(KOKSMA_ARGUMENT, "koksma_integral_component: axes: %d: it takes different ones, 0 to %d",
-                             axes[k], whole->axes - 1);
+            status = koksma__fail(KOKSMA_ARGUMENT,
+                                  "koksma_integral_component: axes: %d: it takes different numbers from 0 to %d",
+                                  axes[k], whole->axes - 1);
         } else {
             f->chosen[axes[k]] = true;
         }

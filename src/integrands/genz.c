@@ -9,19 +9,21 @@
  *     continuous      exp(-sum a_i |x_i - u_i|)
  *     discontinuous   exp(sum a_i x_i) for x_1 <= u_1 and x_2 <= u_2, else 0
  *
- * u and a are random in (0,1), from the seed; a is then scaled such that its sum is the difficulty. The defaults are
- * the sums of Barthelmann, Novak and Ritter (2000); Genz's own program has h / d^e instead.
+ * u and a are random in (0,1), from the seed; a is then scaled such that its sum is the difficulty. The default
+ * difficulties are those of Barthelmann, Novak and Ritter (2000); Genz's own program has h / d^e instead.
  *
- * All but two are products, with closed forms of each factor. For the oscillatory family, with s(t) = sin(t) / t,
+ * Four of the families are products, with closed forms of each factor. For the oscillatory family, with s(t) = sin(t)
+ * / t,
  *
  *     E(f | x_v)          r cos(2 pi u_1 + sum_v a x + theta),
  *                         r = prod_{i not in v} s(a_i / 2), theta = sum_{not v} a / 2
  *     E(E(f | x_v)^2)     r^2 / 2 (1 + cos(4 pi u_1 + sum a) prod_v s(a_i))
  *
- * The corner peak is 1/d! times the integral over t of t^d exp(-t - t sum a_i x_i), so that its integral, and that of
- * its square with 2 d + 1 in place of d, are integrals over t of products of (1 - exp(-a_i t)) / (a_i t). They are
- * computed by the trapezoidal rule in log t, which converges exponentially and avoids the cancellation of the closed
- * form, a sum over the 2^d corners of the cube. The first form also gives the variation, f(0) - f(1, .., 1).
+ * The corner peak is 1/d! times the integral over t of t^d exp(-t - t sum a_i x_i). Its integral is therefore an
+ * integral over t that contains the product of (1 - exp(-a_i t)) / (a_i t); the same holds for its square, with 2 d +
+ * 1 in place of d. They are computed by the trapezoidal rule in log t, which converges exponentially and avoids the
+ * cancellation of the closed form, a sum over the 2^d corners of the cube. The first form also gives the variation,
+ * f(0) - f(1, .., 1).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -72,7 +74,7 @@ static koksma_status prepare_product(koksma_integral *f, factor_of *factor, fact
     return status;
 }
 
-/* The factor of a peak of height `top` at u, with the values at_0 and at_1 at the ends. */
+/* Describes a factor with a peak of height `top` at u and the values at_0 and at_1 at the ends. */
 static koksma__factor peak(double mean, double square, double top, double at_0, double at_1)
 {
     return (koksma__factor){.mean = mean,
@@ -83,7 +85,7 @@ static koksma__factor peak(double mean, double square, double top, double at_0, 
                             .highest = top};
 }
 
-/* The integral of 1 / (1 + s^2)^2 from 0 to t. */
+/* Returns the integral of 1 / (1 + s^2)^2 from 0 to t. */
 static double square_of_peak(double t)
 {
     return (t / (1 + t * t) + atan(t)) / 2;
@@ -261,8 +263,8 @@ static koksma_status prepare_oscillatory(koksma_integral *f)
 
 /* ---- The corner peak ---------------------------------------------------------------------------------------- */
 
-/* The integral over the cube of (1 + sum a x)^-(k + 1): 1/k! times the integral over y = log t of t^(k+1) exp(-t)
-   prod (1 - exp(-a t)) / (a t). The peak of t^(k+1) exp(-t) at t = k + 1 has width 1 / sqrt(k + 1) in y. */
+/* Returns the integral over the cube of (1 + sum a x)^-(k + 1): 1/k! times the integral over y = log t of t^(k+1)
+   exp(-t) prod (1 - exp(-a t)) / (a t). The peak of t^(k+1) exp(-t) at t = k + 1 has width 1 / sqrt(k + 1) in y. */
 static double peak_integral(const koksma_integral *f, double k)
 {
     const double step = 0.2 / sqrt(k + 1), middle = log(k + 1);
@@ -304,7 +306,7 @@ static koksma_status prepare_corner_peak(koksma_integral *f)
         .min_dim = 1,                                                                                                \
         .max_dim = KOKSMA_MAX_DIM,                                                                                   \
         .params = (const koksma_param[]){{"difficulty", "sum of all a", sum, 1e-3, 1000, NULL, false},               \
-                                         {"seed", "of the random a and u", 0, 0, 0x1p53, NULL, true},                \
+                                         {"seed", "seed of the random a and u", 0, 0, 0x1p53, NULL, true},           \
                                          {0}},                                                                       \
         .prepare = preparation,                                                                                      \
         .at = function,                                                                                              \
@@ -313,8 +315,8 @@ static koksma_status prepare_corner_peak(koksma_integral *f)
 MEMBER(oscillatory, "oscillatory", "cos(2 pi u + sum a x)", "closed form", 9, prepare_oscillatory, oscillatory_at);
 MEMBER(product_peak, "product-peak", "prod 1 / (a^-2 + (x - u)^2)", "closed form", 7.25, prepare_product_peak,
        product_peak_at);
-MEMBER(corner_peak, "corner-peak", "(1 + sum a x)^-(d + 1)", "trapezoidal rule in one dimension, 14 digits", 1.85,
-       prepare_corner_peak, corner_peak_at);
+MEMBER(corner_peak, "corner-peak", "(1 + sum a x)^-(d + 1)",
+       "trapezoidal rule in one dimension, correct to 14 digits", 1.85, prepare_corner_peak, corner_peak_at);
 MEMBER(gaussian, "gaussian", "exp(-sum a^2 (x - u)^2)", "closed form", 7.03, prepare_gaussian, gaussian_at);
 MEMBER(continuous, "continuous", "exp(-sum a |x - u|)", "closed form", 20.4, prepare_continuous, continuous_at);
 MEMBER(discontinuous, "discontinuous", "exp(sum a x) for x_1 <= u_1, x_2 <= u_2, else 0", "closed form", 4.3,

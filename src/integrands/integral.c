@@ -118,8 +118,8 @@ void koksma_integral_about(const koksma_integral *integral, koksma_integral_fact
 typedef struct job {
     const koksma_integral *f;
     const koksma_points *points;
-    double *values;    /* one for each point, or NULL */
-    koksma__sum *sums; /* one for each block, or NULL */
+    double *values;    /* the value of each point, or NULL */
+    koksma__sum *sums; /* the sum of each block, or NULL */
 } job;
 
 static koksma_status evaluate_block(void *context, size_t block)
@@ -143,8 +143,9 @@ static koksma_status check(const koksma_integral *f, const koksma_points *points
 {
     const char *name = f->integrand ? f->integrand->name : f->function.name;
     KOKSMA__FAIL_IF(!points->xs || points->n == 0, KOKSMA_ARGUMENT, "%s: it takes 1 point or more", name);
-    KOKSMA__FAIL_IF(points->dim != f->dim, KOKSMA_DIM, "%s: it is open in %d dimensions, the points have %d", name,
-                    f->dim, points->dim);
+    KOKSMA__FAIL_IF(points->dim != f->dim, KOKSMA_DIM,
+                    "%s: the integrand was opened for %d dimensions, but the points have %d", name, f->dim,
+                    points->dim);
     return koksma__points_check(points);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of integrands, and what is known of each: integral, variance, variation and range. */
+/* The table of integrands, with their known properties: integral, variance, variation and range. */
 #ifndef KOKSMA_INTEGRANDS_INTEGRANDS_H
 #define KOKSMA_INTEGRANDS_INTEGRANDS_H
 
@@ -9,8 +9,8 @@
 #include "integrands/integrands.def"
 #undef INTEGRAND
 
-/* One coordinate's factor g of a product: its mean over [0,1], the mean of its square, its variation, |g(1)|, and its
-   range. */
+/* The factor g of one coordinate in a product: its mean over [0,1], the mean of its square, its variation, |g(1)|,
+   and its range. */
 typedef struct koksma__factor {
     double mean, square, variation, end, lowest, highest;
     double (*at)(double x); /* g; NULL: the integrand's factor() computes it */
@@ -18,11 +18,11 @@ typedef struct koksma__factor {
 
 struct koksma_integral {
     const koksma_integrand *integrand; /* NULL: a function of the caller */
-    koksma_function function;          /* with a name of its own, for a function of the caller */
+    koksma_function function;          /* the row for a function of the caller, which has its own name */
     int dim, axes;
     double params[KOKSMA_MAX_PARAMS];
     double value, variance, variation, lowest, highest;
-    /* Var(E(f | x_u)), where held[i] says whether coordinate i is in u. NULL: there is no closed form. */
+    /* Returns Var(E(f | x_u)), where held[i] tells whether coordinate i is in u. NULL: there is no closed form. */
     double (*explained)(const koksma_integral *f, const bool *held);
     /* a product is offset + scale * the product of the factors, one for each axis */
     double offset, scale;

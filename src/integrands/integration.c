@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Errors of integration over trials and sizes. With e_t the error of trial t, the mean of e_t^2 is that of squared
- * errors, RMSE its root. Its confidence interval is computed for log rmse by the delta method, log rmse +- t_{T-1}
- * sd(e^2) / (2 sqrt(T) mean(e^2)), because squared errors are skew, and so that the lower bound stays positive. The
- * slope of the RMSE is half the slope of the mean squared errors, with the error that koksma_joint_line gives.
+ * Errors of integration over trials and sizes. With e_t the error of trial t, RMSE is the root of the mean of e_t^2
+ * over the trials. Its confidence interval is computed for log rmse by the delta method, log rmse +- t_{T-1} sd(e^2)
+ * / (2 sqrt(T) mean(e^2)), because squared errors have a skewed distribution and the lower bound must be positive.
+ * The slope of the RMSE is half the slope of the mean squared errors, with the error that koksma_joint_line gives.
  *
  * The sets of all trials and sizes are independent jobs. If there are fewer jobs than threads, the jobs run one after
  * the other, each on all threads; the bits are the same either way.
@@ -44,8 +44,8 @@ static koksma_tally tally_of(const koksma_integration_options *o, const double *
     return tally;
 }
 
-/* The squared error of an estimate. If the integral is unknown, it is the squared difference from the mean of the
-   estimates, times T / (T - 1). */
+/* Returns the squared error of an estimate. If the integral is unknown, it is the squared difference from the mean of
+   the estimates, times T / (T - 1). */
 static double squared(double estimate, double value, const koksma_tally *tally)
 {
     const double error = estimate - (isnan(value) ? tally->mean : value);
@@ -72,8 +72,8 @@ static koksma_integration_row row_of(const koksma_integration_options *o, const 
     return row;
 }
 
-/* The threshold below which errors count as rounding: 2^-44 of the largest of the integral, the function's values and
-   the estimates. */
+/* Returns the threshold below which errors count as rounding: 2^-44 of the largest among the integral, the values of
+   the function and the estimates. */
 static double rounding(const koksma_integration_options *o, const double *estimates, double value, double variance)
 {
     double scale = fmax(isnan(value) ? 0 : fabs(value), isnan(variance) ? 0 : sqrt(variance));
@@ -83,8 +83,8 @@ static double rounding(const koksma_integration_options *o, const double *estima
     return 0x1p-44 * scale;
 }
 
-/* Fits the slope to the mean squared errors. Mean squared errors that may be rounding errors alone are set
-   to NaN, which the fit leaves out. */
+/* Fits the slope to the mean squared errors. Mean squared errors that may consist only of rounding errors are set to
+   NaN, and the fit ignores them. */
 static void fit_slope(double value, const koksma_integration_options *o, const double *estimates, double least,
                       koksma_integration *out)
 {
@@ -140,7 +140,7 @@ typedef struct job {
     double *estimates;
 } job;
 
-/* Runs job `block`; the largest sets come first. */
+/* Runs job number `block`; the jobs are in order of decreasing size of the sets. */
 static koksma_status integrate_set(void *context, size_t block)
 {
     const job *j = context;
@@ -162,7 +162,8 @@ static bool estimates_are_equal(const koksma_integration_options *o, const doubl
     return equal;
 }
 
-/* Whether the pattern gives the same set for two seeds; not every pattern for which this holds claims it. */
+/* Returns whether the pattern gives the same set for two seeds; some patterns have this property without claiming it.
+   */
 static koksma_status has_one_set(const job *j, bool *one)
 {
     koksma_points sets[2] = {{0}, {0}};
@@ -178,7 +179,8 @@ static koksma_status has_one_set(const job *j, bool *one)
     return status;
 }
 
-/* keep_going within a set: passes the question whether to stop, but no fraction, as progress is counted in sets. */
+/* The keep_going callback within a set: it asks the caller whether to stop, but reports no fraction, because progress
+   is counted in sets. */
 static bool go_on(void *context, double fraction)
 {
     (void)fraction;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Functions of the plane that are not products: regions whose edges are not along an axis. The finer a grid, the more
-   variation its rectangles see along such an edge, so that the variation in the sense of Hardy and Krause is
-   infinite. */
+/* Functions of the plane that are not products: regions whose edges are not along an axis. The sum of variations over
+   the rectangles of a grid grows without limit along such an edge as the grid is refined, so the variation in the
+   sense of Hardy and Krause is infinite. */
 #include "integrands/plane.h"
 
 #include <math.h>

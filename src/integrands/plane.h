@@ -11,10 +11,10 @@ typedef struct koksma__plane {
     double value, square, of_x, of_y;
 } koksma__plane;
 
-/* prepare() of integrands whose constants are a koksma__plane. */
+/* The function prepare() of integrands whose constants are a koksma__plane. */
 koksma_status koksma__integral_of_plane(koksma_integral *f);
 
-/* Defines an integrand of n_axes axes. The remaining arguments give what is known of it: ROWS of factors, PLANE, or
+/* Defines an integrand of n_axes axes. The remaining arguments give its known properties: ROWS of factors, PLANE, or
    initialisers. */
 #define KOKSMA__CLOSED_MEMBER(id, text, says, source, n_axes, function, ...)                                         \
     const koksma_integrand koksma__integrand_##id = {                                                                \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions offset + scale g_1(x_1) .. g_d(x_d): with m the mean of a factor, q the mean of its square, V its
+ * Functions offset + scale g_1(x_1) .. g_d(x_d): with m the mean of a factor, q the mean of its square and V its
  * variation,
  *
  *     integral             offset + scale prod m

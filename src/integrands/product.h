@@ -11,7 +11,7 @@ koksma_status koksma__integral_factors(koksma_integral *f);
 /* Computes the integral, variances and variation of a product from its factors. offset and scale must be set. */
 void koksma__integral_of_product(koksma_integral *f);
 
-/* prepare() of products whose factors, one for each axis, are constants of the integrand. */
+/* The function prepare() of products whose factors, one for each axis, are constants of the integrand. */
 koksma_status koksma__integral_of_rows(koksma_integral *f);
 
 #endif

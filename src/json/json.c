@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads JSON files with jansson and reports errors with file, line and path. jansson does not keep the lines of
-   values, so that an error makes a small scanner walk the text again to find the line of a node. The file is long
-   because reading, checking and finding lines share the definition of a node. */
+/* Reads JSON files with jansson and reports errors with file, line and path. jansson does not store the lines of
+   values; after an error a small scanner therefore reads the text again to find the line of a node. */
 #include "json/json.h"
 
 #include <stdarg.h>
@@ -21,7 +20,7 @@ struct koksma__json {
     size_t size;
 };
 
-/* ---- The line of a node: jansson keeps no positions, so that an error walks the text again ------------------ */
+/* ---- Finding the line of a node ----------------------------------------------------------------------- */
 
 typedef struct walker {
     const char *at, *end;
@@ -66,7 +65,7 @@ static void skip_value(walker *w)
     } while (depth && w->at < w->end);
 }
 
-/* Moves from the start of a list or object to the start of its item number `index`, or of that member's value. */
+/* Moves from the start of a list or object to the start of its item or member number `index`. */
 static bool enter(walker *w, size_t index)
 {
     const bool object = w->at < w->end && *w->at == '{';
@@ -89,7 +88,7 @@ static bool enter(walker *w, size_t index)
     return false;
 }
 
-/* The index of the member with this key in the text; jansson keeps members in the text's order. */
+/* Returns the index of the member with this key in the text; jansson keeps members in the text's order. */
 static size_t number_of(const json_t *object, const char *key)
 {
     size_t number = 0;
@@ -147,21 +146,22 @@ koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status 
 
 /* ---- Documents and nodes --------------------------------------------------------------------------------- */
 
-/* Parses the text, after checking that twice the memory that its longest string could take is free: jansson 2.14
-   does not check whether it got the memory for a longer string, and writes on (lex_save() in its load.c). */
+/* Parses the text. It first checks that twice the memory of the longest possible string is free, because jansson 2.14
+   ignores a failed allocation for a longer string and writes past the old one (lex_save() in its load.c). */
 static koksma_status read_text(koksma__json *d, json_error_t *error)
 {
     const size_t room = 4 * d->size + 4096;
-    char *volatile there = malloc(room); /* volatile, because a compiler may remove memory that is only freed */
+    char *volatile there = malloc(room); /* volatile, because otherwise the compiler may remove an allocation that is
+                                            only freed */
     KOKSMA__REQUIRE_MEMORY(there, room);
-    memset(there, 1, room); /* touch the memory: an allocation alone may succeed without it */
+    memset(there, 1, room); /* write to the memory, because malloc may succeed although there is not enough */
     free(there);
     d->root = json_loadb(d->text, d->size, JSON_REJECT_DUPLICATES, error);
     return KOKSMA_OK;
 }
 
-/* Parses the document, a second time after an error, because jansson may call a text malformed when memory runs
-   out. */
+/* Parses the document. After an error it parses a second time, because jansson may report a malformed text when
+   memory runs out. */
 static koksma_status load(koksma__json *d)
 {
     json_error_t error;
@@ -296,7 +296,7 @@ bool koksma__json_has(const koksma__json_node *node, const char *key)
     return find(node->value, key) != NULL;
 }
 
-/* Makes the node of a member or item of `parent`; the caller must still write its path. */
+/* Makes the node of a member or item of `parent`, without its path, which the caller writes. */
 static koksma__json_node below(const koksma__json_node *parent, const json_t *value, const char *key, size_t item)
 {
     koksma__json_node out = *parent;
@@ -327,7 +327,8 @@ koksma_status koksma__json_length(const koksma__json_node *node, size_t max, siz
 {
     KOKSMA__JSON_FAIL_IF(!json_is_array((const json_t *)node->value), node, "it takes a list, […]");
     *length = json_array_size(node->value);
-    return *length <= max ? KOKSMA_OK : koksma__json_fail(node, "%zu items, and at most %zu are taken", *length, max);
+    return *length <= max ? KOKSMA_OK
+                          : koksma__json_fail(node, "it has %zu items; at most %zu are accepted", *length, max);
 }
 
 koksma__json_node koksma__json_item(const koksma__json_node *node, size_t i)
@@ -374,7 +375,7 @@ koksma_status koksma__json_numbers(const koksma__json_node *node, double min, do
     size_t length = 0;
     koksma_status status = koksma__json_length(node, SIZE_MAX, &length);
     if (!status && length != n) {
-        status = koksma__json_fail(node, "it takes %zu numbers and has %zu items", n, length);
+        status = koksma__json_fail(node, "it takes %zu numbers, but has %zu items", n, length);
     }
     for (size_t i = 0; !status && i < n; i++) {
         const koksma__json_node item = koksma__json_item(node, i);
@@ -385,7 +386,7 @@ koksma_status koksma__json_numbers(const koksma__json_node *node, double min, do
 
 /* ---- Members --------------------------------------------------------------------------------------------- */
 
-/* Whether the member is absent or has an error, so that there is nothing to read. *status is OK if the member is
+/* Returns whether the member is absent or has an error, so that it cannot be read. *status is OK if the member is
    absent and optional. */
 static bool absent(const koksma__json_node *node, const char *key, bool needed, koksma__json_node *member,
                    koksma_status *status)

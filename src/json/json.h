@@ -21,7 +21,7 @@ typedef struct koksma__json_step {
     size_t item;
 } koksma__json_step;
 
-/* A value in a document. `path` is its position as text, for messages; a long one is truncated. `steps` are the keys
+/* A value in a document. `path` is its position as text, for messages; a long path is truncated. `steps` are the keys
    and indices that lead from the root to the value, at most KOKSMA__JSON_STEPS. */
 typedef struct koksma__json_node {
     const koksma__json *document;
@@ -31,8 +31,8 @@ typedef struct koksma__json_node {
     int n_steps;
 } koksma__json_node;
 
-/* Parses text; kind and name are what errors call it: "scene 'box.json': line 3: …". Keeps its own copy of text.
-   Repeated keys are errors. Errors: MALFORMED, MEMORY. */
+/* Parses a text and copies it. kind and name identify it in error messages: "scene 'box.json': line 3: …". Repeated
+   keys are errors. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__json_open(const char *kind, const char *name, const char *text, size_t size,
                                 koksma__json **out);
 void koksma__json_close(koksma__json *document);
@@ -41,17 +41,17 @@ koksma__json_node koksma__json_root(const koksma__json *document);
 /* Fails with MALFORMED and the text "KIND 'NAME': line N: PATH: reason". */
 koksma_status koksma__json_fail(const koksma__json_node *node, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* If the condition holds, makes the calling function return the status of koksma__json_fail. */
+/* If the condition is true, makes the calling function return the status of koksma__json_fail. */
 #define KOKSMA__JSON_FAIL_IF(condition, ...) KOKSMA__TRY((condition) ? koksma__json_fail(__VA_ARGS__) : KOKSMA_OK)
 
-/* Puts the node's file, line and path before the error text of another function. The status becomes MALFORMED,
-   except that MEMORY and SYSTEM stay. */
+/* Puts the node's file, line and path before the error text of another function. The status becomes MALFORMED unless
+   it is MEMORY or SYSTEM. */
 koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status status);
 
 /* Fails unless node is an object whose keys are all among `keys`, which ends at NULL. */
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys);
 
-/* Whether the object has a member `key` whose value is an object. */
+/* Returns whether the object has a member `key` whose value is an object. */
 bool koksma__json_is_object_at(const koksma__json_node *node, const char *key);
 bool koksma__json_is_array(const koksma__json_node *node);
 bool koksma__json_is_text(const koksma__json_node *node);
@@ -64,21 +64,21 @@ koksma_status koksma__json_member(const koksma__json_node *node, const char *key
 koksma_status koksma__json_length(const koksma__json_node *node, size_t max, size_t *length);
 koksma__json_node koksma__json_item(const koksma__json_node *node, size_t i);
 
-/* Read the node's own value and check its type and range. Texts live as long as the document. */
+/* Read the value of a node and check its type and range. Texts are valid as long as the document. */
 koksma_status koksma__json_number(const koksma__json_node *node, double min, double max, double *out);
 koksma_status koksma__json_whole(const koksma__json_node *node, long long min, long long max, long long *out);
 koksma_status koksma__json_flag(const koksma__json_node *node, bool *out);
 koksma_status koksma__json_text(const koksma__json_node *node, const char **out);
-/* An array of exactly n numbers. */
+/* Reads an array of exactly n numbers. */
 koksma_status koksma__json_numbers(const koksma__json_node *node, double min, double max, size_t n, double *out);
 
-/* Read the member `key` of an object as the functions above read a node. If it is absent, *out keeps its value,
-   and that is an error only if the member is needed. */
+/* Read the member `key` of an object as the functions above read a node. If it is absent, *out does not change; this
+   is an error only if the member is needed. */
 koksma_status koksma__json_get_number(const koksma__json_node *node, const char *key, bool needed, double min,
                                       double max, double *out);
 koksma_status koksma__json_get_whole(const koksma__json_node *node, const char *key, bool needed, long long min,
                                      long long max, long long *out);
-/* The name of a node's document, as given to koksma__json_open. */
+/* Returns the name of a node's document, as given to koksma__json_open. */
 const char *koksma__json_document(const koksma__json_node *node);
 
 koksma_status koksma__json_get_flag(const koksma__json_node *node, const char *key, bool needed, bool *out);

@@ -9,7 +9,7 @@ void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, dou
 
 enum { POINTS = LANES64 / 2 };
 
-/* The numbers of cells along x and y, in even and in odd lanes. exact: both numbers are powers of two. */
+/* The numbers of cells along x (in even lanes) and y (in odd lanes). exact: both numbers are powers of two. */
 typedef struct grid {
     double m[2];
     lanes64_d ms, inverses;
@@ -26,7 +26,8 @@ static grid make_grid(size_t nx, size_t ny)
     return g;
 }
 
-/* koksma__in_cell in lanes: the quotient where it is below the cell's end, elsewhere the double just below that end. */
+/* Does the same as koksma__in_cell in each lane: returns the quotient if it is below the end of the cell, otherwise
+   the double just below that end. */
 static inline lanes64_d in_cells(const grid *g, lanes64_d cells, lanes64_d u, bool exact)
 {
     const lanes64_d places = cells + u, ends = cells + 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Distance tests of dart throwing (see dart_cells.h), without branches: which darts are far enough from all points,
-   and which quarters of squares no point covers. */
+/* Distance tests of dart throwing (see dart_cells.h), without branches. They find the darts that are far enough from
+   all points, and the quarters of squares that no point covers. */
 #include "core/random.h"
 #include "kernels/kernels.h"
 #include "kernels/lanes8.h"
@@ -58,7 +58,8 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
 LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t cell_x, uint32_t cell_y,
                                  uint32_t *out)
 {
-    /* Subtracting `start` moves the y of points into the first 8 of 16 cells, that of empty cells into the last 8. */
+    /* Subtracting `start` moves the y coordinate of points into the first 8 of 16 cells, and that of empty cells into
+       the last 8. */
     lanes8_pairs start;
     size_t count = 0;
     lanes8_splat((4 * cell_y - 17) << (KOKSMA__PLACE_BITS + 14), &start);
@@ -92,7 +93,7 @@ LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, four *q)
     lanes8_splat(koksma__place(half, half), &q->half);
 }
 
-/* Updates `least` with eight places; the first call for a square sets it. */
+/* Updates `least` with eight places; the first call for a square initialises it. */
 LANES8_INLINE void look_at(const lanes8_pairs *places, bool first, four *q)
 {
     for (int k = 0; k < 4; k++) {
@@ -118,8 +119,8 @@ LANES8_INLINE size_t put_quarters(uint32_t square, unsigned covered, uint32_t *o
     return (size_t)__builtin_popcount(open);
 }
 
-/* For squares so large that points outside the eight neighbour cells hardly ever cover a quarter. Each row is read as
-   four cells, one more than needed. No square depends on the one before it, and there are no branches. */
+/* Used for squares so large that points outside the eight neighbour cells hardly ever cover a quarter. Each row is
+   read as four cells, one more than needed. The squares are independent of each other, and there are no branches. */
 static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;
@@ -142,12 +143,13 @@ static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint
     return kept;
 }
 
-/* For smaller squares: the places around a cell are collected once for all squares of the cell. */
+/* Used for smaller squares: the places around a cell are collected once for all squares of the cell. */
 static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;
     const uint32_t half = KOKSMA__PLACE_UNITS / 4 >> own.level;
-    const uint32_t mask = ~(((1u << own.level) - 1) * 0x10001); /* keeps the bits of a square that give its cell */
+    const uint32_t mask = ~(((1u << own.level) - 1) * 0x10001); /* mask for the bits of a square that contain its cell
+                                                                   */
     uint32_t cell = UINT32_MAX, around[40];
     size_t kept = 0, count = 0;
     bool full = false;

@@ -13,7 +13,7 @@
 #include "kernels/kernels.def"
 #undef KERNEL
 
-/* True for the powers of two, for which x / whole equals x * (1 / whole) for all x. */
+/* Returns whether `whole` is a power of two, so that x / whole equals x * (1 / whole) for all x. */
 static bool is_power_of_two(double whole)
 {
     int exponent;
@@ -48,8 +48,8 @@ void KERNEL_NAME(steps)(size_t count, double first, double add, double whole, do
     }
 }
 
-/* Converts a word by way of a signed integer, as that is one instruction on every processor: v ^ 2^31 is v - 2^31 as
-   a signed integer, and adding 2^31 back as a double is exact. */
+/* Converts a word through a signed integer, which every processor does in one instruction: v ^ 2^31 is v - 2^31 as a
+   signed integer, and adding 2^31 as a double is exact. */
 static inline double fraction(uint32_t v)
 {
     return ((double)(int32_t)(v ^ 0x80000000u) + 0x1p31) * 0x1p-32;
@@ -62,7 +62,7 @@ void KERNEL_NAME(fractions)(size_t count, const uint32_t *restrict v, double *re
     }
 }
 
-/* By doubling: the second half of an aligned block is the first half xor one direction. */
+/* The block is built by doubling: the second half of an aligned block is the first half xor one direction. */
 void KERNEL_NAME(digital)(size_t count, const uint32_t *restrict directions, uint32_t start, uint32_t *restrict out)
 {
     if (count) {
@@ -103,8 +103,8 @@ void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
     }
 }
 
-/* Eight points at a time: the partners of an aligned group of eight points form an aligned group too, whose order is
-   permuted by the lowest three bits of `partner`. */
+/* Handles eight points at a time. The partners of an aligned group of eight points also form an aligned group; the
+   lowest three bits of `partner` permute their order. */
 typedef uint32_t octet __attribute__((vector_size(32)));
 
 #define GROW_OCTETS(p)                                                                                               \

@@ -12,7 +12,8 @@ double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t 
 
 enum { LANES = 8, VECTORS = LANES / LANES64 };
 
-/* (asin(sqrt z) / sqrt z - 1) / z on [0, 1/4], by a Chebyshev fit of degree 11 with error 2.4e-16. */
+/* Coefficients of (asin(sqrt z) / sqrt z - 1) / z on [0, 1/4]: a Chebyshev fit of degree 11 with an error of 2.4e-16.
+   */
 static inline lanes64_d asin_series(lanes64_d z)
 {
     static const double c[] = {0.166666666666666486,  0.0750000000002076436,  0.0446428571034236434,
@@ -26,7 +27,7 @@ static inline lanes64_d asin_series(lanes64_d z)
     return sum;
 }
 
-/* acos of numbers in [0, 1], to 3e-16. */
+/* Returns acos of numbers in [0, 1] with an error of 3e-16. */
 static inline lanes64_d arc_cosine(lanes64_d x)
 {
     const lanes64_i low = (lanes64_i)(x < 0.5);
@@ -35,8 +36,9 @@ static inline lanes64_d arc_cosine(lanes64_d x)
     return lanes64_chosen(low, M_PI / 2 - angle, 2 * angle);
 }
 
-/* ln of a normal number >= 1, with an error of 3e-16 relative to the larger of 1 and the result: the exponent times
-   ln 2, plus ln m = 2 atanh((m-1)/(m+1)) by its series, with the mantissa m in [1/sqrt 2, sqrt 2]. */
+/* Returns the logarithm of a normal number >= 1, with an error of 3e-16 relative to the larger of 1 and the result.
+   It is the exponent times ln 2, plus the series of ln m = 2 atanh((m-1)/(m+1)) for the mantissa m in [1/sqrt 2, sqrt
+   2]. */
 static inline lanes64_d logarithm(lanes64_d y)
 {
     const lanes64_d biased = (lanes64_d)(((lanes64_u)y >> 52) | 0x4330000000000000u); /* 2^52 + the exponent */
@@ -51,7 +53,7 @@ static inline lanes64_d logarithm(lanes64_d y)
     return lanes64_chosen(high, exponent + 1, exponent) * M_LN2 + 2 * (s * sum);
 }
 
-/* The overlap of two disks of radius 1 whose centres are 2q apart; 0 for q >= 1. */
+/* Returns the overlap of two disks of radius 1 whose centres are 2q apart; 0 for q >= 1. */
 static inline lanes64_d overlap(int law, lanes64_d q)
 {
     const lanes64_d t = lanes64_min(q, lanes64_splat_d(1)), s = lanes64_sqrt((1 - t) * (1 + t)),
@@ -81,7 +83,7 @@ static inline lanes64_d overlap_images(int law, int images, double scale, lanes6
            (overlap_at(law, scale, ax, by) + overlap_at(law, scale, bx, ay));
 }
 
-/* The last vectors are filled up with disks at infinity, which overlap nothing and add 0. */
+/* The last vectors are padded with disks at infinity, which overlap nothing and add 0. */
 static inline double sum_overlaps(int law, int images, double r, double x, double y, size_t count, const double *xs,
                                   const double *ys)
 {

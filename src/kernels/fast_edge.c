@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sums of distances, and counts of points on one side of lines, in vector lanes. */
+/* Computes sums of distances, and counts points on one side of lines, with one point or line in each vector lane. */
 #include <math.h>
 
 #include "kernels/kernels.h"
@@ -33,7 +33,7 @@ double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double
     return lanes[0];
 }
 
-/* Treats two vectors of lines at a time, so that their coefficients and counts stay in registers. */
+/* Handles two vectors of lines at a time, so that their coefficients and counts stay in registers. */
 void KERNEL_NAME(count_below)(size_t n, const double *x, const double *y, const double a[16], const double b[16],
                               const double c[16], double counts[16])
 {

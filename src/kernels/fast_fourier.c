@@ -10,7 +10,8 @@ void KERNEL_NAME(outer_sums)(size_t count, const double *a, const double *b, dou
 bool KERNEL_NAME(fourier16)(size_t n, const double *twiddles, double *re, double *im, double *spare_re,
                             double *spare_im);
 
-/* outer_sums works on GROUP rows at a time, as many as fit into the registers. Type `loose` is an unaligned vector. */
+/* outer_sums works on GROUP rows at a time, which is the number that fits into the registers. Type `loose` is an
+   unaligned vector. */
 enum { VECTORS = LANES / LANES64, GROUP = LANES64 == 8 ? 8 : LANES64 / 2 };
 typedef double loose __attribute__((vector_size(8 * LANES64), aligned(8), may_alias));
 
@@ -36,7 +37,8 @@ void KERNEL_NAME(outer_sums)(size_t count, const double *a, const double *b, dou
 }
 
 typedef struct stage {
-    size_t quarter, stride, step; /* length / 4 (or / 2), stride of the sequences, twiddle step */
+    size_t quarter, stride, step; /* length / 4 (or length / 2), stride of the sequences, step in the table of twiddle
+                                     factors */
     const double *twiddles;
     const double *re, *im;
     double *to_re, *to_im;

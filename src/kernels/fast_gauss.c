@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The Gaussian forces between points of the pattern gaussian-blue-noise. Sums run in eight lanes whatever the vector
-   width is, so that every instruction set gives the same bits. */
+/* The Gaussian forces between points of the pattern gaussian-blue-noise. Sums run in eight lanes for every vector
+   width, so that all instruction sets give the same bits. */
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
@@ -9,9 +9,9 @@ void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs
 
 enum { LANES = 8, PARTS = LANES / LANES64 };
 
-/* exp(z) for -50 <= z <= 0, to a relative error of 1e-11: 2^k exp(r) with z = k ln 2 + r, |r| <= ln 2 / 2, and exp(r)
-   by its Taylor series up to r^9 (in Estrin's scheme, which shortens the chain of dependent steps). Adding 3 2^51
-   rounds to the nearest whole number k and leaves k in the low bits of the sum. */
+/* Returns exp(z) for -50 <= z <= 0 with a relative error of 1e-11, as 2^k exp(r) with z = k ln 2 + r and |r| <= ln 2
+   / 2. exp(r) is its Taylor series up to r^9 (in Estrin's scheme, which shortens the chain of dependent steps).
+   Adding 3 * 2^51 rounds to the nearest whole number k and leaves k in the low bits of the sum. */
 static inline lanes64_d fall(lanes64_d z)
 {
     const lanes64_d shifted = z * 0x1.71547652b82fep+0 + 0x1.8p52, k = shifted - 0x1.8p52;

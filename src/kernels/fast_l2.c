@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pair sums of the L2 discrepancies. Rows are summed in a fixed number of lanes, so that the order of the additions,
-   and with it every bit, is the same for every instruction set; the row sums are added with compensation. */
+/* Computes the sums over pairs of points in the L2 discrepancies. Rows are summed in a fixed number of lanes, so that
+   every instruction set adds in the same order and gives the same bits. The row sums are added with compensation. */
 #include <math.h>
 
 #include "core/sum.h"
@@ -37,7 +37,7 @@ static inline void multiply(const shape *s, size_t k, size_t i, size_t j, size_t
     }
 }
 
-/* The sum over all j < i of the products over the coordinates of the kernels of points i and j. */
+/* Returns the sum over all j < i of the products over the coordinates of the kernels of points i and j. */
 static double row(const shape *s, size_t i)
 {
     double lanes[LANES] = {0}, products[CHUNK];

@@ -12,15 +12,16 @@ enum { POINTS = 32 };
 #ifdef __AVX2__
 #include <immintrin.h>
 
-/* Tables for the byte shuffle, which looks up for 32 points at once what four bits of a word contribute to one byte
-   of the result. */
+/* Tables for the byte shuffle, which looks up for 32 points at once the contribution of four bits of a word to one
+   byte of the result. */
 typedef struct tables {
-    __m256i
-        bytes[4]
-             [4]; /* [j][k], from byte j to byte k: low half, for its low four bits; high half, for the high four */
+    __m256i bytes[4]
+                 [4]; /* entry [j][k] is the contribution of byte j to byte k: the low half for its low four bits, the
+                     high half for its high four bits */
 } tables;
 
-/* Transposes, within each 128-bit half, the 4 x 4 matrix of 4-byte words of four vectors; is its own inverse. */
+/* Transposes, within each 128-bit half, the 4 x 4 matrix of 4-byte words of four vectors. The function is its own
+   inverse. */
 static inline __attribute__((always_inline)) void transpose(__m256i v[4])
 {
     const __m256i a = _mm256_unpacklo_epi32(v[0], v[1]), b = _mm256_unpackhi_epi32(v[0], v[1]);
@@ -31,8 +32,8 @@ static inline __attribute__((always_inline)) void transpose(__m256i v[4])
     v[3] = _mm256_unpackhi_epi64(b, d);
 }
 
-/* Within each group of four words puts the first bytes first, then the second, third and fourth bytes; is its own
-   inverse. */
+/* Within each group of four words it puts the first bytes first, then the second, third and fourth bytes. The
+   function is its own inverse. */
 static inline __attribute__((always_inline)) void sort_bytes(__m256i v[4])
 {
     const __m256i order =

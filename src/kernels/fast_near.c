@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Distances to nearby points, for several positions at a time and without branches: whether disks cover a square
-   (maximal Poisson disks), how far the nearest point is (pmj02bn), and counts of pairs by distance. */
+/* Distances to nearby points, for several positions at a time and without branches. They tell whether disks cover a
+   square (maximal Poisson disks) and how far the nearest point is (pmj02bn), and count pairs by distance. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -23,7 +23,7 @@ static inline bool any(lanes64_i mask)
     return sum != 0;
 }
 
-/* The squared distance from `from` to the far end of the interval (at - h, at + h). */
+/* Returns the squared distance from `from` to the far end of the interval (at - h, at + h). */
 static inline lanes64_d reach(lanes64_d from, lanes64_d at, lanes64_d h)
 {
     const lanes64_d t = lanes64_abs(from - at) + h;
@@ -78,8 +78,8 @@ void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy
     }
 }
 
-/* Points that are too far, and the padding of the last vector, are counted after the bins, with one counter for each
-   lane, because successive increments of one counter would wait for each other. */
+/* Points that are too far away, and the padding of the last vector, are counted after the bins. Each lane has its own
+   counter for them, because successive increments of one counter would wait for each other. */
 void KERNEL_NAME(pair_counts)(size_t count, const double *xs, const double *ys, double x, double y, double r2,
                               double scale, size_t bins, uint64_t *counts)
 {

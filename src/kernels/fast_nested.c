@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Nested scrambling in a small odd base, several strata at once. The digits that are still free are the 4-bit parts
-   of one word. Whole numbers below 2^53 are held in doubles; those that are rounded down are below 2^52. */
+/* Does nested scrambling in a small odd base, for several strata at once. The digits that have not been drawn yet are
+   stored as the 4-bit parts of one word. Whole numbers below 2^53 are stored in doubles; those that are rounded down
+   are below 2^52. */
 #include <string.h>
 
 #include "core/random.h"
@@ -16,7 +17,7 @@ enum { CHAINS = 2, LANES = CHAINS * LANES64 };
 
 typedef struct strata {
     lanes64_d prefix[CHAINS]; /* the digits above the current one, as a multiple of the base */
-    lanes64_u order[CHAINS];  /* digit number d at bit 4 d; number 0 is the point's own digit */
+    lanes64_u order[CHAINS];  /* digit number d begins at bit 4 d; number 0 is the digit of the point itself */
 } strata;
 
 /* to_doubles converts the lower halves of the lanes to doubles, to_words doubles to words. */
@@ -48,7 +49,7 @@ static inline __attribute__((always_inline)) void look_at(uint32_t base, double 
         upper += lanes64_masked((lanes64_i)(rest >= width), one) - lanes64_masked((lanes64_i)(rest < 0), one);
         s->prefix[c] = lanes64_floor((upper + 0.5) * part) * base;
         const lanes64_u digit = to_words(upper - s->prefix[c]);
-        if (base == 3) { /* in order: digit, digit + 1 and digit + 2 modulo 3 */
+        if (base == 3) { /* the order digit, digit + 1, digit + 2 modulo 3 */
             const lanes64_u two = chosen((lanes64_i)(digit == 1), lanes64_splat(0x021), lanes64_splat(0x102));
             s->order[c] = chosen((lanes64_i)(digit == 0), lanes64_splat(0x210), two);
         } else {
@@ -57,7 +58,7 @@ static inline __attribute__((always_inline)) void look_at(uint32_t base, double 
     }
 }
 
-/* Writes the relative number d of each stratum to v, which holds its two random words. */
+/* Writes relative number d of each stratum to v, which has its two random words on entry. */
 static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t d, double width, strata *s, double *v)
 {
     const double part = width * 0x1p-32;
@@ -69,7 +70,7 @@ static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t 
                 (lanes64_u)lanes64_product((lanes64)lanes64_even_words(w), (lanes64)lanes64_splat(base - d));
             const lanes64_u pick = ((product >> 32) + d) << 2, kept = digit;
             digit = s->order[c] >> pick & 15;
-            s->order[c] ^= (digit ^ kept) << pick; /* entry d of the order is not read again */
+            s->order[c] ^= (digit ^ kept) << pick; /* no write-back: entry d of the order is not read again */
         }
         const lanes64_d below = lanes64_floor(part * to_doubles(lanes64_odd_words(w)));
         const lanes64_d x = (s->prefix[c] + to_doubles(digit)) * width + below;

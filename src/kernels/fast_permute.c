@@ -10,7 +10,7 @@ void KERNEL_NAME(permute)(uint32_t first, size_t count, uint32_t n, uint64_t key
 enum { ROUNDS = 6, BLOCK = 256 };
 
 typedef struct bijection {
-    uint32_t mask, near, far; /* the power of two less 1; two distances by which upper bits are shifted down */
+    uint32_t mask, near, far; /* the power of two minus 1; two distances by which upper bits are shifted down */
     uint32_t flip[ROUNDS], factor[ROUNDS], add[ROUNDS];
 } bijection;
 

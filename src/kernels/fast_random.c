@@ -8,19 +8,19 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-/* CHAINS independent vectors are computed together to hide the latency of multiplication, about as many as fit into
-   the registers; the last few numbers use fewer. */
+/* CHAINS independent vectors are computed together to hide the latency of multiplication. About this number of
+   vectors fits into the registers. The last few numbers use fewer vectors. */
 enum {
     CHAINS = LANES64 == 8   ? 4
              : LANES64 == 4 ? 3
                             : 2,
     LANES = CHAINS * LANES64,
-    ROUNDS = 8 /* after the first two */,
+    ROUNDS = 8 /* the rounds after the first two */,
     DRAW_ROUNDS = 5
 };
 
-/* The four words of LANES counters. Lanes are in the order of lanes64_count_pairs unless a comment names another;
-   their upper halves have no meaning. */
+/* The four words of LANES counters. Lanes are in the order of lanes64_count_pairs unless a comment names another
+   order. Their upper halves are meaningless. */
 typedef struct block {
     lanes64_u w[4][CHAINS];
 } block;
@@ -31,16 +31,16 @@ void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
 void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs);
 
-/* Values that all counters share which differ only in their lowest word: round 0 gives them equal w[0] and w[1],
-   round 1 an equal w[3] and an equal word to xor into w[2]. Then the keys of the other rounds, which are used as
-   memory operands and need no load instruction. */
+/* Values that are equal for all counters that differ only in their lowest word: w[0] and w[1] after round 0; w[3],
+   and the word that is xored into w[2], after round 1. The keys of the other rounds follow; they are used as memory
+   operands and need no load instruction. */
 typedef struct stream {
     lanes64_u w2_of_0, w0_of_1, w2_of_1, w3_of_1, keys[ROUNDS][2];
 } stream;
 
 static const uint32_t multiplier[2] = {0xD2511F53u, 0xCD9E8D57u}, weyl[2] = {0x9E3779B9u, 0xBB67AE85u};
 
-/* Not inlined, as compilers would otherwise build the vectors again in each round. */
+/* Not inlined, because compilers would otherwise build the vectors again in each round. */
 static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpose, uint32_t high, uint32_t lane,
                                                   int rounds, stream *out)
 {
@@ -60,9 +60,11 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
     }
 }
 
-#define INLINE static inline __attribute__((always_inline)) /* compiles one copy for each number of chains */
+#define INLINE                                                                                                       \
+    static inline __attribute__((always_inline)) /* inlined, so that there is one copy for each number of
+                                                               chains */
 
-/* begin does the first two rounds, go_on one of the others. */
+/* The function begin does the first two rounds, and go_on does one of the others. */
 INLINE block begin(const stream *s, lanes64_u order, uint64_t first, int chains)
 {
     const lanes64 m0 = (lanes64)lanes64_splat(multiplier[0]), m1 = (lanes64)lanes64_splat(multiplier[1]);
@@ -108,8 +110,9 @@ INLINE block philox(const stream *s, uint64_t first, int chains)
 
 typedef uint32_t words_of_lanes __attribute__((vector_size(8 * LANES64)));
 
-/* koksma__unit in lanes: (high * 2^21 + low / 2^11) * 2^-53, as an exact sum of two doubles. The doubles 2^20 + high
-   2^-32 and 1/2 + (low / 2^11) 2^-53 have high and low / 2^11 as the low bits of their mantissas. */
+/* Does the same as koksma__unit in each lane: returns (high * 2^21 + low / 2^11) * 2^-53 as an exact sum of two
+   doubles. The doubles 2^20 + high 2^-32 and 1/2 + (low / 2^11) 2^-53 have high and low / 2^11 as the low bits of
+   their mantissas. */
 static inline lanes64_d unit(lanes64_u high, lanes64_u low)
 {
     const lanes64_u upper = lanes64_splat(0x4130000000000000u), lower = lanes64_splat(0x3fe0000000000000u);
@@ -142,7 +145,7 @@ INLINE void store_words(const block *b, int chains, uint32_t *out)
     }
 }
 
-/* How many of the counters first .. first + count - 1 share the second word of `first`. */
+/* Returns how many of the counters first .. first + count - 1 have the same second word as `first`. */
 static size_t share(uint64_t first, size_t count)
 {
     const uint64_t left = ((uint64_t)1 << 32) - (uint32_t)first;
@@ -194,7 +197,7 @@ INLINE void quads(const stream *s, uint64_t first, int chains, int rounds, uint3
     store_words(&b, chains, out);
 }
 
-/* room: `out` has room for whole vectors beyond the last number. */
+/* room: `out` has capacity for whole vectors beyond the last number. */
 INLINE void some_words(const stream *s, uint64_t first, size_t count, int rounds, bool room, uint32_t *out)
 {
     size_t done = 0;
@@ -202,7 +205,7 @@ INLINE void some_words(const stream *s, uint64_t first, size_t count, int rounds
         quads(s, first + done, CHAINS, rounds, out + 4 * done);
     }
     if (room && CHAINS > 2 && done + 2 * LANES64 < count &&
-        count <= done + 3 * LANES64) { /* all that is left, together */
+        count <= done + 3 * LANES64) { /* all remaining numbers at once */
         quads(s, first + done, 3, rounds, out + 4 * done);
         return;
     }
@@ -275,8 +278,9 @@ INLINE void insert(const uint32_t *at, uint32_t first, uint32_t count, uint32_t 
     }
 }
 
-/* Computing random numbers waits for multiplications; inserting them into the permutation waits for the caches. To overlap
-   the two, each round of one block's random numbers is followed by inserting a part of the previous block. */
+/* Computing random numbers is limited by the latency of multiplications, inserting them into the permutation by the
+   caches. To overlap the two, each round of one block's random numbers is followed by inserting a part of the
+   previous block. */
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
 {
     enum { WORDS = 4 * LANES, SHARE = WORDS / ROUNDS };
@@ -298,9 +302,9 @@ void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t
     insert(at, first, n - first, out);
 }
 
-/* (cell + word 2^-32) / n, exactly for n a power of two. `upper` has the cell in its upper half together with the
-   exponent of base = 2^20, so that with the word in the lower half it is the double base + cell + word 2^-32. For n a
-   power of two base is 2^20 / n instead, which divides the whole sum by n. */
+/* Returns (cell + word 2^-32) / n, exactly if n is a power of two. The upper half of `upper` has the cell and the
+   exponent of base = 2^20. With the word in the lower half it is therefore the double base + cell + word 2^-32. If n
+   is a power of two, base is 2^20 / n instead, which divides the whole sum by n. */
 INLINE lanes64_d place(lanes64_u word, lanes64_u upper, lanes64_d base, lanes64_d n, bool power_of_two)
 {
     const lanes64_d x = (lanes64_d)lanes64_halves(word, upper) - base;

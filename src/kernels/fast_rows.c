@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Stores points row by row, with the coordinates of a point adjacent, from columns of coordinates or, for a digital
-   net, directly from its directions. A word w in a 64-bit lane below the exponent of 2^20 is the double 2^20 + w
-   2^-32. The words of an aligned group of 32 points of a net are those of the first group, xor one word for each
-   coordinate. */
+   net, directly from its directions. If the upper half of a 64-bit lane has the exponent of 2^20 and the lower half a
+   word w, the lane is the double 2^20 + w 2^-32. The words of an aligned group of 32 points of a net are those of the
+   first group, xored with one word for each coordinate. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -16,19 +16,21 @@ void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, 
 void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
                                 double *out);
 
-#define INLINE static inline __attribute__((always_inline)) /* one copy for each dim, stream and kind of column */
+#define INLINE                                                                                                       \
+    static inline __attribute__((always_inline)) /* inlined, so that there is one copy for each dim, stream
+                                                               and kind of column */
 #define EXPONENT 0x4130000000000000u
 
 enum { BITS = 5, GROUP = 1 << BITS, MOST_DIM = 16, RUN = MOST_DIM * LANES64, TURN = GROUP / LANES64 };
 
-/* group: the words of the first group. start: the word of each coordinate with which the current group is xored,
-   repeated for LANES64 points. change[j]: the words to xor into it on the step from group g to g + 1 when g + 1 ends
-   in j zero bits. */
+/* group: the words of the first group. start: for each coordinate the word with which the current group is xored,
+   repeated for LANES64 points. change[j]: the words that are xored into `start` on the step from group g to g + 1 if
+   g + 1 ends in j zero bits. */
 typedef struct net {
     uint64_t group[GROUP * MOST_DIM], start[RUN], change[32 - BITS][RUN];
 } net;
 
-/* out[p dim + c] = word[c] for LANES64 points p. */
+/* Stores out[p dim + c] = word[c] for LANES64 points p. */
 static void repeat(int dim, const uint32_t *word, uint64_t *out)
 {
     for (int i = 0; i < dim * LANES64; i++) {
@@ -113,7 +115,7 @@ void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *dir
 
 typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
 
-/* Stores columns of doubles, or of words w that mean w 2^-32; one of the two pointers is NULL. */
+/* Stores columns of doubles, or of words w that stand for w 2^-32; one of the two pointers is NULL. */
 INLINE void store_columns(size_t count, int dim, const double *doubles, const uint32_t *words, size_t stride,
                           bool stream, double *out)
 {
@@ -160,7 +162,7 @@ INLINE void rows_of(size_t count, int dim, const double *doubles, const uint32_t
 void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
                                   double *out)
 {
-    if (columns) { /* branches so that the compiler knows which pointer is NULL */
+    if (columns) { /* separate branches, so that the compiler knows which pointer is NULL */
         rows_of(count, dim, columns, NULL, stride, stream, out);
     }
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Two parts of the star discrepancy. The sweep of the plane uses the counts after each insertion twice, for the
-   excess at this x and the deficit at the next x. Maxima are kept in lanes, as a maximum does not depend on the
-   order. The steps of the partition are convolutions with extremes in place of sums: each vector of results stays in
-   registers while one list slides along the other. */
+/* Two parts of the star discrepancy. The sweep of the plane uses the counts after each insertion twice: for the
+   excess at this x and for the deficit at the next x. Each lane has its own maximum, because a maximum does not
+   depend on the order. The steps of the partition are convolutions in which maxima or minima replace the sums. Each
+   vector of results stays in registers while one list slides along the other. */
 #include <math.h>
 #include <string.h>
 
@@ -17,12 +17,12 @@ void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, con
                              double inside, double best[2]);
 
 typedef struct step {
-    double here, next; /* n x of this point and of the next */
+    double here, next; /* n times the x coordinate of this point and of the next one */
     double best[2];
 } step;
 
-/* The largest excess over ranks 0 .. n-1 and the largest deficit over ranks 0 .. n. The last vector reads past the
-   end, where y is 1: such a box has the deficit of rank n, and no larger excess than rank n-1. */
+/* Computes the largest excess over ranks 0 .. n-1 and the largest deficit over ranks 0 .. n. The last vector reads
+   past the end, where y is 1. A box of this height has the deficit of rank n, and at most the excess of rank n-1. */
 static void maxima(size_t n, const double *y, const double *count, step *s)
 {
     lanes64_d excess = lanes64_splat_d(-INFINITY), deficit = excess;
@@ -44,7 +44,7 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
     }
     at[0] = at[1] = 0;
     best[0] = -INFINITY;
-    best[1] = scale * x[0]; /* the empty box of full height to the left of the first point */
+    best[1] = scale * x[0]; /* start with the empty box of full height to the left of the first point */
     for (size_t i = 0; i < n; i++) {
         step s = {.here = scale * x[i], .next = scale * (i + 1 < n ? x[i + 1] : 1)};
         for (size_t j = (size_t)rank[i] + 1; j <= n + 8; j++) {
@@ -64,9 +64,9 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
 
 enum { WIDTH = 8, VECTORS = WIDTH / LANES64, ROOM = 256 };
 
-/* longs: up to ROOM sides of the longer list, padded at both ends with WIDTH numbers that change no extreme: 0 for
-   the largest, infinity for the smallest product (0 times infinity is NaN, which is not below any number). shorts:
-   the shorter list, not copied. */
+/* longs: up to ROOM sides of the longer list, padded at both ends with WIDTH numbers that change no result: 0 when
+   the largest product is wanted, infinity for the smallest (0 times infinity is NaN, which is not below any number).
+   shorts: the shorter list, not copied. */
 typedef struct convolution {
     size_t n_short, first, count;
     const double *shorts[2];
@@ -87,7 +87,8 @@ static inline void extremes(const convolution *s, size_t c, lanes64_d most[VECTO
     }
 }
 
-/* Copies the chunk of the longer list that begins at `first`. Returns one more than its largest i + j. */
+/* Copies the chunk of the longer list that begins at `first`. Returns 1 + the largest sum of indices i + j of this
+   chunk. */
 static inline size_t take_chunk(convolution *s, size_t n_long, const double *const longs[2], size_t first)
 {
     s->first = first;
@@ -124,8 +125,8 @@ void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, 
     }
 }
 
-/* All pairs with the same i + j subtract the same share of points. Rounding is monotonic, so that it suffices to
-   subtract it from the extremes of their products. */
+/* All pairs with the same i + j subtract the same share of points. Because rounding is monotonic, it is enough to
+   subtract this share from the extreme products. */
 void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
                              double inside, double best[2])
 {

@@ -14,11 +14,12 @@ typedef struct koksma__kernel_table {
 #undef KERNEL
 } koksma__kernel_table;
 
-/* The table of the fastest kernels that this machine runs, or the table that the environment variable KOKSMA_KERNELS
-   names (KOKSMA_KERNELS=ref: the reference kernels). The choice is made once. */
+/* Returns the table of the fastest kernels that this machine supports, or the table that the environment variable
+   KOKSMA_KERNELS names (KOKSMA_KERNELS=ref: the reference kernels). The first call makes the choice. */
 KOKSMA__LAB const koksma__kernel_table *koksma__kernels(void);
 
-/* The table of kernels with this name; NULL if this build or machine has none. For tests and benchmarks. */
+/* Returns the table of kernels with this name, or NULL if this build or machine does not support it. Only for tests
+   and benchmarks. */
 KOKSMA__LAB const koksma__kernel_table *koksma__kernels_find(const char *isa);
 
 /* In a kernel's source file, KERNEL_NAME(uniform) is the name of that kernel's function for the instruction set being

@@ -68,7 +68,7 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
                              double best[2], size_t at[2])
 {
     for (size_t j = 0; j <= n; j++) {
-        count[j] = 0; /* the number of points so far whose rank is below j */
+        count[j] = 0; /* count[j] is the number of points so far whose rank is below j */
     }
     best[0] = best[1] = -INFINITY;
     at[0] = at[1] = 0;
@@ -248,7 +248,7 @@ static double overlap(int law, double r, double distance)
         return 0;
     }
     const double s = sqrt((r - h) * (r + h)),
-                 angle = atan2(s, h); /* in this form, as r * r - h * h cancels near h = r */
+                 angle = atan2(s, h); /* factored, because r * r - h * h would lose digits near h = r */
     switch (law) {
     case 0:
         return 2 * r * r * angle - 2 * h * s;

@@ -101,8 +101,8 @@ void KERNEL_NAME(owen_hash)(size_t count, const uint32_t *v, bool mirror_in, boo
     }
 }
 
-/* Column c of the Pascal matrix has the binomial coefficients "c over r" modulo 2, which are odd where all bits of r
-   are set in c. */
+/* Column c of the Pascal matrix has the binomial coefficients "c over r" modulo 2. They are odd if all bits that are
+   set in r are also set in c. */
 void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
 {
     for (size_t i = 0; i < count; i++) {
@@ -208,7 +208,7 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
     return found;
 }
 
-/* The difference of two places (see dart_cells.h) in one coordinate. */
+/* Returns the difference of two places (see dart_cells.h) in one coordinate. */
 static int32_t from_to(uint32_t a, uint32_t b)
 {
     const uint32_t steps = (b - a) & 0xffff;
@@ -217,7 +217,7 @@ static int32_t from_to(uint32_t a, uint32_t b)
 
 size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
-    const int32_t half = KOKSMA__PLACE_UNITS / 4 >> c->level; /* half of a quarter's side */
+    const int32_t half = KOKSMA__PLACE_UNITS / 4 >> c->level; /* half of the side of a quarter */
     size_t kept = 0;
     for (uint32_t i = 0; i < 4 * c->count; i++) {
         const uint32_t whole_x = c->squares[i / 4] & 0xffff, whole_y = c->squares[i / 4] >> 16;
@@ -265,7 +265,7 @@ void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy
     }
 }
 
-/* exp(z) for -50 <= z <= 0, with the same roundings as in fast_gauss.c. */
+/* Returns exp(z) for -50 <= z <= 0, with the same roundings as in fast_gauss.c. */
 static double fall(double z)
 {
     const double k = nearbyint(z * 0x1.71547652b82fep+0), r = (z - k * 0x1.62e42feep-1) - k * 0x1.a39ef35793c76p-33;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Vectors of 64-bit lanes, for operations that compilers do not turn into one instruction by themselves, above all
-   lanes64_product: the 64-bit product of the 32-bit numbers in the lower halves of lanes, whatever the upper halves
-   hold. */
+/* Vectors of 64-bit lanes, for operations that compilers do not turn into one instruction by themselves. The most
+   important is lanes64_product, the 64-bit product of the 32-bit numbers in the lower halves of lanes, which ignores
+   the upper halves. */
 #ifndef KOKSMA_KERNELS_LANES64_H
 #define KOKSMA_KERNELS_LANES64_H
 
@@ -48,7 +48,7 @@ typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
 typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
 
-/* x in every lane. */
+/* Returns x in every lane. */
 static inline lanes64_u lanes64_splat(uint64_t x)
 {
     return x - (lanes64_u){0};
@@ -78,7 +78,7 @@ static inline lanes64_u lanes64_count(void)
 #endif
 }
 
-/* 0 .. LANES64 - 1 in the order of lanes that lanes64_pairs expects. */
+/* Returns 0 .. LANES64 - 1 in the order of lanes that lanes64_pairs expects. */
 static inline lanes64_u lanes64_count_pairs(void)
 {
 #if defined(__AVX512F__)
@@ -117,7 +117,7 @@ static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
 }
 
 /* For lanes loaded from an array of words: the words of even index (for lanes64_odd_words: of odd index), in the
-   lower halves; the upper halves have no meaning. */
+   lower halves; the upper halves are meaningless. */
 static inline lanes64_u lanes64_even_words(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -137,7 +137,7 @@ static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
 }
 
 /* For lanes loaded from an array of words: the words of even index (for lanes64_odd_upper: of odd index), in the
-   upper halves; the lower halves have no meaning. */
+   upper halves; the lower halves are meaningless. */
 static inline lanes64_u lanes64_even_upper(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -176,13 +176,13 @@ static inline lanes64_u lanes64_upper_words(lanes64_u even, lanes64_u odd)
 #endif
 }
 
-/* The lanes of x where the mask is set, 0 in the other lanes. */
+/* Returns the lanes of x where the mask is set, and 0 in the other lanes. */
 static inline lanes64_d lanes64_masked(lanes64_i mask, lanes64_d x)
 {
     return (lanes64_d)((lanes64_i)x & mask);
 }
 
-/* The lanes of x where the mask is set, those of y elsewhere. */
+/* Returns the lanes of x where the mask is set, and those of y elsewhere. */
 static inline lanes64_d lanes64_chosen(lanes64_i mask, lanes64_d x, lanes64_d y)
 {
     return (lanes64_d)(((lanes64_i)x & mask) | ((lanes64_i)y & ~mask));
@@ -194,7 +194,7 @@ static inline lanes64_d lanes64_whole(lanes64_u x)
     return (lanes64_d)(x | 0x4330000000000000u) - 0x1p52;
 }
 
-/* The floor of each lane, for numbers in [0, 2^52). */
+/* Returns the floor of each lane, for numbers in [0, 2^52). */
 static inline lanes64_d lanes64_floor(lanes64_d x)
 {
 #if defined(__AVX2__) && !defined(__AVX512F__)
@@ -222,7 +222,7 @@ static inline void lanes64_zip(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64
 #endif
 }
 
-/* Writes x[0], y[0], x[1], y[1], ... to out, which has room for 2 LANES64 doubles. */
+/* Writes x[0], y[0], x[1], y[1], ... to out, which has capacity for 2 LANES64 doubles. */
 static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
 {
     lanes64_d low, high;
@@ -276,7 +276,7 @@ static inline lanes64_d lanes64_abs(lanes64_d x)
     return (lanes64_d)((lanes64_u)x & 0x7fffffffffffffffu);
 }
 
-/* The largest lane. */
+/* Returns the value of the largest lane. */
 static inline double lanes64_largest(lanes64_d v)
 {
 #if defined(__AVX512F__)
@@ -291,7 +291,7 @@ static inline double lanes64_largest(lanes64_d v)
 #endif
 }
 
-/* Stores a vector. With stream the write bypasses the caches, and `out` must be aligned to 16 bytes. */
+/* Stores a vector. If stream is set, the write bypasses the caches, and `out` must be aligned to 16 bytes. */
 static inline void lanes64_store(lanes64_d v, bool stream, double *out)
 {
 #if defined(__SSE2__)
@@ -337,7 +337,7 @@ static inline __attribute__((always_inline)) void lanes64_store_rows(const lanes
     }
 }
 
-/* To be called after the last streaming store. */
+/* Call this after the last streaming store. */
 static inline void lanes64_stored(void)
 {
 #if defined(__SSE2__)

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Vectors of eight words of two 16-bit numbers each, with operations that compilers do not turn into one instruction
    by themselves: the sum of the squares of the two numbers, the bits of the lanes that are set in a mask, and packing
-   the chosen lanes of a vector. Without AVX2 a vector is two of 128 bits, or what the compiler makes of it. */
+   the chosen lanes of a vector. Without AVX2 a vector is a pair of 128-bit vectors, or the compiler chooses the
+   instructions. */
 #ifndef KOKSMA_KERNELS_LANES8_H
 #define KOKSMA_KERNELS_LANES8_H
 
@@ -36,13 +37,13 @@ LANES8_INLINE void lanes8_load_halves(const uint32_t *low, const uint32_t *high,
     memcpy(v, words, sizeof words);
 }
 
-/* The same word in all lanes. */
+/* Returns the same word in all lanes. */
 LANES8_INLINE void lanes8_splat(uint32_t word, lanes8_pairs *v)
 {
     *v = (lanes8_pairs)(word - (lanes8_u){0});
 }
 
-/* The sum of the squares of both numbers of each lane, which is below 2^31. */
+/* Returns the sum of the squares of both numbers of each lane, which is below 2^31. */
 LANES8_INLINE void lanes8_squares(const lanes8_pairs *v, lanes8 *sums)
 {
 #if defined(LANES8_AVX2)
@@ -59,7 +60,7 @@ LANES8_INLINE void lanes8_squares(const lanes8_pairs *v, lanes8 *sums)
 #endif
 }
 
-/* Replaces both numbers of each lane, taken as signed, by their absolute values. */
+/* Replaces both signed numbers of each lane by their absolute values. */
 LANES8_INLINE void lanes8_absolute(lanes8_pairs *v)
 {
 #ifdef LANES8_AVX2
@@ -135,7 +136,7 @@ LANES8_INLINE unsigned lanes8_below(const lanes8 v[4], int32_t limit)
 #endif
 }
 
-/* Packs at out, which has room for eight words, those of the first five lanes whose bit is set. */
+/* Writes contiguously to out, which has capacity for eight words, those of the first five lanes whose bit is set. */
 LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2
@@ -157,7 +158,7 @@ LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *
 #endif
 }
 
-/* Packs at out, which has room for four words, those of the four lanes whose bit is set. */
+/* Writes contiguously to out, which has capacity for four words, those of the four lanes whose bit is set. */
 LANES8_INLINE void lanes4_pick(const lanes4 *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2

@@ -7,9 +7,9 @@
  *              = (1/n^2) sum_ij prod_k (1 + 2 pi^2 (t^2 - t + 1/6)) - 1,  t = |x_ik - x_jk|.
  * Source: Zinterhof 1976.
  * Known exactly: one point, F^2 = (1 + pi^2/3)^d - 1; m points i/m on the line, F = pi/(m sqrt 3).
- * Limits: the terms are near 1 and cancel, which leaves an absolute error of about 1e-15 in the square. In one and
- * two dimensions with 1,024 points or more the sums have 106 bits, and the relative error of the square is 1e-11.
- * From about 970 dimensions on the square is beyond the range of doubles, and the measure fails.
+ * Limits: the terms are near 1 and cancel, so the square has an absolute error of about 1e-15. In one and two
+ * dimensions with 1,024 points or more the sums have 106 bits, and the relative error of the square is 1e-11. From
+ * about 970 dimensions on the square is beyond the range of doubles, and the measure fails.
  */
 #include <math.h>
 
@@ -27,8 +27,8 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    /* The kernel is K = 1 + q (1/6 - t + t^2). The sorting method is given 6 K / q instead, whose coefficients are
-       exact in doubles, so that no digits are lost to cancellation. */
+    /* The kernel is K = 1 + q (1/6 - t + t^2). The sorting method evaluates 6 K / q instead of K, because the
+       coefficients of 6 K / q are exact in doubles and no digits are lost to cancellation. */
     static const double q = 2 * M_PI * M_PI;
     const koksma__l2_row row = {12, {24, 0, 0, 0}, {(1 + q / 6) / 2, 0, 0, 0}, -q, q, "diaphony"};
     const double one = (1 + 6 / q) - 1;

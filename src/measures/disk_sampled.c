@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * disk-sampled: an estimate of l2-disk from random disks, as Mitchell 1992 estimates such measures.
+ * disk-sampled: an estimate of l2-disk from random disks, with the method of Mitchell 1992.
  *
  * Formula: the root of the mean, over `disks` random disks on the torus, of (#{x_i in the disk}/n - area)^2; its
  * standard error is the standard error of the mean of the squares, divided by twice the value.
@@ -68,15 +68,17 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 
 static const koksma_param params[] = {
     {"disks", "random disks, or balls", 10000, 1, 1e8, NULL, true},
-    {"r", "the radius, or the largest radius; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL, false},
-    {"law", "fixed radius, radius uniform, or area (volume) uniform", 0, 0, 2, koksma__disk_laws, true},
+    {"r", "radius of the disks, or the largest radius if it is random; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL,
+     false},
+    {"law", "law of the radius: fixed, uniform, or such that the area (volume) is uniform", 0, 0, 2,
+     koksma__disk_laws, true},
     {"seed", "seed of the disks", 1, 0, 9007199254740992.0, NULL, true},
     {0},
 };
 
 const koksma_measure koksma__measure_disk_sampled = {
     .name = "disk-sampled",
-    .title = "L2 discrepancy of disks or balls on the torus from sampled ones",
+    .title = "L2 discrepancy of disks or balls on the torus, estimated from random ones",
     .cite = "mitchell1992",
     .cost = "disks n",
     .family = KOKSMA_FAMILY_DISKS,

@@ -10,16 +10,17 @@
  * chord a point bisects (for a point at distances u and v from two sides the chord cuts off a triangle of area 2uv),
  * or on a side of the square. An excess is reached by a closed half-plane, a deficit by an open one.
  * Source: Mitchell 1992, section 5; Dobkin and Eppstein 1993; Dobkin, Eppstein and Mitchell 1996. Here a line turns
- * about each point in turn (the pivot) past all others in order of angle: O(n^2 log n).
- * Known exactly: one point (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m).
- * Limits: the order of angles and their ties are exact, also in clusters as small as the smallest doubles; areas are
- * rounded, with errors of a few 1e-16. Under a time limit half of the time goes to the pivots and the rest to bounds
- * for intervals of directions (shared/edge_cover.c); if it does not suffice, the value is a lower bound and comes
- * with an upper bound.
- * In 3 dimensions half-spaces and the unit cube take the place of half-planes and the square: the planes go through
- * up to three points (shared/edge_space.c), in O(n^4) and for up to 1024 points.
- * Known exactly for one point (u,v,w): 1 - 9uvw/2 if u, v and w are at most 1/3; 1 - 2uv/(1 + 12h^2) with h = 1/2 - w
- * if u, v and w are at most 1/2, w is at least 1/3, 2u(1 + 6h) <= 1 + 12h^2 and 2v(1 + 6h) <= 1 + 12h^2.
+ * about one point (the pivot) past all others in order of angle, for each point in turn: O(n^2 log n).
+ * Known exactly: the single point (1/2,1/2) has the value 1/2, (1/4,1/4) has 7/8, (0,0) has 1; m x m cell centres
+ * have 1/(2m).
+ * Limits: the order of angles and their
+ * ties are exact, also in clusters as small as the smallest doubles; areas are rounded, with errors of a few 1e-16.
+ * Under a time limit, half of the time is for the pivots and the rest for bounds on intervals of directions
+ * (shared/edge_cover.c). If the time is too short, the result has a lower and an upper bound. In 3 dimensions
+ * half-spaces and the unit cube replace half-planes and the square: the planes go through up to three points
+ * (shared/edge_space.c), in O(n^4) and for up to 1024 points. Known exactly for one point (u,v,w): 1 - 9uvw/2 if u, v
+ * and w are at most 1/3; 1 - 2uv/(1 + 12h^2) with h = 1/2 - w if u, v and w are at most 1/2, w is at least 1/3, 2u(1
+ * + 6h) <= 1 + 12h^2 and 2v(1 + 6h) <= 1 + 12h^2.
  */
 #include <math.h>
 
@@ -28,14 +29,15 @@
 #include "measures/shared/lines.h"
 #include "measures/shared/planes.h"
 
-/* The chord with midpoint p = (x, y), from (2x - ex, ey) to (ex, 2y - ey), where e is the corner of the square
-   nearest to p. */
+/* Computes the chord with midpoint p = (x, y), which goes from (2x - ex, ey) to (ex, 2y - ey), where e is the corner
+   of the square nearest to p. */
 static void chords_of_square(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
     chords[0] = (koksma__chord){{p[0] < 0.5 ? 0 : 1, p[0]}, {p[1], p[1] < 0.5 ? 0 : 1}};
 }
 
-/* Tries the lines along the sides, whose half-planes hold the points on a side but no area. */
+/* Tries the lines along the sides of the square. The half-plane beyond a side contains the points on this side but no
+   area. */
 static void try_sides(const koksma_points *points, koksma_value *out)
 {
     static const double sides[4][3] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, -1}, {0, -1, -1}};

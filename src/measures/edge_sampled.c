@@ -4,11 +4,13 @@
  *
  * Formula: the root of the mean, over `lines` random lines, of (#{x_i above the line}/n - area above)^2; its standard
  * error is the standard error of the mean of the squares, divided by twice the value.
- * Source: Mitchell 1992, section 5, where lines=10000. With skip=1 the first point is never counted while n is
- * unchanged: this reproduces the paper's table 4 to within its noise (presumably its loop began at 1).
+ * Source: Mitchell 1992, section 5, where lines=10000. With skip=1 the first point is never counted, although n
+ * includes it. This reproduces the paper's table 4 to within its noise; presumably the loop of the paper's program
+ * began at 1.
  * Known exactly: E(square) is the square of l2-edge (skip=0).
- * Limits: the value is random; equal seeds give equal bits.
- * In 3 dimensions random planes through the cube replace the lines, with the isotropic distribution only.
+ * Limits: the value is random; equal seeds
+ * give equal bits. In 3 dimensions random planes through the cube replace the lines, with the isotropic distribution
+ * only.
  */
 #include <stdlib.h>
 
@@ -26,7 +28,7 @@ typedef struct job {
     koksma__line_law law;
     size_t lines, n, skip;
     uint64_t seed;
-    const double *points; /* used in 3 dimensions only */
+    const double *points; /* the points; used only in 3 dimensions */
     double *x, *y;
     double *squares;
 } job;
@@ -42,8 +44,8 @@ static koksma_status sample_block(void *context, size_t block)
         }
         koksma__kernels()->count_below(j->n - j->skip, j->x + j->skip, j->y + j->skip, a, b, c, counts);
         for (size_t l = 0; l < LANES && first + l < end; l++) {
-            /* #below/n - area below is minus the deviation above the line; skipped points, never above, count as
-               below. */
+            /* The fraction of points below the line minus the area below it is the negative of the deviation above.
+               Skipped points are never above, so they count as below. */
             const double below = counts[l] + (double)j->skip;
             const double deviation = below / (double)j->n - koksma__area_below(a[l], b[l], c[l]);
             j->squares[first + l] = deviation * deviation;
@@ -107,7 +109,7 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_edge_sampled = {
     .name = "edge-sampled",
-    .title = "L2 discrepancy of half-planes or half-spaces from sampled lines or planes",
+    .title = "L2 discrepancy of half-planes or half-spaces, estimated from random lines or planes",
     .cite = "mitchell1992",
     .cost = "lines n",
     .family = KOKSMA_FAMILY_EDGES,

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * extreme: the largest absolute difference, over all axis-parallel boxes, between the share of points in the box and
- * its volume. It is T ("Stroud's discrepancy") in Shirley 1991. Turning the points by 90 degrees does not change it.
+ * its volume. It is T ("Stroud's discrepancy") in Shirley 1991. Rotating the points by 90 degrees does not change the
+ * value.
  *
  * Formula: T = sup over boxes of |#{x_i in box}/n - volume|. The largest excess is reached at a closed box whose
  * sides are at coordinates of points, the largest deficit at an open box whose sides are at coordinates of points, 0
  * or 1. A point with a coordinate of exactly 0 is outside an open box that starts at 0.
  * Source: Stroud 1971; Shirley 1991, section 5.5.7. With grid=20 only half-open boxes with sides at multiples of 1/20
- * are tried; this is the procedure behind Shirley's table 5.7, as inferred from its value for the regular grid,
- * 0.3600, where the supremum is 0.4375.
- * Known exactly: 4 x 4 cell centres T = 7/16, with grid=20 0.36; a single point T = 1; Hammersley 1024 0.006079674.
- * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16. If a time limit ends the search, the
- * result is a lower and an upper bound; in 3D the upper bound is 1.
+ * are tried; this seems to be the procedure of Shirley's table 5.7, whose value for the regular grid is 0.3600, while
+ * the supremum is 0.4375.
+ * Known exactly: 4 x 4 cell centres have T = 7/16 (0.36 with grid=20); a single point has T = 1; Hammersley 1024
+ * 0.006079674.
+ * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16. If a
+ * time limit ends the search, the result is a lower and an upper bound; in 3D the upper bound is 1.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -21,12 +23,12 @@
 #include "measures/measures.h"
 #include "measures/shared/extreme.h"
 
-/* With `grid`, one pass along the rows of the grid for each pair of columns keeps the lowest and the highest value so
-   far of #points below the row / n - area below the row; the best box that ends at a row has the value of that row
-   less one of these two. */
+/* With `grid`, there is one pass along the rows of the grid for each pair of columns. It stores the lowest and the
+   highest value so far of (number of points below the row) / n - area below the row; the best box that ends at a row
+   has the value of that row minus one of these two. */
 
-/* The cell of x: the largest c with c/grid <= x, compared as doubles. For x = 1, which no half-open box contains, it
-   is `grid`. */
+/* Returns the index of the cell of x: the largest c with c/grid <= x, compared as doubles. For x = 1, which no
+   half-open box contains, it returns `grid`. */
 static int cell_of(double x, int grid)
 {
     int c = (int)(x * grid);
@@ -48,7 +50,8 @@ static void keep(koksma_value *out, double value, size_t count, const int box[4]
     out->witness = (koksma_witness){.kind = KOKSMA_WITNESS_BOX, .dim = 2, .count = count, .closed = true};
     for (int k = 0; k < 2; k++) {
         out->witness.lo[k] = (double)box[k] / grid;
-        out->witness.hi[k] = nextafter((double)box[2 + k] / grid, 0); /* boxes are half-open */
+        out->witness.hi[k] = nextafter((double)box[2 + k] / grid, 0); /* the box is half-open: its upper side is
+                                                                         excluded */
     }
     out->witness.volume = (double)(box[2] - box[0]) * (box[3] - box[1]) / ((double)grid * grid);
 }
@@ -79,14 +82,15 @@ static void best_of_columns(const size_t *counts, int grid, double n, int a, int
     }
 }
 
-/* The largest |#/n - area| over half-open boxes with sides at multiples of 1/grid; 2D only. O(n + grid^3). Errors:
-   DIM, MEMORY, INTERRUPTED. */
+/* Computes the largest |count/n - area| over half-open boxes with sides at multiples of 1/grid; only in 2D. O(n +
+   grid^3). Errors: DIM, MEMORY, INTERRUPTED. */
 static koksma_status extreme_grid(const koksma_points *points, int grid, const koksma_run *run, koksma_value *out)
 {
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "extreme:grid: it has no %d-dimensional form, only dim = 2",
                     points->dim);
     const size_t m = (size_t)grid;
-    size_t *counts = calloc((m + 1) * (m + 1), sizeof *counts); /* by column line and row: points left of the line */
+    size_t *counts = calloc((m + 1) * (m + 1), sizeof *counts); /* counts[c * m + r]: number of points in row r left
+                                                                   of line c */
     KOKSMA__REQUIRE_MEMORY(counts, (m + 1) * (m + 1) * sizeof *counts);
     for (size_t i = 0; i < points->n; i++) {
         const int cx = cell_of(points->xs[2 * i], grid), cy = cell_of(points->xs[2 * i + 1], grid);
@@ -119,7 +123,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"grid", "half-open boxes with sides at multiples of 1/grid only (2D); 0: all boxes, exactly", 0, 0, 4096, NULL,
+    {"grid", "use only half-open boxes with sides at multiples of 1/grid (2D); 0: use all boxes", 0, 0, 4096, NULL,
      true},
     {0},
 };

@@ -6,10 +6,10 @@
  *     c^d - (2/n) sum_i prod_k a(x_ik) + (1/n^2) sum_ij prod_k K(x_ik, x_jk),
  *     a(u) = int_0^1 K(u, v) dv,  c = int_0^1 a(u) du.
  *
- * They differ in K alone, whose coefficients are in the row (see measures/shared/l2.h); shared/l2.c chooses the
- * method by n and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or have 106 bits,
- * and the relative error of the value is 1e-11 at 10^6 points; in more dimensions the error of the square is about
- * 1e-16 of its terms (l2-star: 1e-17).
+ * They differ only in the kernel K, whose coefficients are in the table row (see measures/shared/l2.h); shared/l2.c
+ * chooses the method by n and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or
+ * have 106 bits, and the relative error of the value is 1e-11 for 10^6 points. In more dimensions the error of the
+ * square is about 1e-16 times its terms (l2-star: 1e-17).
  */
 #include "measures/l2_boxes.h"
 
@@ -58,16 +58,16 @@ L2(star, "L2 star discrepancy (root mean square over anchored boxes)",
 
 /*
  * l2-extreme: the root of the integral, over all boxes [lo, hi) with lo < hi in every coordinate, of the squared
- * difference between the share of points in the box and its volume. Multiplied by 2^(d/2) it is the root mean square
- * over these boxes.
+ * difference between the share of points in the box and its volume. The value multiplied by 2^(d/2) is the root mean
+ * square over these boxes.
  *
  * Formula: 12^-d - (2/n) sum_i prod_k x(1-x)/2 + (1/n^2) sum_ij prod_k (1 - max) min, where x, max and min are taken
  * in coordinate k.
  * Source: Morokoff and Caflisch 1994, who call it T_N.
  * Known exactly: one point at the centre of the square, square = 11/288; random points, E = (6^-d - 12^-d)/n.
  */
-L2(extreme, "L2 discrepancy over all boxes lo < hi, not divided by their measure", "morokoff1994 hickernell1998",
-   false, 1, .a24 = {3, 0, -12, 0}, .g = {0.125, 0, -0.5, 0}, .q = -0.5, .r = 0.5);
+L2(extreme, "L2 discrepancy over all boxes [lo, hi): root of the integral, not of the mean",
+   "morokoff1994 hickernell1998", false, 1, .a24 = {3, 0, -12, 0}, .g = {0.125, 0, -0.5, 0}, .q = -0.5, .r = 0.5);
 
 /*
  * l2-periodic: the root mean square, over boxes on the torus whose start and length in each coordinate are uniform,
@@ -105,8 +105,8 @@ L2(modified, "modified L2 discrepancy (L2 star over all projections)", "hickerne
    .a24 = {33, -12, -12, 0}, .g = {0.75, -0.5, 0, 0}, .q = -0.5, .r = 0);
 
 /*
- * l2-centered: l2-modified with boxes that extend from a point to the nearest corner of the cube in place of the
- * origin. Reflecting the points about any plane x_k = 1/2 does not change it.
+ * l2-centered: like l2-modified, but each box extends from a point to the nearest corner of the cube instead of to
+ * the origin. Reflecting the points about any plane x_k = 1/2 does not change it.
  *
  * Formula: (13/12)^d - (2/n) sum_i prod_k (1 + h/2 - h^2/2) + (1/n^2) sum_ij prod_k (1 + (h_i + h_j - t)/2), with h =
  * |x_ik - 1/2|, t = |x_ik - x_jk|.

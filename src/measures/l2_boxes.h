@@ -4,7 +4,7 @@
 
 #include "measures/shared/l2.h"
 
-/* The table row of a measure of l2_boxes.c; NULL for any other measure. */
+/* Returns the table row of a measure in l2_boxes.c, or NULL for any other measure. */
 const koksma__l2_row *koksma__l2_row_of(const koksma_measure *measure);
 
 #endif

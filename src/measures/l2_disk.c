@@ -20,9 +20,9 @@
  * (pi/12 - pi^2/80)/n for radius and (pi/8 - pi^2/48)/n for area. One point and a fixed radius: the square is pi r^2
  * (1 - pi r^2). For balls and random points, with v the volume of the largest ball, the mean of the square is v (1 -
  * v)/n for fixed, (v/4 - v^2/7)/n for radius and (v/2 - v^2/3)/n for area.
- * Limits: the two terms are near c and cancel; sums are compensated over rows and have errors of about 1e-15 of c, so
- * that the value has 9 correct digits at 10^5 well-spread points. For r <= 1/8 a grid of cells skips pairs of points
- * that are too far apart to overlap.
+ * Limits: the two terms are near c and cancel. Sums over rows are compensated and have errors of about 1e-15 c; for
+ * 10^5 evenly spread points the value has 9 correct digits. For r <= 1/8 a grid of cells skips pairs of points that
+ * are too far apart to overlap.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -38,23 +38,23 @@
 enum { BLOCK = 64, MIN_COLUMNS = 4 };
 
 typedef struct pairs {
-    koksma__torus_cells cells; /* used in the plane */
-    const double *points;      /* used in 3 dimensions, else NULL */
+    koksma__torus_cells cells; /* the points in 2D */
+    const double *points;      /* the points in 3D; NULL in 2D */
     size_t n;
     int law;
     double r;
     koksma__sum *blocks;
 } pairs;
 
-/* The sum of the overlaps of disk i with disks first .. last-1, in the order of the cells. */
+/* Returns the sum of the overlaps of disk i with disks first .. last-1, in the order of the cells. */
 static double span(const pairs *p, size_t i, size_t first, size_t last)
 {
     const double *xs = p->cells.xs, *ys = p->cells.ys;
     return koksma__kernels()->disk_overlaps(p->law, p->r, xs[i], ys[i], last - first, xs + first, ys + first);
 }
 
-/* The sum of the overlaps of ball i with balls 0 .. i - 1 and their periodic copies. Along each axis only the two
-   nearest copies can be less than 1 away. */
+/* Returns the sum of the overlaps of ball i with balls 0 .. i - 1 and their periodic copies. Along each axis only the
+   two nearest copies can be less than 1 away. */
 static double balls_before(const pairs *p, size_t i)
 {
     koksma__sum sum = {0};
@@ -76,8 +76,8 @@ static double balls_before(const pairs *p, size_t i)
     return koksma__sum_value(&sum);
 }
 
-/* Adds the overlaps of disk i with those nearby, so that each pair is counted once: with the disks before it in its
-   own cell, with the next cell of the row, and with three cells of the next row. */
+/* Adds the overlaps of disk i with nearby disks: those before it in its own cell, those in the next cell of the row,
+   and those in three cells of the next row. Thus each pair is counted once. */
 static void add_near(const pairs *p, size_t i, size_t cell, koksma__sum *sum)
 {
     const size_t *start = p->cells.start, columns = p->cells.columns;
@@ -158,7 +158,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     return status;
 }
 
-/* Sums over all pairs of points and, along each axis, over the two nearest periodic copies, which alone are less than
+/* Sums over all pairs of points, with the two nearest periodic copies along each axis; all other copies are at least
    1 away. */
 static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
 {
@@ -191,8 +191,10 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
 }
 
 static const koksma_param params[] = {
-    {"r", "the radius, or the largest radius; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL, false},
-    {"law", "fixed radius, radius uniform, or area (volume) uniform", 0, 0, 2, koksma__disk_laws, true},
+    {"r", "radius of the disks, or the largest radius if it is random; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL,
+     false},
+    {"law", "law of the radius: fixed, uniform, or such that the area (volume) is uniform", 0, 0, 2,
+     koksma__disk_laws, true},
     {0},
 };
 
@@ -200,7 +202,7 @@ const koksma_measure koksma__measure_l2_disk = {
     .name = "l2-disk",
     .title = "L2 discrepancy of disks or balls on the torus (root mean square over them)",
     .cite = "mitchell1992",
-    .cost = "n^2; in 2D n * points within 2r for r <= 1/8",
+    .cost = "n^2; in 2D with r <= 1/8, n times the mean number of points within 2r",
     .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
     .max_dim = 3,

@@ -8,10 +8,9 @@
  * square, C = int P. For isotropic lines sigma = |x - y|/2 and C = (2 + sqrt 2 + 5 asinh 1)/30; for law=mitchell,
  * with a >= b the larger and smaller of |dx| and |dy|, sigma = ((a + b) ln(1 + b/a) + a - b)/2 and C = (8/15) ln 2 -
  * 1/9. P has a closed form (measures/shared/lines.c).
- * Source: Mitchell 1992, section 5; the pairwise form as in Alexander 1990.
- * In 3 dimensions planes through the unit cube take the place of lines, with the isotropic distribution only:
- * sigma = |x - y|/3, and C is a third of the mean distance of two points of the cube (Robbins 1978), which is
- * .6617... (measures/shared/planes.c).
+ * Source: Mitchell 1992, section 5; the formula as a sum over pairs is from Alexander 1990. In 3 dimensions planes
+ * through the unit cube replace the lines, only with the isotropic distribution: sigma = |x - y|/3, and C is a third
+ * of the mean distance of two points of the cube (Robbins 1978), which is .6617... (measures/shared/planes.c).
  * Known exactly: random points, E(L^2) = C/(2n). L does not depend on which side of the line is counted.
  * Limits: the terms are near 0.26 and cancel; with compensated sums the error of the square is about 1e-16.
  */
@@ -31,7 +30,7 @@ enum { ROWS_PER_BLOCK = 64 };
 typedef struct job {
     koksma__line_law law;
     size_t n;
-    const double *points; /* used in 3 dimensions only */
+    const double *points; /* the points; used only in 3 dimensions */
     double *x, *y;
     koksma__sum *pairs, *potentials;
 } job;
@@ -122,8 +121,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     return status;
 }
 
-/* By the derivatives of sigma and P. In the sum over all i and j each pair occurs twice, which cancels the factor
-   1/2. */
+/* Computes the gradient from the derivatives of sigma and P. In the sum over all i and j each pair occurs twice,
+   which cancels the factor 1/2. */
 static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
 {
     const size_t dim = (size_t)points->dim;

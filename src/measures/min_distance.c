@@ -5,7 +5,8 @@
  *
  * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in space.
  * Source: Lagae and Dutre 2008, who compare Poisson disk patterns by it; see relative-radius.
- * Known exactly: two points at (0,0) and (1/2,1/2): 1/sqrt 2; m x m centres 1/m, also m^dim centres.
+ * Known exactly: the points (0,0) and (1/2,1/2) have 1/sqrt 2; m x m cell centres have 1/m, and so have m^dim
+ * centres.
  * Limits: for a single point the measure fails with KOKSMA_N. The value is exact to rounding.
  */
 #include <math.h>
@@ -26,9 +27,9 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_min_distance = {
     .name = "min-distance",
-    .title = "smallest distance between two points (larger is better)",
+    .title = "smallest distance between two points (larger values are better)",
     .cite = "lagae2008",
-    .cost = "n, or n log n for clustered points; above 2D n log n to n^2",
+    .cost = "n, or n log n for clustered points; from 3D on between n log n and n^2",
     .min_dim = 2,
     .max_dim = KOKSMA__CLOSEST_DIM,
     .params = params,

@@ -10,12 +10,15 @@
  *     dim  2             3            4    5            6            7     8
  *     c    1/(2 sqrt 3)  1/(4 sqrt 2) 1/8  1/(8 sqrt 2) 1/(8 sqrt 3) 1/16  1/16
  *
- * These are the hexagonal lattice, D3 (face-centred cubic), D4, D5, E6, E7 and E8. They are the densest packings in 2, 3
- * and 8 dimensions (Fejes Toth 1940, Hales 2005, Viazovska 2017) and the densest lattices in 4 to 7, where no denser
- * packing is known. Other dimensions have no such measure.
- * Source: Lagae and Dutre 2008, in the plane; c: Conway and Sloane 1999.
- * Known exactly: m x m centres sqrt(sqrt(3)/2) = 0.9306; with dim >= 3, the lattices' own points 1.
- * Limits: as for min-distance. A few points may have more than 1 with torus=0, where none are beyond the sides.
+ * These are the hexagonal lattice, D3 (face-centred cubic), D4, D5, E6, E7 and E8. They are the densest packings in
+ * 2, 3 and 8 dimensions (Fejes Toth 1940, Hales 2005, Viazovska 2017). In 4 to 7 dimensions they are the densest
+ * lattices, and no denser packing is known. The measure does not exist in other dimensions.
+ * Source: Lagae and Dutre
+ * 2008, in the plane; c: Conway and Sloane 1999.
+ * Known exactly: m x m cell centres have sqrt(sqrt(3)/2) = 0.9306; for dim >= 3 the points of the lattices above have
+ * 1.
+ * Limits: as for min-distance. With torus=0 a small set can have a value above 1,
+ * because there are no points beyond the sides.
  */
 #include <math.h>
 
@@ -45,9 +48,9 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_relative_radius = {
     .name = "relative-radius",
-    .title = "smallest distance over that of the densest packing (larger is better)",
+    .title = "smallest distance divided by that of the densest packing (larger values are better)",
     .cite = "lagae2008 conway1999",
-    .cost = "n, or n log n for clustered points; above 2D n log n to n^2",
+    .cost = "n, or n log n for clustered points; from 3D on between n log n and n^2",
     .min_dim = 2,
     .max_dim = 8,
     .params = params,

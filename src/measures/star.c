@@ -30,7 +30,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     if (points->dim <= 2) {
         return koksma__star_2d(points, args->run, out);
     }
-    /* Starting from a good value allows most of the partition to be skipped. */
+    /* The partition starts from a good value, so that most of it can be skipped. */
     const double half_s = koksma__deadline_s(args->run, 0.5), end_s = koksma__deadline_s(args->run, 0.95);
     bool complete = false;
     const size_t steps = points->n / 5 < FIRST_STEPS ? points->n / 5 : FIRST_STEPS;

@@ -3,13 +3,13 @@
  * star-lower: a lower bound of the star discrepancy by a random search for a box with a large difference. It is for
  * many dimensions, where finding the worst box is NP-hard.
  *
- * Formula: the largest |#{x_i in box}/n - volume| that threshold accepting finds over anchored boxes (see star.c).
- * Source: Gnewuch, Wahlstrom and Winzen 2012; measures/shared/star_search.c describes where this search differs.
- * Known exactly: it never exceeds star, except in the last bit by rounding. In measurements
- * (docs/findings/star-lower.md) the default search reached star in all of 360 sets of 12 patterns, with 64 to 2000
- * points in 2 to 5 dimensions and 50 to 200 points in 6 to 8.
- * Limits: the witness, which is given up to 16 dimensions, proves the bound. The distance to the supremum is unknown,
- * so the upper bound is 1.
+ * Formula: the largest |#{x_i in box}/n - volume| that threshold accepting finds among anchored boxes (see star.c).
+ * Source: Gnewuch, Wahlstrom and Winzen 2012; measures/shared/star_search.c describes the differences of this search.
+ * Known exactly: the value never exceeds that of the measure star, except in the last bit by rounding. In
+ * measurements (docs/findings/star-lower.md) the default search reached star in all of 360 sets of 12 patterns, with
+ * 64 to 2000 points in 2 to 5 dimensions and 50 to 200 points in 6 to 8.
+ * Limits: the witness, which is given up to 16
+ * dimensions, proves the bound. The distance to the supremum is unknown, so the upper bound is 1.
  */
 #include "measures/measures.h"
 #include "measures/shared/deadline.h"
@@ -27,8 +27,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"steps", "steps of each walk", 1000, 1, 1e9, NULL, true},
-    {"restarts", "walks for the excess, and as many for the deficit", 10, 1, 1e6, NULL, true},
+    {"steps", "number of steps of each walk", 1000, 1, 1e9, NULL, true},
+    {"restarts", "number of walks for the excess, and also for the deficit", 10, 1, 1e6, NULL, true},
     {"seed", "seed of the search", 1, 0, 9007199254740992.0, NULL, true},
     {0},
 };

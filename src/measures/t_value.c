@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * t-value: the quality parameter of the points as a (t,m,s)-net in a base: the least t such that every elementary
- * interval of volume base^(t-m) holds base^t points. The best value is 0; the worst is m, as every set of points is
- * an (m,m,s)-net.
+ * interval of volume base^(t-m) holds base^t points. The best value is 0; the worst is m, because every set of points
+ * is an (m,m,s)-net.
  *
  * Formula: n = base^m; elementary intervals are products of [a/base^d, (a+1)/base^d), where the d of all coordinates
  * add up to m - t.
  * Source: Niederreiter 1987.
- * Known exactly: Hammersley's points in base 2: 0; n equal points: m.
+ * Known exactly: Hammersley's points have t = 0 in base 2; n equal points have t = m.
  * Limits: n must be a power of the base. A coordinate that is the double nearest to a/base^d counts as this fraction
- * (core/net.c); one that was rounded to fewer digits, as in a text file with six, may fall into the interval below. A
- * coordinate of 1 counts as in the last interval.
+ * (core/net.c). A coordinate that was rounded to fewer digits, as in a text file with six, may fall into the next
+ * lower interval. A coordinate of 1 counts as in the last interval.
  */
 #include "core/net.h"
 #include "core/status.h"
@@ -26,8 +26,9 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     koksma_status status = koksma__net_init(points, (size_t)base, &net);
     if (!status && net.powers[net.digits] != points->n) {
         const size_t below = net.powers[net.digits];
-        status = koksma__fail(KOKSMA_N, "t-value: n = %zu is not a power of base=%g; %zu and %.0f are", points->n,
-                              base, below, base * (double)below);
+        status =
+            koksma__fail(KOKSMA_N, "t-value: n = %zu is not a power of base=%g; the nearest powers are %zu and %.0f",
+                         points->n, base, below, base * (double)below);
     }
     for (int k = 0; k < points->dim; k++) {
         use[k] = k;

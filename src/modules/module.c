@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds and loads modules. They are searched beside the program or library that contains this code, in the folder
-   koksma/ beside an installed library, in the library folder of a program's prefix, and where the build installs
-   them, but never through a search path or an environment variable. */
+/* Finds and loads modules. They are searched in four places: beside the program or library that contains this code,
+   in the folder koksma/ beside an installed library, in the library folder of a program's prefix, and in the folder
+   where the build installs them. No search path and no environment variable is used. */
 #define _GNU_SOURCE /* for dladdr */
 #include "modules/module.h"
 
@@ -12,17 +12,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Folders with modules, relative to the folder of the library or program that contains this code. The second one
-   is for programs in folders below the build's. */
+/* Folders with modules, relative to the folder of the library or program that contains this code. The second folder
+   is for programs in subfolders of the build folder. */
 static const char *const PLACES[] = {"", "../", "koksma/", "../" KOKSMA_LIBDIR "/koksma/"};
 
 bool koksma__module_path(const char *name, char *path, size_t room)
 {
-    static const char here = 0; /* an address in the program or library that contains this code */
+    static const char here = 0; /* any address in the program or library that contains this code */
     Dl_info info;
     if (dladdr(&here, &info) && info.dli_fname) {
-        /* The name of a program may be the one by which it was called: without a folder, or relative to a folder
-           that it has left. realpath also resolves symbolic links. */
+        /* The name of the program may lack a folder, or be relative to a folder that the process has left. realpath
+           also resolves symbolic links. */
         char *object = strchr(info.dli_fname, '/') ? realpath(info.dli_fname, NULL) : NULL;
         object = object ? object : realpath("/proc/self/exe", NULL);
         const char *slash = object ? strrchr(object, '/') : NULL;
@@ -52,8 +52,8 @@ koksma_status koksma__module_missing(const koksma__module *module)
                         module->library);
 }
 
-/* Loads a module, which is never unloaded. Loading it twice is harmless: the loader counts, and the module stores
-   the same host again. */
+/* Loads a module, which is never unloaded. Loading a module again is harmless: the loader counts references, and the
+   module stores the same host again. */
 koksma_status koksma__module_load(const koksma__module *module, const void **functions)
 {
     char path[4096];
@@ -71,7 +71,7 @@ koksma_status koksma__module_load(const koksma__module *module, const void **fun
         return koksma__fail(KOKSMA_SYSTEM, "%s can't be loaded: %s", path, reason ? reason : "no reason given");
     }
     KOKSMA__FAIL_IF(strcmp(entry->release, KOKSMA_VERSION) != 0, KOKSMA_SYSTEM,
-                    "%s is of release %s, and this program of %s", path, entry->release, KOKSMA_VERSION);
+                    "%s is of release %s, but this program is of release %s", path, entry->release, KOKSMA_VERSION);
     *functions = entry->start(&module->host);
     return KOKSMA_OK;
 }

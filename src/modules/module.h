@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Modules are files koksma-NAME.so. Each contains the one source file (for OpenEXR, two) that includes an outside
- * library which takes long to load; a process loads a module when it first needs it
+ * Modules are files koksma-NAME.so. Each contains the source file (for OpenEXR: two) that uses an external library
+ * which takes long to load. A process loads a module when it first needs it
  * (docs/decisions/0029-modules-on-first-use.md). A module is not linked with Koksma's libraries, so that programs
- * with static libraries can load it, too: it calls the library through function pointers, the host.
+ * with static libraries can also load it. It calls Koksma through the struct `host` of function pointers.
  */
 #ifndef KOKSMA_MODULES_MODULE_H
 #define KOKSMA_MODULES_MODULE_H
@@ -15,29 +15,29 @@
 typedef struct koksma__host {
     koksma_status (*fail)(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
     koksma_status (*fail_memory)(size_t bytes);
-    /* further functions for this module, in a struct defined by a header that it shares with its caller */
+    /* further functions for this module: a struct that is defined in a header of the module and its caller */
     const void *functions;
 } koksma__host;
 
 /* The symbol koksma__entry that a module exports. start stores the host and returns the module's functions. */
 typedef struct koksma__module_entry {
-    const char *release; /* KOKSMA_VERSION of the module: another release than the library's is rejected */
+    const char *release; /* KOKSMA_VERSION of the module; a module of another release than the library is rejected */
     const void *(*start)(const koksma__host *host);
 } koksma__module_entry;
 
 #define KOKSMA__MODULE_SYMBOL "koksma__entry"
 
 typedef struct koksma__module {
-    const char *name, *library; /* NAME in koksma-NAME.so; the outside library's name, for messages */
+    const char *name, *library; /* NAME in koksma-NAME.so; the name of the external library in messages */
     koksma__host host;
 } koksma__module;
 
 /* Returns the module's functions in *functions; the first call loads the module. Any thread may call it, any
-   number of times. Errors: UNSUPPORTED (there is no such file), SYSTEM (it can't be loaded, or is of another
+   number of times. Errors: UNSUPPORTED (the file does not exist), SYSTEM (it can't be loaded, or is of another
    release). */
 koksma_status koksma__module_load(const koksma__module *module, const void **functions);
 
-/* Whether the module's file exists where koksma__module_load looks for it. */
+/* Returns whether the module's file exists where koksma__module_load looks for it. */
 bool koksma__module_exists(const koksma__module *module);
 
 /* Fails with UNSUPPORTED and a text on how to install the module. */

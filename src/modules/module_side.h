@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Included by a module's sources after all other headers: makes calls of the library's functions go through the
+/* The sources of a module include this header after all others. It makes calls of Koksma's functions go through the
    table of functions that the host passes to the module. One source of each module contains KOKSMA__MODULE(its
    functions). */
 #ifndef KOKSMA_MODULES_MODULE_SIDE_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * best-candidate: each point is the best of some uniform random candidates: the one furthest, on the torus, from all
- * earlier points. The points are a sequence: fewer points are a prefix of more.
+ * best-candidate: each point is the best of several uniform random candidates: the one that is furthest, on the
+ * torus, from all earlier points. The points are a sequence: a smaller set is a prefix of a larger one.
  *
  *     x_k = argmax over c of min over j < k of |c - x_j|,   c one of min(candidates * k + 1, most) uniform points
  *
@@ -17,11 +17,11 @@
 
 enum { MAX_DIM = 8, LOOKS = 1 << 24 };
 
-/* The squared distance from x to the nearest of the points; once that is at most `enough`, any value at most `enough`
-   may be returned. */
+/* Returns the squared distance from x to the nearest of the points. If this is at most `enough`, the function may
+   return any value up to `enough`. */
 static double nearest(const koksma_points *out, size_t placed, const double *x, double enough)
 {
-    double best = INFINITY; /* squared distances on the torus go up to dim / 4 */
+    double best = INFINITY; /* squared distances on the torus are at most dim / 4 */
     for (size_t i = 0; i < placed && best > enough; i++) {
         double sum = 0;
         for (int k = 0; k < out->dim; k++) {
@@ -82,14 +82,14 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"candidates", "candidates for each earlier point", 1, 1, 100, NULL, true},
+    {"candidates", "number of candidates for each earlier point", 1, 1, 100, NULL, true},
     {"most", "largest number of candidates for a point", 1000, 1, 1 << 20, NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_best_candidate = {
     .name = "best-candidate",
-    .title = "each point the furthest of some random candidates",
+    .title = "each point is the random candidate furthest from all earlier points",
     .cite = "mitchell1991",
     .min_dim = 1,
     .max_dim = MAX_DIM,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * cascaded-sobol: n = 2^m points, where each coordinate, as a whole number below n, is the index into the
- * one-dimensional Sobol' sequence that gives the next coordinate. Every two consecutive coordinates are thus a
+ * one-dimensional Sobol' sequence that gives the next coordinate. Every pair of consecutive coordinates is thus a
  * (0,m,2)-net in base 2.
  *
  *     y_0 = the m bits of i reversed,  y_k+1 = the first m digits of dimension k + 2 of Sobol' at index y_k,
@@ -9,8 +9,8 @@
  *
  * Source: Paulin, Coeurjolly, Iehl, Bonneel, Keller & Ostromoukhov 2021. The paper optimises the direction numbers;
  * this file uses those of Joe & Kuo 2008. For any direction numbers, a one-dimensional digital sequence paired with
- * its index is a (0,m,2)-net (Niederreiter 1987). Coordinates have m binary digits: the modifier owen scrambles these
- * and adds random digits below them. All points depend on n.
+ * its index is a (0,m,2)-net (Niederreiter 1987). Coordinates have m binary digits; the modifier owen scrambles these
+ * and adds random digits below them. All points change with n.
  */
 #include <stdlib.h>
 
@@ -48,7 +48,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_cascaded_sobol = {
     .name = "cascaded-sobol",
-    .title = "n = 2^m points, each two consecutive coordinates a (0,m,2)-net: one Sobol' dimension indexes the next",
+    .title = "n = 2^m points whose pairs of consecutive coordinates are (0,m,2)-nets: each coordinate is an index "
+             "into the next Sobol' dimension",
     .cite = "paulin2021 joe2008 niederreiter1987",
     .min_dim = 1,
     .max_dim = KOKSMA__SOBOL_DIM,

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * correlated-multi-jittered: multi-jittered points with one permutation of the rows shared by all columns and one of
- * the columns shared by all rows, in random order. Each point is computed from hashes alone, without the others.
+ * correlated-multi-jittered: multi-jittered points in random order, in which all columns share one permutation of the
+ * rows, and all rows share one permutation of the columns. Each point is computed only from hashes, without the other
+ * points.
  *
  *     x = (c + (p(j) + u) / r) / m,   y = (j + (q(c) + v) / m) / r,   (c, j) = the cell of the permuted index
  *
  * Source: Kensler 2013; the permutation is that of koksma/sampler.h. columns=0 takes the largest divisor of n that is
- * at most sqrt(n). Permutations of up to 8 rows, columns or points are not quite uniform: the probabilities of where
- * two elements go are off by 0.4 to 1.6 % (root mean square over the pairs; at most 7 %, for 6 elements), those of
- * where one element goes by 0.4 % for 3 elements and by 0.1 % for 5 to 7.
+ * at most sqrt(n). Permutations of up to 8 rows, columns or points are not quite uniform. The probabilities of the
+ * positions of two elements are wrong by 0.4 to 1.6 % (root mean square over the pairs; at most 7 %, for 6 elements),
+ * those of the position of one element by 0.4 % for 3 elements and by 0.1 % for 5 to 7.
  */
 #include <koksma/sampler.h>
 
@@ -24,10 +25,10 @@
 
 enum { FEW = 256, BLOCK = 256 };
 
-/* The grid and its permutations, which koksma_cmj_2d of koksma/sampler.h computes anew for each point; here they are
-   computed once for all points. */
+/* The grid and its permutations, computed once for all points. (koksma_cmj_2d of koksma/sampler.h computes them for
+   each point.) */
 typedef struct grid {
-    uint64_t seed, key; /* key: of the permutation that orders the points */
+    uint64_t seed, key; /* key: the key of the permutation that orders the points */
     uint32_t columns, rows;
     uint32_t *in_column, *in_row; /* the permutations p, of `rows` numbers, and q, of `columns` */
 } grid;
@@ -45,7 +46,8 @@ static void place(const void *context, size_t first, size_t count, bool stream, 
         kernels->permute((uint32_t)first, some, (uint32_t)out->n, g->key, cell);
         kernels->uniform(g->seed, KOKSMA__PURPOSE_POINT, first, 0, some, xs);
         for (size_t i = 0; i < some; i++, xs += 2) {
-            /* cell / columns: adding half a cell absorbs the rounding error of the product with the inverse. */
+            /* Returns cell / columns rounded down. The added half absorbs the rounding error of the product with the
+               inverse. */
             const uint32_t row = (uint32_t)(int32_t)((cell[i] + 0.5) * inverse), column = cell[i] - row * g->columns;
             xs[0] = koksma_place((double)(column * g->rows + g->in_column[row]), xs[0], cells);
             xs[1] = koksma_place((double)(row * g->columns + g->in_row[column]), xs[1], cells);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * dart-throwing: exactly n points by dart throwing on the torus, no two closer than a fraction f of the distance of
- * the densest packing, the hexagonal one:
+ * dart-throwing: exactly n points by dart throwing on the torus. No two points are closer than f times the smallest
+ * distance in the densest (hexagonal) packing:
  *
  *     d = f sqrt(2 / (sqrt 3 n))
  *
@@ -24,7 +24,7 @@
 
 enum { RESTARTS = 200 };
 
-#define SPARSE 0.4 /* below this f the disks of radius d cover less than 3.63 f^2 = 0.58 of the torus */
+#define SPARSE 0.4 /* for smaller f the disks of radius d cover less than 3.63 f^2 = 0.58 of the torus */
 
 static koksma_status throw_one_by_one(uint64_t seed, double d, const koksma_run *run, koksma_points *out)
 {
@@ -70,16 +70,16 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             return status;
         }
         if (restart >= 5 && (double)most < 0.97 * (double)out->n - 1) {
-            break; /* far from n after 6 tries: further ones would not succeed */
+            break; /* after 6 tries that end far from n points, further tries would fail, too */
         }
     }
     return koksma__fail(KOKSMA_IMPOSSIBLE,
-                        "dart-throwing: f=%g jams at %zu of %zu points; dart throwing gets to about f=%.2g", f, most,
-                        out->n, out->n < 100 ? 0.7 : 0.76);
+                        "dart-throwing: f=%g jams at %zu of %zu points; dart throwing reaches at most about f=%.2g",
+                        f, most, out->n, out->n < 100 ? 0.7 : 0.76);
 }
 
 static const koksma_param params[] = {
-    {"f", "smallest distance as a fraction of the densest packing's", 0.75, 0.01, 1, NULL, false},
+    {"f", "smallest distance as a fraction of that of the densest packing", 0.75, 0.01, 1, NULL, false},
     {0},
 };
 

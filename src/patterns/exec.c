@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * exec: the points that a program prints, named exec:PROGRAM. To generate a set, the program is run as
+ * exec: the points that a program prints; the spec is exec:PROGRAM. To generate a set, the program is run as
  *
  *     PROGRAM n dim seed          three whole numbers, in decimal
  *
  * without a shell and without a search path. It must print n points of dim coordinates in [0,1) to standard output:
  * text with one point on each line, or a .npy file. The program is run twice, and the points of both runs have to be
- * equal: all of Koksma assumes that a set is a pure function of its arguments, and a sampler seeded by the clock
- * would give results that nobody can repeat.
+ * equal. All of Koksma assumes that a set is a pure function of its arguments; results of a sampler that is seeded by
+ * the clock could not be reproduced.
  *
  * Limits: the time limit set by koksma_allow_exec, 8 GiB of data for each process, and 64 bytes of output for each
- * coordinate plus 64 KiB. core/child.c documents how it makes sure that no process is left running.
+ * coordinate plus 64 KiB. core/child.c documents how all processes of the program are ended.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -86,8 +86,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const size_t bytes = out->n * (size_t)out->dim * sizeof *out->xs;
     if (!status && memcmp(first.xs, second.xs, bytes) != 0) {
         status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s: run twice with n = %zu, dim = %d, seed = %" PRIu64
-                              ", it printed different points; they have to depend on nothing else",
+                              "%s: when run twice with n = %zu, dim = %d, seed = %" PRIu64
+                              ", it printed different points; they may depend only on n, dim and seed",
                               name, out->n, out->dim, seed);
     }
     if (!status) {
@@ -100,7 +100,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_exec = {
     .name = "exec",
-    .title = "the points that a program prints: exec:PROGRAM is run with n, dim and seed; only with --allow-exec",
+    .title = "points printed by a program: exec:PROGRAM is run with n, dim and seed; needs --allow-exec",
     .cite = "-",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

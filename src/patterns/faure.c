@@ -54,7 +54,7 @@ static bool ranges(const double *params)
 static const char *const scrambles[] = {"none", "owen", NULL};
 
 static const koksma_param params[] = {
-    {"scramble", "none or owen (nested, in base b, exact)", NONE, NONE, OWEN, scrambles, true},
+    {"scramble", "scrambling: none, or owen (exact nested scrambling in base b)", NONE, NONE, OWEN, scrambles, true},
     {0},
 };
 

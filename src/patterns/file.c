@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * file: points from a .txt, .csv or .npy file, named file:PATH. A request for n points returns the file's first n,
- * one for dim dimensions the file's first dim coordinates. Each call reads the file anew, and the plan of a study may
- * name it, so it has to be a regular file, not a pipe.
+ * file: points from a .txt, .csv or .npy file; the spec is file:PATH. A set of n points in dim dimensions has the
+ * first n points of the file, and their first dim coordinates. The file has to be a regular file, not a pipe, because
+ * each call reads it again.
  *
  *     x_i = row i of the file, cut to dim columns
  *
@@ -33,11 +33,12 @@ static koksma_status read_set(size_t n, uint64_t seed, const koksma_args *args, 
         status = koksma__fail(KOKSMA_DIM, "file:%s: its points have %d dimensions, not %d", path, out->dim, dim);
     }
     if (!status && n && out->n != n && koksma__file_has(args->path, "{n}")) {
-        status = koksma__fail(KOKSMA_MALFORMED, "file:%s: %s has %zu points, not the %zu of its name", args->path,
-                              path, out->n, n);
+        status = koksma__fail(KOKSMA_MALFORMED, "file:%s: %s has %zu points, but its name says %zu", args->path, path,
+                              out->n, n);
     }
     if (!status && dim && dim < out->dim) {
-        for (size_t i = 0; i < out->n * (size_t)dim; i++) { /* in place: no number is overwritten before it is read */
+        for (size_t i = 0; i < out->n * (size_t)dim; i++) { /* copied within one array: no number is overwritten
+                                                               before it is read */
             out->xs[i] = out->xs[i / (size_t)dim * (size_t)out->dim + i % (size_t)dim];
         }
         out->dim = dim;
@@ -77,7 +78,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_file = {
     .name = "file",
-    .title = "the points of a file: file:PATH (.txt, .csv, .npy); {n} and {seed} in PATH: a file for each",
+    .title = "points read from a file: file:PATH (.txt, .csv, .npy); with {n} or {seed} in PATH there is a file for "
+             "each n and seed",
     .cite = "-",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

@@ -6,22 +6,24 @@
  *     energy = sum over i != j of exp(-d_ij^2 / (2 s^2)),   s = sigma / sqrt n
  *
  * Source: Ahmed, Ren & Wonka 2022. In 3 to 6 dimensions s = sigma n^(-1/dim), and shared/space_forces.c computes the
- * forces; what follows is about the plane. A step moves a point by step * (sum of unit-scaled forces), where the
- * forces are cut off at the distance 5 s, and by a part of its last move, the momentum (heavy ball, Polyak 1964): 0.9
- * for the first 128 steps, which settle the stiff modes, then 0.98, which makes the slow modes converge five times
- * faster. All points move at once, so that their order does not matter.
+ * forces; the rest of this comment describes the plane. A step moves a point by step * (sum of forces in units of s),
+ * where forces beyond the distance 5 s are ignored, and by a fraction of its last move (the momentum of the heavy
+ * ball method, Polyak 1964). This fraction is 0.9 for the first 128 steps, in which the stiff modes converge, and
+ * then 0.98, with which the slow modes converge five times faster. All points move simultaneously, so that their
+ * order does not matter.
  *
  * With steps=0 the descent ends when the root mean square of the forces is below 2e-5 sigma^2 / sqrt n, or when it
- * has not fallen by a tenth for 200 steps. The limit is about 1e-5 of the root mean square for independent points,
- * sqrt(pi) sigma^2 / sqrt n; the cut-off alone makes 1.1e-5 of that. The descent takes at least 400 steps, because a
- * few points near a saddle feel almost no force, and at most 2,000. It takes about 600 for 64 points and more at
- * sigma = 1, and up to 2,000 at sigma < 0.6. At n = 1024 the mean power at frequencies below 0.75 sqrt n is 0.0015;
- * with a momentum of 0.9 throughout, it is the same after 2,000 steps and 0.0090 after 400.
+ * has not decreased by 10 % within 200 steps. The limit is about 1e-5 of the root mean square for independent points,
+ * which is sqrt(pi) sigma^2 / sqrt n; the error of the cut-off is 1.1e-5 of it. The descent takes at least 400 steps,
+ * because a few points near a saddle feel almost no force, and at most 2,000. At sigma = 1 it takes about 600 steps
+ * for 64 and more points, and at sigma < 0.6 up to 2,000. At n = 1024 the mean power at frequencies below 0.75 sqrt n
+ * is 0.0015; with a constant momentum of 0.9 this power is the same after 2,000 steps, but 0.0090 after 400.
  *
- * The forces that the cut-off leaves out, n integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s at
- * the points' mean density, bound how far they could move a point if all of them pulled the same way. With few
- * points, where 5 s > 1/2, all periodic images of a point within 5 s act: the torus is repeated in tiles x tiles
- * copies, which form a larger torus, wide enough for only the nearest image of a point to be within the cut-off.
+ * If all forces beyond the cut-off had the same direction, at the mean density of the points their sum would be n
+ * integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s. This bounds the error of a move. With few
+ * points, where 5 s > 1/2, several periodic images of a point are within 5 s and all exert forces. The torus is then
+ * repeated in tiles x tiles copies, which form a torus so large that only the nearest image of a point is within the
+ * cut-off.
  *
  * Limits of sigma: below about 0.13 the forces are too short to push points apart to half the distance of the densest
  * packing; from about 1.1 on, points that are close together feel nearly the same force, and many end at the same
@@ -48,14 +50,17 @@ enum { MOST_PAIRED = 20000 };
 
 typedef struct descent {
     int dim;
-    koksma__space_forces forces; /* in more dimensions than 2; rows, tiles, copies and places are of the plane */
+    koksma__space_forces forces; /* used in more than 2 dimensions; rows, tiles, copies and places are used in the
+                                    plane */
     koksma__torus_rows rows;     /* sorted positions of all copies; all tiles together have the width 1 */
-    size_t n, copies; /* points in one tile, and in all tiles, of which those of the first tile come first */
+    size_t n, copies; /* number of points in one tile, and in all tiles; the points of the first tile come first */
     double s, step, momentum, tiles, cut;
-    double limit;    /* of the square root of the sum of squares */
-    double *squares; /* squared force on each point; NULL with a fixed number of steps, which does not need it */
-    double least;    /* smallest sum of squares so far, replaced only where the root mean square falls by 10 % */
-    int wait;        /* steps since `least` was replaced */
+    double limit;    /* limit of the square root of the sum of squared forces */
+    double *squares; /* squared force on each point; NULL if the number of steps is fixed, because the forces then
+                        need no test */
+    double least;    /* smallest sum of squares so far; it is replaced only when the root mean square has decreased by
+                     10 % */
+    int wait;        /* number of steps since `least` was replaced */
     double *xs, *moves;
     double *places; /* positions of all points in all tiles; equal to xs if there is one tile */
 } descent;
@@ -129,8 +134,8 @@ static void lay_out(const descent *d)
     }
 }
 
-/* Whether the descent may end. The squares are summed in the order of the points, so that the result does not depend on
-   the number of threads. */
+/* Returns whether the descent may end. The squares are summed in the order of the points, so that the result does not
+   depend on the number of threads. */
 static bool converged(descent *d)
 {
     double sum = 0;
@@ -169,7 +174,8 @@ static koksma_status descend(descent *d, int steps, const koksma_run *run)
 }
 
 /* The limit is 1.13e-5 of the root mean square for independent points, s sqrt(dim/2) pi^(dim/4) sigma^(dim/2). The
-   stiffness of a crystal grows as (2 pi)^(dim/2), so that the step is divided by it, in units of the plane's. */
+   stiffness of a crystal grows as (2 pi)^(dim/2); the step is therefore divided by this number, relative to its value
+   in the plane. */
 static koksma_status generate_in_space(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const size_t n = out->n, numbers = n * (size_t)out->dim;
@@ -204,7 +210,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     }
     const size_t n = out->n;
     descent d = {.dim = 2, .n = n, .s = args->params[1] / sqrt((double)n), .step = args->params[2], .xs = out->xs};
-    d.limit = TOLERANCE * d.s * d.s * (double)n; /* square root of a sum of n squares */
+    d.limit = TOLERANCE * d.s * d.s * (double)n; /* this limit is for the square root of the sum of n squares */
     d.tiles = fmax(ceil(10 * d.s), 1);
     d.cut = 5 * d.s / d.tiles;
     d.copies = n * (size_t)(d.tiles * d.tiles);
@@ -226,10 +232,10 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"steps", "steps of the descent; 0: until it has converged, 2000 at most", 0, 0, 100000, NULL, true},
-    {"sigma", "of the Gaussian, in units of 1/sqrt n (in 3 dimensions 1/cbrt n, and so on)", 1, 0.15, 1.05, NULL,
-     false},
-    {"step", "distance that a point moves for each unit of force", 0.4, 0.001, 1, NULL, false},
+    {"steps", "number of steps of the descent; 0: until it has converged, at most 2000", 0, 0, 100000, NULL, true},
+    {"sigma", "standard deviation of the Gaussian in units of 1/sqrt n (in 3 dimensions 1/cbrt n, and so on)", 1,
+     0.15, 1.05, NULL, false},
+    {"step", "distance that a point moves per unit of force", 0.4, 0.001, 1, NULL, false},
     {0},
 };
 

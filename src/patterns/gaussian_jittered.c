@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * gaussian-jittered: one point in each cell of a grid, normally distributed about the cell's centre and truncated at
- * the cell's sides (the normal distribution given that the point is in the cell, so that no probability piles up on
- * the sides).
+ * the cell's sides (the conditional distribution given that the point is in the cell, so that no probability is
+ * concentrated on the sides).
  *
  *     x_k = (c_k + 1/2 + sigma z_k) / m,   z normal given |sigma z| < 1/2, by inverting its distribution function
  *
@@ -20,7 +20,7 @@
 #include "patterns/shared/fill.h"
 
 typedef struct bell {
-    double scale, erf_a; /* scale: sqrt(2) sigma; erf_a: erf(0.5 / scale) */
+    double scale, erf_a; /* scale is sqrt(2) sigma, erf_a is erf(0.5 / scale) */
     size_t along_x, along_rest;
 } bell;
 
@@ -54,13 +54,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 static const koksma_param params[] = {
     KOKSMA__PARAM_COLUMNS,
-    {"sigma", "standard deviation before the cut, in cell widths", 0.25, 0.001, 1000, NULL, false},
+    {"sigma", "standard deviation before truncation, in cell widths", 0.25, 0.001, 1000, NULL, false},
     {0},
 };
 
 const koksma_pattern koksma__pattern_gaussian_jittered = {
     .name = "gaussian-jittered",
-    .title = "a Gaussian point about the centre of each cell of a grid",
+    .title = "one point in each cell of a grid, normally distributed about the centre of the cell",
     .cite = "cook1986 shirley1991 giles2012",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

@@ -33,7 +33,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_golden = {
     .name = "golden",
-    .title = "i/n and the multiples of the golden ratio",
+    .title = "points (i/n, fractional part of i times the golden ratio)",
     .cite = "niederreiter1992",
     .min_dim = 2,
     .max_dim = 2,

@@ -64,8 +64,9 @@ static bool ranges(const double *params)
 static const char *const scrambles[] = {"none", "affine", "owen", NULL};
 
 static const koksma_param params[] = {
-    {"scramble", "none, affine (one map of the digits for each place) or owen (nested, exact)", NONE, NONE, OWEN,
-     scrambles, true},
+    {"scramble",
+     "scrambling: none, affine (one random map of the digits at each position) or owen (exact nested scrambling)",
+     NONE, NONE, OWEN, scrambles, true},
     {0},
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * hammersley: the equidistant coordinate (i + offset)/n, followed by the Halton sequence of one dimension less.
+ * hammersley: the first coordinate is (i + offset)/n; the others are the Halton sequence of one dimension less.
  *
  *     x_0 = (i + offset) / n,   x_k = phi_b(i), b the k-th prime
  *
@@ -8,7 +8,8 @@
  * (0,m,2)-net in base 2. Known exactly, 2D, n = 16: D* = 0.171875 with offset 0, 0.15234375 with offset 1/2.
  *
  *     scramble=owen  Owen's nested uniform scrambling (1995), exact: the radical inverses are scrambled as in halton,
- *                    x_0 in base 2 where n is a power of 2; else x_0 is uniform in [i/n, (i+1)/n). offset has no effect
+ *                    and x_0 in base 2 if n is a power of 2; otherwise x_0 is uniform in [i/n, (i+1)/n). offset has
+ *                    no effect
  */
 #include <math.h>
 
@@ -36,8 +37,8 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
     }
 }
 
-/* The generator matrices of the 2D set with n = 2^m and an offset that is a multiple of 2^(m-32): both coordinates are
-   then digital, as 32-bit numbers i 2^(32-m) + start and i with its bits reversed. */
+/* Computes the generator matrices of the 2D set with n = 2^m and an offset that is a multiple of 2^(m-32). Both
+   coordinates are then digital; as 32-bit numbers they are i 2^(32-m) + start and i with its bits reversed. */
 typedef struct net {
     uint32_t directions[2][32], start;
 } net;
@@ -92,8 +93,9 @@ static bool ranges(const double *params)
 static const char *const scrambles[] = {"none", "owen", NULL};
 
 static const koksma_param params[] = {
-    {"offset", "of the first coordinate, in steps of 1/n", 0, 0, 0.999, NULL, false},
-    {"scramble", "none or owen (nested, each coordinate in its base, exact)", NONE, NONE, OWEN, scrambles, true},
+    {"offset", "offset of the first coordinate, in units of 1/n", 0, 0, 0.999, NULL, false},
+    {"scramble", "scrambling: none, or owen (exact nested scrambling, each coordinate in its base)", NONE, NONE, OWEN,
+     scrambles, true},
     {0},
 };
 

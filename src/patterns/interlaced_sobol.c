@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * interlaced-sobol: a higher-order digital sequence: the binary digits of `order` coordinates of Sobol', taken in
- * turn, make one coordinate.
+ * interlaced-sobol: a higher-order digital sequence. Each coordinate interlaces the binary digits of `order`
+ * coordinates of the Sobol' sequence.
  *
  *     digit order (l - 1) + r of x_k is digit l of y_(order (k - 1) + r),   r = 1 .. order, y the Sobol' points
  *
@@ -10,11 +10,11 @@
  * 2^10. For integrands that are not smooth the points are worse than those of Sobol'.
  *
  *     scramble=owen   scrambles the coordinates before they are interlaced: estimates are unbiased, and errors fall as
- *                     n^(-order - 1/2). The modifier owen=1, which scrambles after interlacing, destroys that rate
+ *                     n^(-order - 1/2). The modifier owen=1 scrambles after interlacing and destroys this rate
  *
  * Source: Dick 2008; scrambled: Dick 2011. A coordinate has 53 binary digits; each of its Sobol' coordinates supplies
- * 53 / order of them, 32 at most. With order=2 errors thus stop falling at 2^26 points. With order=1 the points are
- * those of the pattern sobol.
+ * 53 / order of these, but at most 32. With order=2 errors therefore stop decreasing at 2^26 points. With order=1 the
+ * points are those of the pattern sobol.
  */
 #include <stdlib.h>
 
@@ -27,7 +27,7 @@ enum {
     BLOCK = 4096,
     DIGITS = 53,
     MOST_ORDER = 5,
-    SOBOL_OWEN = 3 /* the value `owen` of sobol's parameter scramble */
+    SOBOL_OWEN = 3 /* the value `owen` of the parameter scramble of the pattern sobol */
 };
 
 typedef struct interlacing {
@@ -37,7 +37,7 @@ typedef struct interlacing {
     int order;
 } interlacing;
 
-/* The number whose binary digits are those of `order` numbers y, taken in turn. */
+/* Returns the number that interlaces the binary digits of `order` numbers y. */
 static double interlace(const double *y, int order)
 {
     uint64_t words[MOST_ORDER], x = 0;
@@ -70,24 +70,25 @@ static koksma_status make_block(void *context, size_t block)
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     interlacing j = {seed, args, out, (int)args->params[0]};
-    KOKSMA__FAIL_IF(
-        out->dim * j.order > KOKSMA__SOBOL_DIM, KOKSMA_DIM,
-        "interlaced-sobol: order=%d takes %d coordinates of Sobol' for each of its own: dim = %d at most, not %d",
-        j.order, j.order, KOKSMA__SOBOL_DIM / j.order, out->dim);
+    KOKSMA__FAIL_IF(out->dim * j.order > KOKSMA__SOBOL_DIM, KOKSMA_DIM,
+                    "interlaced-sobol: order=%d needs %d coordinates of Sobol' for each coordinate: dim can be at "
+                    "most %d, not %d",
+                    j.order, j.order, KOKSMA__SOBOL_DIM / j.order, out->dim);
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, make_block, &j);
 }
 
 static const char *const scrambles[] = {"none", "owen", NULL};
 
 static const koksma_param params[] = {
-    {"order", "how many coordinates of Sobol' make one, 1 to 5", 2, 1, MOST_ORDER, NULL, true},
-    {"scramble", "none, or owen before they are interlaced", 0, 0, 1, scrambles, true},
+    {"order", "number of Sobol' coordinates that are interlaced into one, 1 to 5", 2, 1, MOST_ORDER, NULL, true},
+    {"scramble", "scrambling before the coordinates are interlaced: none or owen", 0, 0, 1, scrambles, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_interlaced_sobol = {
     .name = "interlaced-sobol",
-    .title = "higher-order sequence: the digits of several Sobol' coordinates in turn, for smooth integrands",
+    .title = "higher-order sequence for smooth integrands: each coordinate interlaces the digits of several Sobol' "
+             "coordinates",
     .cite = "dick2008 dick2011 joe2008",
     .min_dim = 1,
     .max_dim = KOKSMA__SOBOL_DIM,

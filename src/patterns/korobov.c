@@ -5,10 +5,10 @@
  *     x_k = {i a^k / n}, k = 0 .. dim - 1
  *
  * Source: Korobov 1959. a=0 takes the multiplier with the lowest worst-case error P_2, by the formula in
- * lattice_rank1.c. In two dimensions, where the lattices are those of lattice-rank1, and for up to 2,048 points every
- * multiplier is tried. No search of all multipliers in more dimensions is known that takes less than n^2 dim steps;
- * for more points, 4 million / n evenly distributed multipliers are tried, at least 16. In 10 dimensions the best of
- * them has about 1.1 to 6 times the error of lattice-rank1 and is found in a third of the time
+ * lattice_rank1.c. In two dimensions (where the lattices are those of lattice-rank1), and for up to 2,048 points,
+ * every multiplier is tried. No search of all multipliers in more dimensions is known that takes less than n^2 dim
+ * steps; for more points, 4 million / n evenly distributed multipliers are tried, at least 16. In 10 dimensions the
+ * best of them has about 1.1 to 6 times the error of lattice-rank1 and is found in a third of the time
  * (docs/findings/lattices.md). The points are Latin if a has no divisor in common with n; this holds for every a that
  * the search returns.
  */
@@ -31,7 +31,8 @@ static void powers(uint64_t a, size_t n, int dim, uint64_t *z)
     }
 }
 
-/* The worst-case error P_2 of the generating vector (1, a, a^2, ...), up to a constant factor and summand. */
+/* Computes the worst-case error P_2 of the generating vector (1, a, a^2, ...), up to a constant factor and summand.
+   */
 static koksma_status error_of(koksma__lattice_search *search, int dim, uint64_t a, double *error)
 {
     uint64_t z[MAX_DIM];
@@ -52,7 +53,7 @@ static uint64_t mirrored(uint64_t z, size_t n)
     return z < n - z ? z : n - z;
 }
 
-/* The c-th multiplier to try: c + 1 for few points, else one of an evenly distributed sequence. */
+/* Returns the c-th multiplier to try: c + 1 for few points, else element c of an evenly distributed sequence. */
 static uint64_t candidate(size_t n, size_t c)
 {
     return n <= ALL ? c + 1 : 1 + (uint64_t)((double)(n / 2) * fmod((double)(c + 1) * GOLDEN, 1));
@@ -104,8 +105,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"a", "the multiplier, Latin when it has no divisor in common with n; 0: the best one found by a search", 0, 0,
-     1 << 28, NULL, true},
+    {"a",
+     "the multiplier (the points are Latin if it has no divisor in common with n); 0: the best one found by a search",
+     0, 0, 1 << 28, NULL, true},
     {0},
 };
 

@@ -76,13 +76,13 @@ static bool ranges(const double *params)
 static const char *const scrambles[] = {"none", "owen", NULL};
 
 static const koksma_param params[] = {
-    {"scramble", "none or owen (nested, in base 2, exact)", NONE, NONE, OWEN, scrambles, true},
+    {"scramble", "scrambling: none, or owen (exact nested scrambling in base 2)", NONE, NONE, OWEN, scrambles, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_larcher_pillichshammer = {
     .name = "larcher-pillichshammer",
-    .title = "a digital net that beats Hammersley's",
+    .title = "a digital net with a lower star discrepancy than Hammersley's",
     .cite = "larcher2001 larcher2003 kollig2002 owen1995 helmer2021",
     .min_dim = 2,
     .max_dim = 2,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* latin-hypercube: the name in statistics (McKay, Beckman & Conover 1979) of the pattern n-rooks; n_rooks.c generates
-   the points. */
+/* latin-hypercube: another name of the pattern n-rooks, used in statistics (McKay, Beckman & Conover 1979); n_rooks.c
+   generates the points. */
 #include "patterns/patterns.h"
 
 const koksma_pattern koksma__pattern_latin_hypercube = {

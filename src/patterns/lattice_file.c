@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * lattice-file: the rank-1 lattice of a generating vector that is read from a file, named lattice-file:PATH.
+ * lattice-file: the rank-1 lattice of a generating vector that is read from a file; the spec is lattice-file:PATH.
  *
  *     x_i,k = {phi_b(i) z_k},   phi_b the radical inverse in base b
  *
  * The file has one of two formats. The format `lattice` of LatNet Builder and LDData has a line "# lattice", the
  * number of dimensions, the number of points N, and z_1, z_2, ... on one line each; comments follow a #. Kuo's format
- * has no header and for each dimension a line "k z_k" (or z_k alone). With N = b^m, b prime and m > 1, the points are
- * a lattice sequence: for any power n of b, the first n of them are the lattice {i z / n}, and more can follow.
- * Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector is good
- * for the numbers of points that the comments of its file name.
+ * has no header, and one line "k z_k" (or only z_k) for each dimension. If N = b^m with b prime and m > 1, the points
+ * are a lattice sequence: for any power n of b the first n points are the lattice {i z / n}, and more points can
+ * follow. Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector
+ * should be used only with the numbers of points listed in the comments of its file.
  *
  * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion,
  * Godin & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 the
@@ -28,7 +28,7 @@ typedef struct vector {
     const uint64_t *z;
 } vector;
 
-/* The multiple of z / N that point i is: the m digits of i in base b, in reverse order. */
+/* Returns the number j for which point i is j z / N: the m digits of i in base b, in reverse order. */
 static uint64_t mirrored(const vector *v, uint64_t i)
 {
     uint64_t place = v->points, at = 0;
@@ -47,7 +47,7 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
     }
 }
 
-/* The prime b where `points` is b^m with m > 1, else `points`, with which point i is the multiple i of z / N. */
+/* Returns the prime b if `points` is b^m with m > 1. Otherwise it returns `points`; point i is then i z / N. */
 static uint64_t base_of(uint64_t points)
 {
     uint64_t base = 2, left = points;
@@ -66,8 +66,8 @@ static koksma_status read_head(koksma__number_lines *lines, int dim, vector *v)
     v->points = UINT64_C(1) << 32;
     if (*lines->kind) {
         KOKSMA__FAIL_IF(strcmp(lines->kind, "lattice") != 0, KOKSMA_MALFORMED,
-                        "%s: a file of the kind '%s'; it reads '# lattice', and net-file reads nets", lines->name,
-                        lines->kind);
+                        "%s: the file is of the kind '%s'; this pattern reads '# lattice', and net-file reads nets",
+                        lines->name, lines->kind);
         KOKSMA__TRY(koksma__number_lines_take(lines, "the number of dimensions", 1, &dims));
         KOKSMA__TRY(koksma__number_lines_take(lines, "the number of points", 1, &v->points));
         KOKSMA__FAIL_IF(v->points < 1 || v->points > UINT64_C(1) << 32, KOKSMA_MALFORMED,
@@ -92,7 +92,7 @@ static koksma_status read_vector(koksma__number_lines *lines, int dim, vector *v
         KOKSMA__FAIL_IF(!count, KOKSMA_MALFORMED, "%s: it ends before coordinate %d of its vector", lines->name,
                         k + 1);
         KOKSMA__FAIL_IF(count == 2 && line[0] != (uint64_t)k + 1, KOKSMA_MALFORMED,
-                        "%s: line %zu: dimension %llu where %d is next", lines->name, lines->number,
+                        "%s: line %zu: dimension %llu, but dimension %d is expected", lines->name, lines->number,
                         (unsigned long long)line[0], k + 1);
         z[k] = line[count - 1] % v->points;
     }
@@ -104,10 +104,10 @@ static koksma_status check_count(const koksma__number_lines *lines, const vector
 {
     KOKSMA__FAIL_IF(n > v->points, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name,
                     (unsigned long long)v->points, (unsigned long long)n);
-    KOKSMA__FAIL_IF(
-        v->base == v->points && n < v->points, KOKSMA_N,
-        "%s: its %llu points are no sequence (their number is not b^m with a prime b and m > 1): n = %llu would do",
-        lines->name, (unsigned long long)v->points, (unsigned long long)v->points);
+    KOKSMA__FAIL_IF(v->base == v->points && n < v->points, KOKSMA_N,
+                    "%s: its %llu points are not a sequence, because their number is not b^m with a prime b and m > "
+                    "1; n = %llu would do",
+                    lines->name, (unsigned long long)v->points, (unsigned long long)v->points);
     return KOKSMA_OK;
 }
 
@@ -129,8 +129,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_lattice_file = {
     .name = "lattice-file",
-    .title =
-        "the rank-1 lattice of a file's generating vector: lattice-file:PATH (LatNet Builder's and Kuo's formats)",
+    .title = "rank-1 lattice whose generating vector is read from a file: lattice-file:PATH (LatNet Builder's and "
+             "Kuo's formats)",
     .cite = "hickernell2000 lecuyer2022 cools2006",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

@@ -6,31 +6,33 @@
  *     x_k = {i z_k / n},   z_0 = 1
  *
  * Formula: P_2 = (1/n) sum_i prod_k (1 + gamma 2 pi^2 B_2({i z_k / n})) - 1,  B_2(x) = x^2 - x + 1/6, with the weight
- * gamma = 3/(8 pi^2) = 0.038. With this weight P_2 is the square of l2-wraparound divided by (4/3)^d. The points in
- * fewer dimensions are the first coordinates of those in more.
+ * gamma = 3/(8 pi^2) = 0.038. With this weight P_2 is the square of l2-wraparound divided by (4/3)^d. The set in
+ * fewer dimensions consists of the first coordinates of the set in more dimensions.
  *
  * Source: Sloan & Reztsov 2002, with gamma = 1; evaluating all multipliers at once in O(n log n), as in
  * shared/unit_sums.c: Nuyens & Cools 2006 and 2006a; weights: Sloan & Wozniakowski 1998, Dick, Kuo & Sloan 2013;
  * l2-wraparound: Hickernell 1998.
  *
- * The weight: with gamma = 1 the products of many coordinates outweigh all pairs, so that from about 8 dimensions on
- * one multiplier is chosen again and again (n = 4096: 1615), which puts the points on diagonals. Weights 1/k^2 for
- * coordinate k are customary where the first coordinates matter most, which is not assumed here; even with such
- * weights a multiplier is chosen twice (n = 256: within 32 dimensions). With gamma = 0.038 neither z nor n - z was
- * chosen twice before all phi(n)/2 multipliers had been, for each n from 5 to 700 in 64 dimensions and for powers of
- * two to 65,536 in 128 dimensions, although no theorem rules repetitions out. In more dimensions than
- * phi(n)/2 some points lie on diagonals. In two dimensions the minimiser does not depend on the weight.
+ * The weight: with gamma = 1 the products of many coordinates outweigh all pairs. From about 8 dimensions on the same
+ * multiplier is then chosen repeatedly (for n = 4096: 1615), so that the points lie on diagonals. Weights 1/k^2 for
+ * coordinate k are customary if the first coordinates are the most important, which this pattern does not assume;
+ * even with such weights a multiplier is chosen twice (for n = 256: within 32 dimensions). With gamma = 0.038 no
+ * multiplier (z and n - z counted as one) was chosen again before all phi(n)/2 had been chosen, for each n from 5 to
+ * 700 in 64 dimensions and for powers of two up to 65,536 in 128 dimensions. No theorem excludes repetitions. In more
+ * dimensions than phi(n)/2 some points lie on diagonals. In two dimensions the minimiser does not depend on the
+ * weight.
  *
- * Ties: z and n - z always have equal errors, and the smaller is taken, except for n = 12 and a few others below 30
- * (lattice.h); among other multipliers whose sums are equal to the last bit, the smallest is taken.
+ * Ties: z and n - z always have equal errors, and the smaller is taken, except for n = 12 and a few other n below 30
+ * (lattice.h). Among other multipliers with bitwise equal sums the smallest is taken.
  * Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9 (docs/findings/lattices.md).
  *
- * order=Q counts only projections of up to Q coordinates, those of an order with equal weights (finite-order weights,
- * a case of the order-dependent weights of Cools, Kuo & Nuyens 2006): of the expanded product only the terms of up to
- * Q factors remain.
+ * With order=Q only projections of up to Q coordinates count (finite-order weights, a case of the order-dependent
+ * weights of Cools, Kuo & Nuyens 2006; all projections of the same order have equal weights): only terms of up to Q
+ * factors of the expanded product remain.
  *
- * Time: O(dim n log n): 2^20 points in 10 dimensions take half a second, a prime number of points hardly more. Memory
- * besides the points: 28 n bytes for powers of two, up to 95 n for other n, and 4 n Q bytes more with order=Q.
+ * Time: The search takes O(dim n log n): half a second for 2^20 points in 10 dimensions, hardly more for a prime
+ * number of points. The memory in addition to the points is 28 n bytes for powers of two, up to 95 n bytes for other
+ * n, and 4 n Q bytes more with order=Q.
  */
 
 #include <stdlib.h>
@@ -42,7 +44,8 @@
 
 enum { MAX_DIM = 256, MOST_ORDER = 8 };
 
-/* Finds all components of z. `sums` is scratch of koksma__lattice_extend_orders; NULL if all projections count. */
+/* Finds all components of z. `sums` is scratch memory for koksma__lattice_extend_orders; NULL if all projections
+   count. */
 static koksma_status search_all(koksma__lattice_search *search, int dim, int order, double *sums, uint64_t *z)
 {
     z[0] = 1;
@@ -93,14 +96,14 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"order", "largest number of coordinates of the projections that count, 2 to 8; 0: all", 0, 0, MOST_ORDER, NULL,
-     true},
+    {"order", "count only projections of up to this number of coordinates, 2 to 8; 0: count all", 0, 0, MOST_ORDER,
+     NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_lattice_rank1 = {
     .name = "lattice-rank1",
-    .title = "rank-1 lattice built component by component for a low l2-wraparound",
+    .title = "rank-1 lattice whose vector is built component by component for a low l2-wraparound",
     .cite = "sloan2002 nuyens2006 nuyens2006a sloan1998 dick2013 cools2006 hickernell1998",
     .min_dim = 1,
     .max_dim = MAX_DIM,

@@ -4,10 +4,10 @@
  * are a good lattice for every m up to 20.
  *     x_i,k = {phi_2(i) z_k},   phi_2(i) the radical inverse of i in base 2
  *
- * tools/make_lattice_sequence.py makes the vector component by component: it chooses each component so that, for no
- * m, the lattice of 2^m points is much worse than with the best multiplier for that m alone. If n is not a power of
- * two, the points are shifted copies of lattices of 2^m points and a part of another. The same vector serves up to
- * 2^32 points, although it was not chosen for more than 2^20.
+ * tools/make_lattice_sequence.py makes the vector component by component: it chooses each component so that for every
+ * m the lattice of 2^m points is nearly as good as with the best multiplier for this m. If n is not a power of two,
+ * the points consist of shifted lattices with 2^m points each and a part of another lattice. The vector was optimised
+ * for up to 2^20 points, but can be used for up to 2^32.
  * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000; embedded lattices: Cools, Kuo & Nuyens 2006; the weights are
  * those of lattice-rank1. For 2^m points, m = 4 to 12, l2-wraparound is at most 1.4 times that of lattice-rank1 in 2
  * to 10 dimensions (tests/patterns/test_lattices.c).
@@ -43,7 +43,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_lattice_sequence = {
     .name = "lattice-sequence",
-    .title = "extensible rank-1 lattice: any number of points, the first 2^m a good lattice for each m",
+    .title = "extensible rank-1 lattice for any number of points; the first 2^m points are a good lattice for each m",
     .cite = "hickernell2000 cools2006 nuyens2006",
     .min_dim = 1,
     .max_dim = sizeof z / sizeof *z,

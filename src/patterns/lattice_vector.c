@@ -7,8 +7,8 @@
  *
  * The components z_1, z_2, ... are whole numbers below 2^52, separated by colons; lattice-file reads longer vectors
  * from a file. The points are Latin if no z_k has a divisor in common with n.
- * Source: Sloan & Reztsov 2002 (rank-1 lattices); the vector is the user's. Known: lattice-vector:1:8 with n = 13 is
- * fibonacci.
+ * Source: Sloan & Reztsov 2002 (rank-1 lattices); the user chooses the vector. Known: lattice-vector:1:8 with n = 13
+ * gives the points of fibonacci.
  */
 #include <stdlib.h>
 
@@ -16,7 +16,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/lattice.h"
 
-/* The most components that fit into a spec: each takes at least two characters, a digit and a colon. */
+/* Largest number of components that fit into a spec: each needs at least two characters, a digit and a colon. */
 enum { MOST = KOKSMA_MAX_SPEC / 2 };
 
 static const uint64_t LIMIT = UINT64_C(1) << 52;
@@ -56,7 +56,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_lattice_vector = {
     .name = "lattice-vector",
-    .title = "the rank-1 lattice of the spec's own generating vector: lattice-vector:1:182667:469891",
+    .title = "rank-1 lattice whose generating vector is part of the spec: lattice-vector:1:182667:469891",
     .cite = "sloan2002",
     .min_dim = 1,
     .max_dim = MOST,

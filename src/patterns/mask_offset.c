@@ -5,13 +5,13 @@
  *
  *     point s of pixel p = koksma_mask_2d(sequence, {value_0(p), value_1(p), value_2(p)}, s, spp),   n = width^2 spp
  *
- * koksma/mask.h documents how the values select the variant, and for which numbers of samples the errors are blue
+ * koksma/mask.h explains how the values select the variant, and for which numbers of samples the errors are blue
  * noise. Taken alone, a pixel's points have the same distribution as sobol:scramble=hash-owen: for any spp the
  * pixel's error is as large as with independent scrambling.
  *
  * Sources: Georgiev & Fajardo 2016, who shift the points on the torus by two optimised masks, which void-and-cluster
- * masks (Ulichney 1993) replace here; the scrambling of Laine & Karras 2011 and Burley 2020. The shift by digits
- * below those of the net, and the third mask, which pairs the strata, are new in this project.
+ * masks (Ulichney 1993) replace here; the scrambling of Laine & Karras 2011 and Burley 2020. New in this project are
+ * the shift of the digits below those of the net, and the third mask, which pairs the strata.
  */
 #include <koksma/mask.h>
 #include <koksma/sampler.h>
@@ -32,7 +32,7 @@ typedef struct filling {
     koksma_points *out;
 } filling;
 
-/* The values of the three masks at a pixel. */
+/* Computes the values of the three masks at a pixel. */
 static void values_at(const filling *f, size_t pixel, uint32_t values[MASKS])
 {
     uint32_t random[4];
@@ -62,7 +62,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 {
     const size_t width = (size_t)args->params[0], pixels = width * width;
     KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
-                    "mask-offset: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n, pixels,
+                    "mask-offset: n = %zu is not a multiple of the %zu pixels; n = %zu would do", out->n, pixels,
                     (out->n / pixels + 1) * pixels);
     uint32_t *ranks = malloc(MASKS * pixels * sizeof *ranks);
     KOKSMA__REQUIRE_MEMORY(ranks, MASKS * pixels * sizeof *ranks);
@@ -80,13 +80,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"width", "pixels a side of the tile", 64, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX, NULL, true},
+    {"width", "width of the tile in pixels", 64, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX, NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_mask_offset = {
     .name = "mask-offset",
-    .title = "one (0,2)-sequence, varied from pixel to pixel by blue-noise masks",
+    .title = "a (0,2)-sequence that blue-noise masks vary from pixel to pixel",
     .cite = "georgiev2016 ulichney1993 laine2011 burley2020",
     .min_dim = 2,
     .max_dim = 2,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * multi-jittered: jittered and n-rooks at once: one point in each of the m x r cells, and one in each of the n = m r
- * strata of either axis.
+ * multi-jittered: points that are jittered and n-rooks at the same time: one point in each of the m x r cells, and
+ * one in each of the n = m r strata of each axis.
  *
  *     x = (c + (p_c(j) + u) / r) / m,   y = (j + (q_j(c) + v) / m) / r
  *
@@ -58,7 +58,7 @@ static const koksma_param params[] = {KOKSMA__PARAM_DIVISOR, {0}};
 
 const koksma_pattern koksma__pattern_multi_jittered = {
     .name = "multi-jittered",
-    .title = "jittered and n-rooks at once",
+    .title = "points that are both jittered and n-rooks",
     .cite = "chiu1994",
     .min_dim = 2,
     .max_dim = 2,

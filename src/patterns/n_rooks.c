@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * n-rooks: each coordinate is jittered in n strata, and independent random permutations pair the strata of the
- * coordinates, so that every row and column of the n x n grid holds one point. It takes any n and any dimension.
+ * coordinates, so that every row and column of the n x n grid has one point. It takes any n and any dimension.
  * Statistics calls the method Latin hypercube sampling.
  *
  *     x_k = (p_k(i) + u_k) / n,   p_0 the identity, p_k random permutations, u uniform in [0,1)^dim
@@ -23,7 +23,8 @@
 
 enum { FEW = 256 };
 
-/* The context of `place`. In 2D each jitter u has 32 bits, so that one draw of 128 random bits makes two points. */
+/* The arguments that the callback `place` needs. In 2D each jitter u has 32 bits, so that one draw of 128 random bits
+   makes two points. */
 typedef struct plane {
     uint64_t seed;
     const uint32_t *rows;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * net-file: the digital net or sequence of the generator matrices in a file, named net-file:PATH.
+ * net-file: the digital net or sequence whose generator matrices are in a file; the spec is net-file:PATH.
  *
  *     x_i,k = sum_l y_l b^-l,   y = C_k a modulo b,   i = sum_c a_c b^c   (l = 1, 2, ..., c = 0, 1, ...)
  *
@@ -17,8 +17,8 @@
  *
  * Source: Niederreiter 1992; formats: L'Ecuyer et al. 2022, Joe & Kuo 2008.
  *
- * Point i does not depend on n, and there are b^k points. A coordinate keeps as many digits as a double has room for
- * (53 in base 2); the others are cut off. The modifier owen-base=b scrambles the points in base b.
+ * Point i does not depend on n, and there are b^k points. A coordinate has as many digits as fit into a double (53 in
+ * base 2); further digits are cut off. The modifier owen-base=b scrambles the points in base b.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -55,7 +55,7 @@ static double value_of(const matrices *m, const uint32_t *y)
     return whole / scale;
 }
 
-/* Does in base 2 what `column` does, with each column of the matrix in one word. */
+/* Does the same as `column`, but for base 2, with each column of the matrix in one word. */
 static void binary_column(const matrices *m, int k, uint64_t first, size_t count, double *xs)
 {
     uint64_t words[MOST_COLUMNS] = {0}, y = 0;
@@ -67,7 +67,7 @@ static void binary_column(const matrices *m, int k, uint64_t first, size_t count
     }
     for (size_t i = 0; i < count; i++) {
         xs[i] = (double)(int64_t)y / (double)(INT64_C(1) << m->digits);
-        for (int c = 0; c < m->columns; c++) { /* the digits of first + i that change */
+        for (int c = 0; c < m->columns; c++) { /* the digits that change from first + i to the next index */
             y ^= words[c];
             if (!((first + i) >> c & 1)) {
                 break;
@@ -120,7 +120,7 @@ static koksma_status check_dims(const koksma__number_lines *lines, uint64_t dims
     return KOKSMA_OK;
 }
 
-/* The largest number of digits in this base that 53 bits can hold. */
+/* Returns the largest number of digits in this base that fit into 53 bits. */
 static int digits_in_double(uint64_t base)
 {
     int digits = 0;
@@ -130,7 +130,8 @@ static int digits_in_double(uint64_t base)
     return digits;
 }
 
-/* The number of columns: `given` is this number or, above MOST_COLUMNS, the number of points, base^columns. */
+/* Sets the number of columns. `given` is this number or, if it is above MOST_COLUMNS, the number of points
+   base^columns. */
 static koksma_status count_columns(const koksma__number_lines *lines, uint64_t base, uint64_t given, int *columns)
 {
     uint64_t points = given;
@@ -218,7 +219,7 @@ static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrice
     uint32_t modulus[MOST_COLUMNS + 1], q[MOST_COLUMNS + 1];
     KOKSMA__TRY(take(lines, "the base", 2, LARGEST_BASE, &base));
     for (uint64_t d = 2; d * d <= base; d++) {
-        KOKSMA__FAIL_IF(base % d == 0, KOKSMA_MALFORMED, "%s: line %zu: the base is %llu; it takes primes",
+        KOKSMA__FAIL_IF(base % d == 0, KOKSMA_MALFORMED, "%s: line %zu: the base is %llu, which is not a prime",
                         lines->name, lines->number, (unsigned long long)base);
     }
     KOKSMA__TRY(take(lines, "the number of dimensions", 1, UINT32_MAX, &dims));
@@ -232,7 +233,7 @@ static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrice
                     "%s: line %zu: the modulus is not of degree %d", lines->name, lines->number, m->columns);
     for (int k = 0; k < dim; k++) {
         uint8_t u[MOST_COLUMNS + MOST_DIGITS];
-        KOKSMA__TRY(koksma__number_lines_take(lines, "a polynomial of the vector", 1, &value));
+        KOKSMA__TRY(koksma__number_lines_take(lines, "a polynomial of the generating vector", 1, &value));
         KOKSMA__FAIL_IF(coefficients_of(value, m->base, q) >= m->columns, KOKSMA_MALFORMED,
                         "%s: line %zu: the polynomial's degree is not below that of the modulus", lines->name,
                         lines->number);
@@ -300,18 +301,17 @@ static koksma_status read_matrices(koksma__number_lines *lines, int dim, matrice
             return kinds[i].read(lines, dim, m);
         }
     }
-    return koksma__fail(
-        KOKSMA_MALFORMED,
-        "%s: its first line is none of '# dnet', '# plattice', '# soboljk' and Joe and Kuo's 'd s a m_i'; "
-        "lattice-file reads lattices",
-        lines->name);
+    return koksma__fail(KOKSMA_MALFORMED,
+                        "%s: the first line must be '# dnet', '# plattice', '# soboljk' or Joe and Kuo's 'd s a "
+                        "m_i'; lattice-file reads lattices",
+                        lines->name);
 }
 
 static koksma_status check_count(const koksma__number_lines *lines, const matrices *m, uint64_t n)
 {
     uint64_t points = 1;
     for (int c = 0; c < m->columns && points < n; c++) {
-        points *= m->base; /* below 2^32 times the base */
+        points *= m->base; /* a number below 2^32 times the base */
     }
     KOKSMA__FAIL_IF(points < n, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name, (unsigned long long)points,
                     (unsigned long long)n);
@@ -335,8 +335,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_net_file = {
     .name = "net-file",
-    .title =
-        "the digital net of a file's matrices: net-file:PATH (LatNet Builder's formats, Joe & Kuo's Sobol' numbers)",
+    .title = "digital net whose matrices are read from a file: net-file:PATH (LatNet Builder's formats, Joe & Kuo's "
+             "Sobol' numbers)",
     .cite = "lecuyer2022 joe2008 niederreiter1992",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

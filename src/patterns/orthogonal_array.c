@@ -7,8 +7,9 @@
  *     strength 3, Bush 1952, up to s dimensions: level k is the polynomial whose coefficients are the digits of i in
  *                 base s, evaluated at k modulo s
  *
- * The levels of each coordinate are permuted at random, and the n/s points of each level go into n/s strata in random
- * order, so that the points are n-rooks, too. Source: Owen 1992; the multi-jittered arrays of Jarosz et al. 2019.
+ * The levels of each coordinate are permuted at random, and the n/s points of each level are put into n/s strata in
+ * random order, so that the points are also n-rooks. Source: Owen 1992; the multi-jittered arrays of Jarosz et al.
+ * 2019.
  */
 #include <math.h>
 #include <stdio.h>
@@ -65,8 +66,9 @@ static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels
         snprintf(other, sizeof other, " or %zu", power(high, strength));
     }
     return koksma__fail(
-        KOKSMA_N, "orthogonal-array: n = %zu is not s^%d with s prime and enough for dim = %d; n = %zu%s would do", n,
-        strength, dim, power(low, strength), other);
+        KOKSMA_N,
+        "orthogonal-array: n = %zu is not s^%d with a prime s that is large enough for dim = %d; n = %zu%s would do",
+        n, strength, dim, power(low, strength), other);
 }
 
 static size_t level(size_t i, size_t s, int k, int strength)
@@ -118,7 +120,7 @@ const koksma_pattern koksma__pattern_orthogonal_array = {
     .title = "all 2D (or 3D) projections stratified",
     .cite = "bose1938 bush1952 owen1992 jarosz2019",
     .min_dim = 2,
-    .max_dim = 644, /* s = 643 levels; larger primes s exceed KOKSMA_MAX_COORDINATES */
+    .max_dim = 644, /* sets with s = 643 levels; larger primes s exceed KOKSMA_MAX_COORDINATES */
     .claims = KOKSMA_CLAIM_LATIN | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_OA3 | KOKSMA_CLAIM_UNBIASED,
     .params = params,
     .generate = generate,

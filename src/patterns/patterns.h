@@ -4,7 +4,7 @@
 
 #include <koksma/koksma.h>
 
-/* The value of koksma_pattern.ranges for patterns that can compute every point from its index alone. */
+/* The function koksma_pattern.ranges of patterns that can always compute a point from its index. */
 static inline bool koksma__ranges_always(const double *params)
 {
     (void)params;

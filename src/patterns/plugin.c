@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * plugin: the points of a sampler in a shared library: plugin:LIBRARY.so names the library's first sampler,
- * plugin:LIBRARY.so:NAME the one called NAME. The interface is <koksma/plugin.h>. As with exec, every set is
- * generated twice, and the two have to be equal.
+ * plugin: the points of a sampler in a shared library: plugin:LIBRARY.so is the first sampler of the library,
+ * plugin:LIBRARY.so:NAME the sampler with this name. The interface is <koksma/plugin.h>. As with exec, every set is
+ * generated twice, and both results have to be equal.
  *
  * The library stays loaded: closing it between two sets would run its constructors again for each set. A path without
  * a slash names a file in the current directory; the loader's search path is not used.
@@ -61,12 +61,12 @@ static koksma_status find(const char *name, const char *text, const koksma_plugi
         *wanted++ = 0;
     }
     KOKSMA__TRY(open_library(name, path, &symbol));
-    memcpy(&at, &symbol, sizeof at); /* ISO C has no cast from an object to a function */
+    memcpy(&at, &symbol, sizeof at); /* ISO C has no cast from a pointer to an object to a pointer to a function */
     const koksma_plugin *p;
     for (size_t i = 0; (p = at(i)); i++) {
         KOKSMA__FAIL_IF(p->version != KOKSMA_PLUGIN_VERSION, KOKSMA_MALFORMED,
-                        "%s: it is written for version %d of koksma/plugin.h, and this is %d", name, p->version,
-                        KOKSMA_PLUGIN_VERSION);
+                        "%s: it is written for version %d of koksma/plugin.h, but this is version %d", name,
+                        p->version, KOKSMA_PLUGIN_VERSION);
         KOKSMA__FAIL_IF(!p->name || !p->generate, KOKSMA_MALFORMED, "%s: sampler %zu has no name or no function",
                         name, i);
         if (!wanted || !strcmp(wanted, p->name)) {
@@ -78,7 +78,7 @@ static koksma_status find(const char *name, const char *text, const koksma_plugi
                         wanted ? wanted : "");
 }
 
-/* Generates a set. Coordinates are set to -1 first, so that those which the sampler does not write are found. */
+/* Generates a set. Coordinates are first set to -1, so that missing ones are detected after the call. */
 static koksma_status call(const char *name, const koksma_plugin *p, uint64_t seed, size_t n, int dim, double *xs)
 {
     char reason[KOKSMA_PLUGIN_REASON] = "";
@@ -113,8 +113,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     status = status ? status : call(name, p, seed, out->n, out->dim, again);
     if (!status && memcmp(out->xs, again, bytes) != 0) {
         status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s: called twice with n = %zu, dim = %d, seed = %" PRIu64
-                              ", it gave different points; they have to depend on nothing else",
+                              "%s: when called twice with n = %zu, dim = %d, seed = %" PRIu64
+                              ", it gave different points; they may depend only on n, dim and seed",
                               name, out->n, out->dim, seed);
     }
     free(again);
@@ -123,7 +123,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_plugin = {
     .name = "plugin",
-    .title = "the points of a sampler in a shared library: plugin:LIBRARY.so[:NAME]; only with --allow-exec",
+    .title = "points of a sampler in a shared library: plugin:LIBRARY.so[:NAME]; needs --allow-exec",
     .cite = "-",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

@@ -5,14 +5,14 @@
  * that of the Stirling numbers of the first kind modulo 2, and this matrix shifted by a row and a column.
  *     x(2^l + i) is at a random position in the empty half of the stratum of width 2^-l of x(i ^ partner_l)
  *
- * Source: Christensen, Kensler & Kilpatrick 2018; Helmer, Christensen & Kensler 2021 for the generation.
+ * Source: Christensen, Kensler & Kilpatrick 2018; the generation is from Helmer, Christensen & Kensler 2021.
  *     shuffle=1    points of the same matrices in random order, scrambled by a hash as in sobol:scramble=hash-owen
  *
  * With shuffle=1 every aligned block of 2^m points is a (0,m,2)-net, and the points of two seeds are paired at
- * random. Without shuffle=1 they are correlated: the strata of point i are the same for all seeds up to an exclusive
- * or of their numbers.
+ * random. Without shuffle=1 the points of two seeds are correlated: the numbers of the strata of point i for two
+ * seeds differ only by an exclusive or with a constant.
  *
- * koksma_pmj02_2d of koksma/sampler.h computes single points of shuffle=1.
+ * koksma_pmj02_2d of koksma/sampler.h computes single points of the set with shuffle=1.
  */
 #include "core/random.h"
 #include "core/status.h"
@@ -55,13 +55,14 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"shuffle", "1: points in random order; aligned blocks of 2^m points stay (0,m,2)-nets", 0, 0, 1, NULL, true},
+    {"shuffle", "1: put the points in random order; aligned blocks of 2^m points remain (0,m,2)-nets", 0, 0, 1, NULL,
+     true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_pmj02 = {
     .name = "pmj02",
-    .title = "progressive multi-jittered points, (0,2) prefixes",
+    .title = "progressive multi-jittered points whose prefixes are (0,m,2)-nets",
     .cite = "christensen2018 helmer2021",
     .min_dim = 2,
     .max_dim = 2,

@@ -1,30 +1,31 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * pmj02bn: pmj02 with blue noise: among the nested scramblings of pmj02, one whose first 4, 16, 64, .. 4^levels
- * points keep apart. Every property of pmj02 that nested (Owen) scrambling preserves holds: prefixes of 2^m points,
- * and all aligned blocks of 2^m points, are (0,m,2)-nets.
+ * pmj02bn: pmj02 with blue noise: a nested scrambling of pmj02 for which the first 4, 16, 64, .. 4^levels points are
+ * far from each other. The points have every property of pmj02 that nested (Owen) scrambling preserves: prefixes of
+ * 2^m points, and all aligned blocks of 2^m points, are (0,m,2)-nets.
  *     x = x' XOR the mask for the first `levels` bits of x', x' from pmj02; y likewise, with other masks
  *     energy of 4^d points = sum over pairs in adjacent cells of max(0, 1 - |p - q|^2 / (1.2 / 2^d)^2)^8
  *
- * Source: Christensen, Kensler & Kilpatrick 2018 for the aim. These authors choose each new point among candidates
- * that keep the net. But a (0,m,2)-net of 2^m points determines the position of a new point down to 1/2^(m+1): every
- * box of area 2^-m has one old and one new point, in opposite quadrants, so that the box of one shape determines the
- * next bit of each coordinate, which determines the box of the next shape, and so on. Only the position in a square of
- * side 1/(2n) is free. Candidates there (Helmer, Christensen & Kensler 2021) gain nothing from about 4,000 points on,
- * crowd at the ends of their strata, and made the error of a step edge 1.8 times that of pmj02. This file uses
- * another freedom: the bit of weight 2^-(d+1), which a scrambling may flip in each of the 2^d strata of either axis;
- * a flip moves 2^d of 4^d points by half the spacing. The masks are thus found from the coarsest bits on: for d = 1
- * .. levels each of the 2 2^d strata is flipped if that lowers the energy of the first 4^d points; this is repeated
- * until nothing changes, at most SWEEPS times. A cell of side 2^-d has one point and keeps it. Energies are sums of
- * whole numbers and thus the same on all machines.
+ * Source: the aim is that of Christensen, Kensler & Kilpatrick 2018. They choose each new point among candidates that
+ * preserve the net. But a (0,m,2)-net of 2^m points determines the position of a new point up to 1/2^(m+1). Every box
+ * of area 2^-m has one old and one new point, in opposite quadrants. The box of one shape therefore determines the
+ * next bit of each coordinate, these bits determine the box of the next shape, and so on. Only the position in a
+ * square of side 1/(2n) is free. Choosing among candidates in this square (Helmer, Christensen & Kensler 2021) has
+ * three faults: it improves nothing from about 4,000 points on, the points crowd at the ends of their strata, and the
+ * measured error of a step edge was 1.8 times that of pmj02. This file uses another freedom: in each of the 2^d
+ * strata of an axis a scrambling may flip the bit of weight 2^-(d+1). A flip moves 2^d of 4^d points by half the
+ * spacing. The masks are chosen bit by bit, the coarsest first: for d = 1 .. levels each of the 2 * 2^d strata is
+ * flipped if this lowers the energy of the first 4^d points. This is repeated until nothing changes, at most SWEEPS
+ * times. Each cell of side 2^-d always contains one point. Energies are sums of whole numbers and thus the same on
+ * all machines.
  *
  * docs/findings/blue-noise.md lists the mean distance to the nearest point over 16 seeds, in units of the densest
- * packing's distance. Time: proportional to 4^levels for any n, plus that of pmj02.
+ * packing's distance. The time is that of pmj02 plus a time proportional to 4^levels, for any n.
  *
  * A single point is not uniform over seeds, because the masks are chosen: over 6,000 sets of 16 points, the density
- * of points 0, 1, 2, 3 and 15 in 16 bins was off by 7 to 11 % (root mean square). Averaged over all points
- * of a set of 4^d points, the density is uniform. The pattern thus does not claim to be unbiased;
- * where few samples must be unbiased, use pmj02.
+ * of points 0, 1, 2, 3 and 15 in 16 bins deviated by 7 to 11 % (root mean square). Averaged over all points of a set
+ * of 4^d points, the density is uniform. The pattern therefore does not claim to be unbiased; if few samples must be
+ * unbiased, use pmj02.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -38,14 +39,16 @@
 
 enum { MOST_LEVELS = 10, SWEEPS = 2 };
 
-#define RADIUS 1.2F /* the range of the energy, in cells */
-#define ONE 0x1p18F /* an energy of 1 as a whole number; at most 7 2^10 of them, below 2^31, are on a line */
+#define RADIUS 1.2F /* distance in cells at which the energy becomes 0 */
+#define ONE                                                                                                          \
+    0x1p18F /* the whole number that stands for an energy of 1; a line has an energy of at most 7 * 2^10, so
+                       sums are below 2^31 */
 
 /* The positions of 4^d points in their cells, in units of a cell, stored twice: by rows, and by columns with the axes
-   exchanged. A line (a row or a column) has a spare cell at each end, a copy of the cell at the other end, because the
-   distance is that of the torus. */
+   exchanged. A line (a row or a column) has a spare cell at each end: a copy of the cell at the other end, because
+   distances are measured on the torus. */
 typedef struct square {
-    long side, width; /* cells on a side, without and with the spare cells */
+    long side, width; /* number of cells on a side, without and with the spare cells */
     float *across[2]; /* the coordinate that a flip of the line changes: y of rows, x of columns */
     float *along[2];  /* the other coordinate */
 } square;
@@ -70,7 +73,8 @@ static void put_point(const square *s, uint32_t x, uint32_t y)
     put_cell(s, 1, column, row, x_in, y_in);
 }
 
-/* The energy of the pairs of cell t of one line and cell t + step of the line that is `lines` further. */
+/* Returns the energy of the pairs of cell t of one line and cell t + step of the line that is `lines` lines further.
+   */
 static int32_t energy_of(long side, const float *across, const float *along, const float *others_across,
                          const float *others_along, long lines, long step)
 {
@@ -87,7 +91,7 @@ static int32_t energy_of(long side, const float *across, const float *along, con
     return sum;
 }
 
-/* The energy of all pairs that a flip of the line can change. */
+/* Returns the energy of all pairs that a flip of the line can change. */
 static int32_t energy_of_line(const square *s, int axis, long line, const float *across)
 {
     const float *along = s->along[axis] + line * s->width;
@@ -101,7 +105,7 @@ static int32_t energy_of_line(const square *s, int axis, long line, const float 
     return sum;
 }
 
-/* Flips a line if that lowers the energy; returns whether it did. `flipped` is scratch with room for a line. */
+/* Flips a line if this lowers the energy, and returns whether it did. `flipped` is scratch memory for one line. */
 static bool flip_line(const square *s, int axis, long line, float *flipped)
 {
     const float *across = s->across[axis] + line * s->width, *along = s->along[axis] + line * s->width;
@@ -119,7 +123,7 @@ static bool flip_line(const square *s, int axis, long line, float *flipped)
     return true;
 }
 
-/* Chooses the flips of one level. points[0] are the x, points[1] the y of 4^levels points; flips[k][line] becomes
+/* Chooses the flips of one level. points[0] has the x, points[1] the y of 4^levels points; flips[k][line] receives
    whether coordinate k is flipped in this stratum. */
 static void choose_level(uint32_t *const points[2], int level, float *room, unsigned char *const flips[2])
 {
@@ -148,7 +152,7 @@ static void choose_level(uint32_t *const points[2], int level, float *room, unsi
 
 typedef struct masks {
     int levels;
-    uint32_t *points[2]; /* x and y of 4^levels points, scrambled so far */
+    uint32_t *points[2]; /* x and y of 4^levels points, with all flips chosen so far */
     uint32_t *of[2];     /* the mask of each stratum of width 2^-levels */
     float *room;
     unsigned char *flips[2];
@@ -159,8 +163,8 @@ static uint32_t fraction(double x)
     return (uint32_t)(x * 0x1p32);
 }
 
-/* Reads the masks off the first 2^levels points, one in each stratum: a mask is what scrambling changed in the
-   point. */
+/* Computes the masks from the first 2^levels points, one in each stratum: a mask is the exclusive or of a point
+   before and after scrambling. */
 static void read_masks(const masks *m, const double *plain)
 {
     for (size_t i = 0; i < (size_t)1 << m->levels; i++) {
@@ -237,7 +241,7 @@ static const koksma_param params[] = {
 
 const koksma_pattern koksma__pattern_pmj02bn = {
     .name = "pmj02bn",
-    .title = "pmj02 scrambled so that its first 4, 16, 64, .. points keep apart",
+    .title = "pmj02, scrambled so that its first 4, 16, 64, .. points are far from each other",
     .cite = "christensen2018 helmer2021",
     .min_dim = 2,
     .max_dim = 2,

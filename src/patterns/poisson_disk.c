@@ -7,12 +7,12 @@
  *
  * Source: Shirley 1991, section 5.5.4 (dart throwing in the square, d = 0.1 and 0.2 for 16 points); Cook 1986.
  * Without torus=1 points crowd at the sides, where darts have fewer neighbours: 16 points with d = 0.2 have a density
- * of 1.40 in the outer tenths of a coordinate and of .9 inside. This biases a mean over the square, and makes the
- * points no better than jittered ones for the integrand `checker`. The default is Shirley's square without
+ * of 1.40 in the outer tenths of a coordinate and of .9 inside. A mean over the square is therefore biased, and for
+ * the integrand `checker` the points are no better than jittered ones. The default is Shirley's square without
  * wraparound; torus=1 is recommended.
  *
- * The set consists of the first n darts that fit. After 3,000 rejections in a row the set is begun anew, and after
- * 200 such restarts the search fails: the error message then gives the largest d that any n points can have. Dart
+ * The set consists of the first n darts that fit. After 3,000 rejections in a row the search restarts with an empty
+ * set, and after 200 restarts it fails: the error message then gives the largest d that any n points can have. Dart
  * throwing jams at about 0.77 of that d on the torus. In the plane, a grid of cells finds the points near a dart if n
  * > 256, which does not change the result; in other dimensions a dart is compared with all points. The search also
  * fails after comparing 2^34 + 4096 n coordinates in all restarts together, about 20 s: enough for 65,536 points in 5
@@ -32,11 +32,13 @@ enum { REJECTIONS = 3000, RESTARTS = 200, FEW = 256, LOOKS = 1 << 24 };
 /* The state of a search and the work that it has done. */
 typedef struct search {
     bool torus, stopped;
-    uint64_t work, asked, most; /* coordinates compared: so far; at the last check of `run`; at most */
+    uint64_t work, asked, most; /* number of coordinates compared: so far, at the last check of `run`, and the limit
+                                   */
 } search;
 
-/* The fraction of the upper bound on the distance that dart throwing reached in every test with 3 to 300 points. With
-   few points in many dimensions the bound is far above what any set can reach, above all in the cube. */
+/* Returns the fraction of the upper bound on the distance that dart throwing reached in every test with 3 to 300
+   points. With few points in many dimensions the bound is far above what any set can reach, especially in the cube.
+   */
 static double reached(int dim, bool torus)
 {
     static const double cube[] = {0.7, 0.7, 0.4, 0.3, 0.3, 0.2, 0.2, 0.2},
@@ -61,10 +63,11 @@ static bool fits(const koksma_points *out, size_t placed, const double *dart, do
     return room;
 }
 
-/* Whether the search may go on; every LOOKS comparisons it reports progress to `run` and checks whether to stop. */
+/* Returns whether the search may go on; every LOOKS comparisons it reports progress to `run` and checks whether to
+   stop. */
 static bool may_go_on(search *s, double done, const koksma_run *run)
 {
-    s->work += 64; /* the cost of drawing a dart and of its neighbours in a grid */
+    s->work += 64; /* the work of drawing a dart and of checking its neighbours in the grid */
     if (s->work - s->asked >= LOOKS) {
         s->asked = s->work;
         s->stopped = !koksma__keep_going(run, done);
@@ -125,16 +128,16 @@ static koksma_status throw_until(uint64_t seed, const koksma_args *args, koksma_
         }
         most = placed > most ? placed : most;
         KOKSMA__FAIL_IF(s.work >= s.most, KOKSMA_IMPOSSIBLE,
-                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g in dim %d within its "
-                        "bound of work; n = %zu or less, or a smaller d, would do",
+                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g in dim %d within its limit of "
+                        "work; n = %zu or less, or a smaller d, would do",
                         most, out->n, d, out->dim, most);
         if (restart >= 5 && most < out->n * 9 / 10) {
-            break; /* far from n after 6 tries: further ones would not succeed */
+            break; /* after 6 tries that end far from n points, further tries would fail, too */
         }
     }
     return koksma__fail(KOKSMA_IMPOSSIBLE,
-                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; no d above "
-                        "%.4f is possible, and dart throwing gets to about %.3g",
+                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; no d above %.4f is "
+                        "possible, and dart throwing reaches about %.3g",
                         most, out->n, d, limit, reached(out->dim, torus) * limit);
 }
 
@@ -144,8 +147,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const bool torus = args->params[1] != 0;
     const double limit = koksma__packing_distance(out->n, out->dim, torus);
     KOKSMA__FAIL_IF(d > limit, KOKSMA_IMPOSSIBLE,
-                    "poisson-disk: no %zu points in dim %d are d=%g apart; no d above "
-                    "%.4f is possible, and dart throwing gets to about %.3g",
+                    "poisson-disk: no %zu points in dim %d are d=%g apart; no d above %.4f is possible, and dart "
+                    "throwing reaches about %.3g",
                     out->n, out->dim, d, limit, reached(out->dim, torus) * limit);
     koksma__torus_grid grid = {0};
     const bool gridded = out->dim == 2 && out->n > FEW;
@@ -159,13 +162,14 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 static const koksma_param params[] = {
     {"d", "smallest distance between two points", 0.1, 0, 8, NULL, false},
-    {"torus", "1: distances go around the sides; else points crowd there", 0, 0, 1, NULL, true},
+    {"torus", "1: measure distances on the torus; 0: in the cube, where points crowd at the sides", 0, 0, 1, NULL,
+     true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_poisson_disk = {
     .name = "poisson-disk",
-    .title = "dart throwing with a smallest distance; torus=1 for an even density",
+    .title = "dart throwing with a smallest distance; use torus=1 for an even density",
     .cite = "cook1986 shirley1991",
     .min_dim = 1,
     .max_dim = 8,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * poisson-disk-maximal: dart throwing on the torus until no point can be added: no two points are closer than d, and
- * no position is further than d from all of them.
+ * no position is further than d from all points.
  *     by distance, d=D: the number of points follows from D (about 0.6965 / D^2); any other n is an error
  *     by number, d=0: darts are thrown at a distance at which slightly fewer than n points fit; then the distance
  *         shrinks, and darts fill the free area that opens, until exactly n points leave no free area (a bisection
@@ -11,7 +11,7 @@
  * distribution of dart throwing and are thus unbiased. Free areas narrower than 2^-30 are ignored. The time is about
  * n log n. In 3 to 6 dimensions (shared/ball_cover.h) sets have n V (d/2)^dim = 0.384, 0.260, 0.171 and 0.109, V the
  * volume of the unit ball: the saturation of random sequential addition (Zhang & Torquato 2013). Time and memory are
- * in proportion to n and grow by a factor of 6 to 10 with each dimension: 400 points take 0.01, 0.2 and 2 s in 3, 4
+ * proportional to n and grow by a factor of 6 to 10 with each dimension: 400 points take 0.01, 0.2 and 2 s in 3, 4
  * and 5 dimensions.
  */
 #include <math.h>
@@ -65,33 +65,33 @@ static double **cover_xs(cover *c)
     return c->dim == 2 ? &c->disks.xs : &c->balls.xs;
 }
 
-/* The mean of points times d^dim. */
+/* Returns the mean of (number of points) * d^dim. */
 static double per_volume(int dim)
 {
     return dim == 2 ? 0.6965 : koksma__balls_per_volume(dim);
 }
 
-/* A little more than any distance on the torus. */
+/* Returns a number slightly larger than any distance on the torus. */
 static double farthest(int dim)
 {
     return dim == 2 ? 0.72 : 0.51 * sqrt(dim);
 }
 
-/* The distance at which sets have n points on average. */
+/* Returns the distance d at which sets have n points on average. */
 static double distance_of(double n, int dim)
 {
     const double d = dim == 2 ? sqrt(per_volume(dim) / n) : pow(per_volume(dim) / n, 1.0 / dim);
     return fmin(d, farthest(dim));
 }
 
-/* The most points, in a round number, whose cover of the free volume stays within KOKSMA__BALL_BYTES. */
+/* Returns, rounded, the largest number of points whose cover of the free volume needs at most KOKSMA__BALL_BYTES. */
 static size_t feasible(int dim)
 {
     static const size_t most[] = {5000000, 800000, 40000, 5000};
     return most[dim - 3];
 }
 
-/* Explains to users that the cover of `n` points outgrew its limit. */
+/* Fails with a message that the cover of `n` points has exceeded its limit. */
 static koksma_status explain(koksma_status status, const cover *c, double n)
 {
     return status != KOKSMA_IMPOSSIBLE
@@ -113,7 +113,7 @@ static koksma_status try_shrink(void *set, size_t kept, double d, size_t n, cons
     return explain(status, c, (double)(n - 1));
 }
 
-/* Searches for a maximal set of n points; the restarts use the seeds number first to first + TRIES - 1. */
+/* Searches for a maximal set of n points. The restarts use seeds number first .. first + TRIES - 1. */
 static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksma_run *run, cover *c)
 {
     double d = distance_of(fmax((double)n - 0.6 * sqrt((double)n) - 0.4, 0.9), c->dim);
@@ -132,9 +132,9 @@ static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksm
     return status || cover_n(c) >= n ? status : koksma__maximal_shrink(c->dim, d, cover_n(c), n, run, try_shrink, c);
 }
 
-/* A search may end without n points: two points on the torus are symmetric about two others, so that free area may
-   appear for two points at once. Whether this happens does not depend on the position of the set, so repeating the
-   search does not bias it. */
+/* A search may end without n points, because free area can appear for two points at the same distance: two positions
+   on the torus can be symmetric about two points of the set. Whether this happens does not depend on the position of
+   the set, so repeating the search does not bias it. */
 static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, cover *c)
 {
     koksma_status status = search(seed, 0, n, run, c);
@@ -156,10 +156,11 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
     return status ? status : explain(cover_fill(c, SIZE_MAX, run), c, expected);
 }
 
-/* Whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus and those of
-   radius d/2 do not overlap, so that n is between that of the thinnest covering, 2/(sqrt(27) d^2), and that of the
-   densest packing, 2/(sqrt(3) d^2); in more dimensions balls of these radii have at least and at most the volume of
-   the torus. For many points any other n fails before the first dart is thrown. */
+/* Returns whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus, and its
+   disks of radius d/2 do not overlap. Therefore n is at least 2/(sqrt(27) d^2), as in the thinnest covering, and at
+   most 2/(sqrt(3) d^2), as in the densest packing. In more dimensions n balls of radius d have at least, and n balls
+   of radius d/2 at most, the volume of the torus. With this test an impossible n fails before the first dart is
+   thrown. */
 static bool is_possible(double d, size_t n, int dim)
 {
     const double area = (double)n * pow(d, dim), packed = koksma__packing_distance(n, dim, true) / d;
@@ -171,13 +172,14 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const double d = args->params[0], expected = per_volume(out->dim) / pow(d, out->dim);
     cover c = {.dim = out->dim};
     KOKSMA__FAIL_IF(d > 0 && expected > MANY && !is_possible(d, out->n, out->dim), KOKSMA_N,
-                    "poisson-disk-maximal: d=%g has about %.3g points, not %zu; no d would do", d, expected, out->n);
+                    "poisson-disk-maximal: d=%g gives about %.3g points, not %zu; leave out d to get n points", d,
+                    expected, out->n);
     koksma_status status = d > 0 ? by_distance(seed, d, args->run, &c) : by_number(seed, out->n, args->run, &c);
     if (!status && cover_n(&c) != out->n) {
-        status = koksma__fail(KOKSMA_N,
-                              "poisson-disk-maximal: d=%g with this seed has %zu points, not %zu; n = %zu, or no d, "
-                              "would do",
-                              d, cover_n(&c), out->n, cover_n(&c));
+        status = koksma__fail(
+            KOKSMA_N,
+            "poisson-disk-maximal: d=%g with this seed gives %zu points, not %zu; n = %zu, or no d, would do", d,
+            cover_n(&c), out->n, cover_n(&c));
     }
     if (!status) {
         memcpy(out->xs, *cover_xs(&c), (size_t)c.dim * out->n * sizeof *out->xs);
@@ -208,7 +210,7 @@ static const koksma_param params[] = {
 
 const koksma_pattern koksma__pattern_poisson_disk_maximal = {
     .name = "poisson-disk-maximal",
-    .title = "dart throwing on the torus until nothing fits",
+    .title = "dart throwing on the torus until no further point fits",
     .cite = "ebeida2012 cook1986 zhang2013",
     .min_dim = 2,
     .max_dim = KOKSMA__BALL_DIMS,

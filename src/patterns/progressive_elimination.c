@@ -2,11 +2,11 @@
 /*
  * progressive-elimination: the sequence of `length` points that sample elimination selects from `factor` times as
  * many uniform random points, in Yuksel's progressive order: elimination removes half of the points, then half of the
- * rest, and so on; the point removed last comes first.
+ * rest, and so on. The points are listed in the reverse order of their removal.
  *
  * Source: Yuksel 2015, section on progressive sampling; shared/elimination.c gives the formulas. The first n points
- * of a sequence do not depend on n, but they depend on `length`. Generating any n points takes the time of the whole
- * sequence, so `length` should be no larger than needed.
+ * of a sequence do not depend on n, but they depend on `length`. Generating n points always takes the time of the
+ * whole sequence, so choose a small `length`.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +37,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"length", "points of the sequence", 1024, 1, 1 << 27, NULL, true},
-    {"factor", "points to begin with, for each of the sequence", 5, 2, 20, NULL, true},
+    {"length", "number of points in the sequence", 1024, 1, 1 << 27, NULL, true},
+    {"factor", "number of candidates for each point of the sequence", 5, 2, 20, NULL, true},
     {0},
 };
 

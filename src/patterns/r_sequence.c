@@ -13,7 +13,7 @@
  * of two seeds are paired at random. If n is not a power of two, the first n points consist of several runs, one for
  * each bit 1 of n; docs/decisions/0014 gives the resulting loss of quality.
  *
- * koksma_r_2d of koksma/sampler.h computes single points of shuffle=1,shift=1.
+ * koksma_r_2d of koksma/sampler.h computes single points of the sequence with shuffle=1,shift=1.
  * Known, 2D, n = 16: D* = 0.243477007, L2 star = 0.067755940.
  */
 #include <koksma/sampler.h>
@@ -25,7 +25,7 @@
 
 enum { MAX_DIM = 64 };
 
-/* The product of two fractions in units of 2^-64, cut off to 64 bits. */
+/* Returns the product of two fractions in units of 2^-64, truncated to 64 bits. */
 static uint64_t product(uint64_t a, uint64_t b)
 {
     const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
@@ -33,7 +33,7 @@ static uint64_t product(uint64_t a, uint64_t b)
     return ah * bh + (middle >> 32) + (other >> 32);
 }
 
-/* The fraction a with a^dim + a^(dim+1) = 1, by bisection. */
+/* Returns the fraction a with a^dim + a^(dim+1) = 1, by bisection. */
 static uint64_t root(int dim)
 {
     uint64_t a = 0;
@@ -102,7 +102,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"shuffle", "1: points in random order; aligned blocks of 2^m points stay together", 0, 0, 1, NULL, true},
+    {"shuffle", "1: put the points in random order; aligned blocks of 2^m points stay together", 0, 0, 1, NULL, true},
     {0},
 };
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * record: the best known sets of n points for a measure, found by `koksma optimise`; `koksma list records` prints
- * their values, the best published ones, and the seed and steps that make them. Any other n is an error.
+ * record: the best known sets of n points for a measure, found by `koksma optimise`. `koksma list records` prints
+ * their values, the best published values, and the seed and steps that reproduce them. Numbers n without a stored set
+ * are an error.
  *     x_ik = t_ik / 10^12, t_ik a whole number from a table
  *
  * Source: this project's searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 14

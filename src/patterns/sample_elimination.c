@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * sample-elimination: starts from factor * n uniform random points and removes the point with the largest weight, the
- * one most crowded by its neighbours on the torus, until n points are left.
+ * sample-elimination: starts from factor * n uniform random points and repeatedly removes the point with the largest
+ * weight, which has the most and nearest neighbours on the torus, until n points are left.
  *
  *     weight of i = sum over j with d_ij < d_max of (1 - max(d_ij, d_min) / d_max)^8
  *     d_max = the distance of the densest packing of n points,  d_min = d_max (1 - factor^-1.5) 0.65
@@ -13,7 +13,7 @@
  * From 4 dimensions on, single pairs of points may be close together: d_max follows from balls that fill the volume
  * without gaps, and all distances below d_min = 0.59 d_max have the same weight. At n = 64 in 4 dimensions d_min is
  * 0.281, and the smallest distance in each of 20 sets is 0.036 to 0.223 (mean 0.099); Yuksel's program gives the same
- * distances, set by set.
+ * distances for the same sets.
  */
 #include "patterns/patterns.h"
 #include "patterns/shared/elimination.h"
@@ -25,13 +25,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"factor", "points to begin with, for each that is kept", 5, 2, 20, NULL, true},
+    {"factor", "number of candidates for each remaining point", 5, 2, 20, NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_sample_elimination = {
     .name = "sample-elimination",
-    .title = "the points left when the most crowded are taken out",
+    .title = "points that remain when the most crowded candidates are removed one by one",
     .cite = "yuksel2015",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

@@ -7,9 +7,9 @@
  *
  * Source: Mitchell 1992, table 2 ("Scan-Time", after his 1991 paper), which states neither the distance nor the
  * number of candidates. With 16 candidates the L2 star discrepancy of 16, 256, 1600 points is about 0.0463, 0.0074,
- * 0.0023; the paper gives 0.0473, 0.00721, 0.00235. A candidate loses to the best so far if some finished point is
- * nearer to it than the best candidate's smallest distance. Such a point is in a cell at most that distance away, so
- * no other cells are searched.
+ * 0.0023; the paper gives 0.0473, 0.00721, 0.00235. A candidate is worse than the best so far if some finished point
+ * is nearer to it than the smallest distance of the best candidate. Only cells within that distance can contain such
+ * a point, so only these are searched.
  */
 #include <math.h>
 
@@ -30,8 +30,8 @@ static double around(double t)
     return t > 0.5 ? 1 - t : t;
 }
 
-/* The squared distance from (x, y, t), (x, y) of point i, to the nearest finished point, whose index is below i. The
-   search stops once that is at most `enough`. */
+/* Returns the squared distance from (x, y, t) to the nearest finished point, where (x, y) is point i and finished
+   points have lower indices. The search stops when this is at most `enough`. */
 static double nearest(const scan *s, size_t i, double t, double enough)
 {
     const double *own = s->out->xs + 3 * i;
@@ -92,13 +92,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 static const koksma_param params[] = {
     KOKSMA__PARAM_COLUMNS,
-    {"candidates", "random times to choose from", 16, 1, 1000, NULL, true},
+    {"candidates", "number of random candidates for each time", 16, 1, 1000, NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_scan_time = {
     .name = "scan-time",
-    .title = "jittered x and y, times far from those of the neighbours",
+    .title = "jittered x and y, with times far from those of neighbouring points",
     .cite = "mitchell1992 mitchell1991",
     .min_dim = 3,
     .max_dim = 3,

@@ -4,9 +4,10 @@
  *
  *     x_k = 2^-32 (the sum modulo 2 of the columns V_b of dimension k over the set bits b of i)
  *
- * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008; with numbers=bratley-fox those of Bratley & Fox 1988, which
- * GSL uses; with numbers=groups our own, searched so that dimensions 2 k and 2 k + 1 and dimensions 4 k .. 4 k + 3 are
- * even in the first 2^4 .. 2^12 points (tools/make_sobol_groups.c). Options for scrambling:
+ * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008; with numbers=bratley-fox those of Bratley & Fox 1988,
+ * which GSL uses; with numbers=groups our own, found by a search for even projections on dimensions 2 k and 2 k + 1
+ * and on dimensions 4 k .. 4 k + 3 of the first 2^4 .. 2^12 points (tools/make_sobol_groups.c). Options for
+ * scrambling:
  *     scramble=digital-shift  exclusive or with one random word for each dimension
  *     scramble=lms            a random lower triangular matrix for each dimension, and a digital shift (Matousek
  *                             1998); unlike with owen, pairs of points that share a bit prefix stay correlated
@@ -42,7 +43,7 @@ typedef struct job {
     uint64_t seed;
     int scramble, numbers;
     bool shuffle;
-    const uint32_t (*matrices)[32]; /* with lms: the scrambled direction numbers of all dimensions */
+    const uint32_t (*matrices)[32]; /* only with lms: the scrambled direction numbers of all dimensions */
 } job;
 
 static const uint32_t *directions_of(const job *j, int k)
@@ -50,7 +51,7 @@ static const uint32_t *directions_of(const job *j, int k)
     return j->matrices ? j->matrices[k] : koksma__sobol_directions(k, j->numbers);
 }
 
-/* The random word of the digital shift of dimension k. Word 3 of the random stream is skipped. */
+/* Returns the random word of the digital shift of dimension k. Word 3 of the random stream is not used. */
 static uint32_t seed_of(const job *j, int k)
 {
     const uint64_t at = (uint64_t)(k < 3 ? k : k + 1);
@@ -183,7 +184,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
                     "sobol: numbers=%s has %d dimensions, not %d; numbers=joe-kuo has %d", numbers[j.numbers],
                     koksma__sobol_dim(j.numbers), out->dim, KOKSMA__SOBOL_DIM);
     KOKSMA__FAIL_IF(j.shuffle && j.scramble != HASH_OWEN, KOKSMA_ARGUMENT,
-                    "sobol: shuffle=1 goes with scramble=hash-owen only");
+                    "sobol: shuffle=1 needs scramble=hash-owen");
     KOKSMA__TRY(koksma__range_fits("sobol", args, out));
     if (j.scramble == OWEN) {
         return generate_owen(&j, args, out);
@@ -195,12 +196,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"scramble", "none, digital-shift, lms (random matrix and shift), owen (exact) or hash-owen", NONE, NONE,
-     HASH_OWEN, scrambles, true},
+    {"scramble", "scrambling: none, digital-shift, lms (random matrix and shift), owen (exact) or hash-owen", NONE,
+     NONE, HASH_OWEN, scrambles, true},
     {"numbers",
-     "direction numbers: joe-kuo (1,111 dimensions), bratley-fox (40, as in GSL) or groups (128: even pairs)",
+     "direction numbers: joe-kuo (1,111 dimensions), bratley-fox (40, as in GSL) or groups (128, with even pairs of "
+     "dimensions)",
      KOKSMA__JOE_KUO, KOKSMA__JOE_KUO, KOKSMA__GROUPS, numbers, true},
-    {"shuffle", "1: scrambles the order of the points, too; only with hash-owen", 0, 0, 1, NULL, true},
+    {"shuffle", "1: also scramble the order of the points; only with hash-owen", 0, 0, 1, NULL, true},
     {0},
 };
 

@@ -17,10 +17,10 @@
  *     Q(q, a) = (diagonal of 2q x 2q blocks) Q(2q, a^2),
  *
  * since binomial(2c + c', 2r + r') = binomial(c, r) binomial(c', r') modulo 2. A block-diagonal matrix permutes the
- * values of each digit in base 2^2q, which preserves nets. Up to such permutations the matrix of dimension d is thus
+ * values of each digit in base 2^2q, which preserves nets. Up to these permutations the matrix of dimension d is thus
  * Q(8, a_d), with 256 different a_d; the matrices of 16 consecutive dimensions are Q(4, ...) times one common matrix,
- * and so on. A common upper triangular matrix on the right only permutes the indices within aligned blocks. The first
- * two dimensions are the (0,2)-sequence of Sobol'.
+ * and so on. Multiplying all matrices from the right by the same upper triangular matrix only permutes the indices
+ * within aligned blocks. The first two dimensions are the (0,2)-sequence of Sobol'.
  *
  * Known exactly: in 2D the points are those of the pattern sobol. The modifier owen scrambles the points and
  * preserves the nets in all four bases.
@@ -35,7 +35,8 @@
 
 enum { BITS = 32, MOST_DIM = 256 };
 
-/* The product of two nimbers of q bits, q a power of two. It follows from F F = F + F/2, where F = 2^(q/2). */
+/* Returns the product of two nimbers of q bits, where q is a power of two. The recursion uses F F = F + F/2 with F =
+   2^(q/2). */
 static uint32_t product(uint32_t a, uint32_t b, int q)
 {
     const int half = q / 2;
@@ -48,7 +49,7 @@ static uint32_t product(uint32_t a, uint32_t b, int q)
     return (all ^ lows) << half | (lows ^ product(highs, 1u << (half - 1), half));
 }
 
-/* The product of the matrix Q(q, a) and the bit vector z; bit r of z is row r. */
+/* Returns the product of the matrix Q(q, a) and the bit vector z, whose bit r belongs to row r. */
 static uint32_t multiply(int q, uint32_t a, uint32_t z)
 {
     const uint32_t digit = (1u << q) - 1;
@@ -63,7 +64,7 @@ static uint32_t multiply(int q, uint32_t a, uint32_t z)
     return sum;
 }
 
-/* Column b of the matrix of dimension d; the highest bit is its first row. */
+/* Returns column b of the matrix of dimension d; the highest bit is the first row. */
 static uint32_t column_of(int d, int b)
 {
     const uint32_t k = (uint32_t)d;
@@ -81,7 +82,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const size_t bytes = (size_t)out->dim * BITS * sizeof(uint32_t);
     uint32_t(*directions)[BITS] = calloc(1, bytes);
     KOKSMA__REQUIRE_MEMORY(directions, bytes);
-    for (int d = 0; d < out->dim; d++) { /* computes the columns that indices below first + n need */
+    for (int d = 0; d < out->dim; d++) { /* compute the columns that indices below first + n need */
         for (int b = 0; b < BITS && (args->first + out->n - 1) >> b; b++) {
             directions[d][b] = column_of(d, b);
         }
@@ -93,7 +94,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_sz = {
     .name = "sz",
-    .title = "a sequence whose pairs, quadruples and groups of 16 are (0,s)-sequences in bases 2, 4 and 16",
+    .title = "a sequence whose groups of 2, 4 and 16 dimensions are (0,s)-sequences in bases 2, 4 and 16",
     .cite = "ahmed2025 niederreiter1987",
     .min_dim = 1,
     .max_dim = MOST_DIM,

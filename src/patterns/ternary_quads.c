@@ -1,28 +1,32 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * ternary-quads: a digital sequence in base 3 whose dimensions 2 k and 2 k + 1 are a (0,2)-sequence, and whose dimensions
- * 4 k .. 4 k + 3 are a (1,4)-sequence, for every k. t = 1 is the least there is: a (0,4)-sequence needs base 4 or more.
+ * 4 k .. 4 k + 3 are a (1,4)-sequence, for every k. t = 1 is the least possible value, because a (0,4)-sequence needs
+ * a base of at least 4.
  *
  *     matrix of dimension 4 g + b = C_b N_g   modulo 3
  *     C_0, C_1, C_2   row r (from 0) is the Laurent series of 1/(x - b)^(r+1): the powers of Pascal's matrix
  *     C_3             rows 2 q and 2 q + 1 are the series of x/p^(q+1) and 1/p^(q+1), p = x^2 - x - 1
  *     N_g             upper triangular with ones on the diagonal; N_0 is the identity
  *
- * A series has the coefficient of x^-(c+1) in column c. Source: the aims, base 3 and irreducible polynomials come from
- * Ostromoukhov, Bonneel, Coeurjolly & Iehl (2024), who searched for such matrices; the C_b above, which have the
- * property for every number of points, and the N_g are this project's. That series of rational functions make digital
- * sequences is Niederreiter's (1988). Why t is 0 and 1:
+ * Column c has the coefficient of x^-(c+1) of the series. Source: the aims, base 3 and irreducible polynomials come
+ * from Ostromoukhov, Bonneel, Coeurjolly & Iehl (2024), who searched for such matrices; the C_b above, which have the
+ * property for every number of points, and the N_g are this project's. Niederreiter (1988) constructed digital
+ * sequences from series of rational functions. Why t is 0 and 1:
  *
- *     A sum, not 0, of the first k rows of some C_b is a fraction whose denominator has these rows' powers of the four
- *     polynomials, of degree k in all, k + 1 when C_3 takes part with an odd number of rows. Where its first m
- *     coefficients vanish, its numerator has a degree below that of the denominator minus m. So m = k independent rows
- *     always exist without C_3, and k = m - 1 with it: t = 0 and 1. For the pair C_2, C_3 and m = k the numerator
- *     would be a constant, and u = x + 1 gives p = u^2 + 1 and the leading row (u - 1)/p^(q+1), so that u^-k would be a
- *     multiple of u - 1 modulo p. But its powers modulo p are 1, u and their negatives: t = 0 there, too.
+ *     Take k rows in all, the first ones of some of the C_b, and a linear combination of them that is not 0. It is a
+ *     fraction whose denominator is the product of the powers of the four polynomials in these rows; its degree is k,
+ *     or k + 1 if an odd number of rows comes from C_3. If the first m coefficients of the series vanish, the degree
+ *     of the numerator is below that of the denominator minus m. Therefore the rows are independent for m = k without
+ *     C_3, and for k = m - 1 with it, which means t = 0 and t = 1. For the pair C_2, C_3 and m = k the numerator
+ *     would be a constant. With u = x + 1, p = u^2 + 1 and the leading row is (u - 1)/p^(q+1), so that u^-k would be
+ *     a constant multiple of u - 1 modulo p. But the powers of u modulo p are 1, u and their negatives; so t = 0 for
+ *     this pair, too.
  *
- * A common upper triangular matrix on the right only permutes the indices below each power of 3, so that all groups have
- * these properties. The N_g are searched (tools/make_ternary_quads.c) so that pairs of dimensions of different groups are
- * even. There are 3^20 points.
+ * Multiplying the matrices of a group from the right by the same upper triangular matrix only permutes the indices
+ * below each power of 3, so all groups have these properties. The N_g were found by a search
+ * (tools/make_ternary_quads.c) for even projections on pairs of dimensions of different groups. There are 3^20
+ * points.
  *
  * Known exactly: the first three coordinates are those of faure in three dimensions.
  *
@@ -40,8 +44,8 @@ static const uint32_t searched[(MOST_DIM / QUAD - 1) * (DIGITS - 1)] = {
 #include "patterns/shared/ternary_quads.inc"
 };
 
-/* The rows of C_3. From s_i, the coefficients of 1/p^q, those of 1/p^(q+1) follow by long division:
-   s'_i = s_(i-2) + s'_(i-1) + s'_(i-2). */
+/* Computes the rows of C_3. From s_i, the coefficients of 1/p^q, those of 1/p^(q+1) follow by long division: s'_i =
+   s_(i-2) + s'_(i-1) + s'_(i-2). */
 static void fill_quadratic(int digits, uint32_t *matrix)
 {
     uint32_t series[DIGITS + 2] = {1}; /* of x^0, x^-1, ... */
@@ -62,7 +66,7 @@ static void fill_quadratic(int digits, uint32_t *matrix)
     }
 }
 
-/* Multiplies the matrix by N_g. Columns are replaced from the last one on: each needs those before it. */
+/* Multiplies the matrix by N_g. The last column is replaced first, because each column needs those before it. */
 static void multiply(int g, int digits, uint32_t *matrix)
 {
     for (int c = digits - 1; g > 0 && c > 0; c--) {
@@ -86,8 +90,9 @@ static void fill_matrix(uint32_t base, int k, int digits, uint32_t *matrix)
     multiply(k / QUAD, digits, matrix);
 }
 
-/* Back substitution: the first `level` digits of C (r + d z) and of C (r + d e), e the digit number `level`, are equal
-   where C z is the negative of column `level`. The matrix of `level` + 1 digits is the corner of the whole one. */
+/* Back substitution: finds z such that the first `level` digits of C (r + d z) and C (r + d e) are equal, where e is
+   the unit vector of digit number `level`. The matrix of `level` + 1 digits is the upper left corner of the whole
+   matrix. */
 static void relatives(const void *context, int k, int level, uint32_t *digits)
 {
     (void)context;
@@ -119,13 +124,14 @@ static bool ranges(const double *params)
 static const char *const scrambles[] = {"none", "owen", NULL};
 
 static const koksma_param params[] = {
-    {"scramble", "none or owen (nested, in base 3, exact)", NONE, NONE, OWEN, scrambles, true},
+    {"scramble", "scrambling: none, or owen (exact nested scrambling in base 3)", NONE, NONE, OWEN, scrambles, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_ternary_quads = {
     .name = "ternary-quads",
-    .title = "a sequence in base 3 whose pairs are (0,2)- and whose quadruples are (1,4)-sequences",
+    .title = "a sequence in base 3 whose pairs of dimensions are (0,2)-sequences and whose groups of four are "
+             "(1,4)-sequences",
     .cite = "ostromoukhov2024 niederreiter1988 owen1995 helmer2021",
     .min_dim = 1,
     .max_dim = MOST_DIM,

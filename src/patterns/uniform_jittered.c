@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * uniform-jittered: one random position, the same in all cells of a grid: the regular grid, shifted by a random
- * offset. The points are unbiased like jittered ones, but have the even spacing and the aliasing of the regular grid.
+ * uniform-jittered: a random position that is the same in all cells of a grid. This is the regular grid shifted by a
+ * random offset. The points are unbiased like jittered ones, but have the even spacing and the aliasing of the
+ * regular grid.
  *
  *     x_k = (c_k + u_k) / m,   c in {0 .. m-1}^dim, one u for all cells, uniform in [0,1)^dim
  *
- * Source: Ramamoorthi, Anderson, Meyer & Nowrouzezahrai 2012, who find it the best of the stratified patterns for
- * shadows of linear lights, and worse than jittering for planar ones. Known exactly: any two points are at least 1/m
- * apart, on the torus too.
+ * Source: Ramamoorthi, Anderson, Meyer & Nowrouzezahrai 2012, who find that it is the best stratified pattern for
+ * shadows of linear lights, and worse than jittering for planar lights. Known exactly: any two points are at least
+ * 1/m apart, on the torus too.
  */
 #include "core/random.h"
 #include "patterns/patterns.h"

@@ -37,7 +37,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"size", "of the mask, in pixels a side", 16, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX_3D, NULL, true},
+    {"size", "width of the mask in pixels", 16, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX_3D, NULL, true},
     {"frames", "of the mask", 8, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX_3D, NULL, true},
     {0},
 };

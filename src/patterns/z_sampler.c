@@ -2,7 +2,8 @@
 /*
  * z-sampler: the points of all pixels of a square image, pixel after pixel. Each pixel takes a block of one
  * hash-Owen-scrambled (0,2)-sequence; the blocks are assigned along a Z-curve whose quadrants are in random order at
- * each node. The points of neighbouring pixels together are well distributed, so that their errors differ.
+ * each node. The points of neighbouring pixels are evenly distributed together, so that the errors of these pixels
+ * differ.
  *
  *     point s of pixel (x, y) = sequence(rank(x, y) spp + s),   n = width^2 spp
  *
@@ -54,20 +55,20 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
                     "z-sampler: width=%u is not a power of two; width=%u or %u would do", width, 1u << (levels - 1),
                     1u << levels);
     KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
-                    "z-sampler: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n, pixels,
+                    "z-sampler: n = %zu is not a multiple of the %zu pixels; n = %zu would do", out->n, pixels,
                     (out->n / pixels + 1) * pixels);
     filling f = {seed, width, levels, out->n / pixels, out};
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
 }
 
 static const koksma_param params[] = {
-    {"width", "pixels a side, a power of two", 4, 1, 8192, NULL, true},
+    {"width", "width of the image in pixels, a power of two", 4, 1, 8192, NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_z_sampler = {
     .name = "z-sampler",
-    .title = "one (0,2)-sequence over an image, along a Z-curve",
+    .title = "one (0,2)-sequence that is distributed over the pixels of an image along a Z-curve",
     .cite = "ahmed2020",
     .min_dim = 2,
     .max_dim = 2,

@@ -12,8 +12,8 @@
  * for n = 16, 256, 1600: 0.035833915 0.002550635 0.000438 in 2D, 0.039301 0.003756 0.000761 in 3D. In base 2 the
  * folded radical inverse is a digital shift of the radical inverse in hammersley.
  *     scramble=owen  Owen's nested uniform scrambling (1995), exact; the points are those of hammersley with
- *                    scramble=owen, because folding permutes the digits at each position, which has no effect on the
- *                    distribution of uniformly scrambled digits
+ *                    scramble=owen, because folding permutes the digits at each position, and a uniform scrambling
+ *                    has the same distribution after any such permutation
  */
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"
@@ -67,7 +67,8 @@ static bool ranges(const double *params)
 static const char *const scrambles[] = {"none", "owen", NULL};
 
 static const koksma_param params[] = {
-    {"scramble", "none or owen (nested, each coordinate in its base, exact)", NONE, NONE, OWEN, scrambles, true},
+    {"scramble", "scrambling: none, or owen (exact nested scrambling, each coordinate in its base)", NONE, NONE, OWEN,
+     scrambles, true},
     {0},
 };
 

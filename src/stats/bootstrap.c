@@ -18,7 +18,7 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The q-th quantile of sorted values, by linear interpolation. */
+/* Returns the q-quantile of sorted values, by linear interpolation. */
 static double quantile(const double *sorted, size_t n, double q)
 {
     const double at = q * (double)(n - 1);
@@ -49,13 +49,14 @@ static void set_interval(double *values, size_t n, koksma__estimate *out)
     }
 }
 
-/* The index of the pair that resample s draws as its i-th. */
+/* Returns the index of the i-th pair that resample s draws. */
 static size_t drawn(uint64_t seed, size_t s, size_t i, size_t n)
 {
     return koksma__below(koksma__random(seed, KOKSMA__PURPOSE_SEARCH, s, (uint32_t)i).w[0], (uint32_t)n);
 }
 
-/* The i-th mean in resample s, drawn from the normal distribution about the measured mean (Box and Muller 1958). */
+/* Returns the i-th mean in resample s, drawn from the normal distribution about the measured mean (Box and Muller
+   1958). */
 static double redrawn(const koksma__means *m, size_t s, size_t i)
 {
     double u[2];
@@ -66,8 +67,8 @@ static double redrawn(const koksma__means *m, size_t s, size_t i)
     return m->mean[i] + m->error[i] * sqrt(-2 * log1p(-u[0])) * cos(2 * M_PI * u[1]);
 }
 
-/* Writes resample s to a and b. A pattern that is drawn twice has equal means both times; such a tie counts as no
-   ordered pair. */
+/* Writes resample s to a and b. A pattern that is drawn twice has the same means both times; this tie does not count
+   as an ordered pair. */
 static void resample(const koksma__means *x, const koksma__means *y, size_t n, uint64_t seed, size_t s, double *a,
                      double *b)
 {

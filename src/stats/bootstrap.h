@@ -7,11 +7,11 @@
 
 enum { KOKSMA__LEAST_PAIRS = 7 }; /* the fewest pairs for which an interval is computed */
 
-/* A statistic of n pairs (x, y); NaN when it has no value. */
+/* A statistic of n pairs (x, y); It is NaN if the statistic has no value. */
 typedef double (*koksma__pair_statistic)(const double *x, const double *y, size_t n);
 
-/* Means with their standard errors, which count as 0 where `error` is NULL or NaN; `seed` is for redrawing the
-   means. */
+/* Means with their standard errors; an error counts as 0 if it is NaN or if `error` is NULL. `seed` is the seed for
+   redrawing the means. */
 typedef struct koksma__means {
     const double *mean, *error;
     uint64_t seed;
@@ -22,19 +22,19 @@ typedef struct koksma__means {
    their standard errors. Random numbers are hashes: equal seeds draw the same pairs, and the same errors for
    equal means. `values` is NULL or receives the statistic of each resample, in order, NaN if it has none. With n
    below 7 the interval is [-1, 1] and `values` is not set: resamples of so few pairs exclude 0 in 8 to 13 % of
-   cases without any correlation. If the pairs are in perfect order, all resamples are alike and the interval has
-   no width, which does not mean certainty. Errors: MEMORY. */
+   cases without any correlation. If the pairs are in perfect order, all resamples have the same order. The interval
+   then has width 0, although the statistic is not certain. Errors: MEMORY. */
 koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
                                       koksma__pair_statistic statistic, size_t samples, uint64_t seed, double *values,
                                       koksma__estimate *out);
 
-/* A value, and its resamples values[s] * factor. */
+/* A value, with its resamples values[s] * factor. */
 typedef struct koksma__draws {
     double value, factor;
     const double *values;
 } koksma__draws;
 
-/* The difference of two values, with an interval from resamples of the same pairs. Errors: MEMORY. */
+/* Computes the difference of two values, with an interval from resamples of the same pairs. Errors: MEMORY. */
 koksma_status koksma__bootstrap_difference(const koksma__draws *a, const koksma__draws *b, size_t samples,
                                            koksma__estimate *out);
 

@@ -8,8 +8,8 @@
 
 #include "stats/statistics.h"
 
-/* Mean rank of value i, (number below) + (number equal + 1) / 2, minus the middle rank (n + 1) / 2. Spearman's
-   rho is Pearson's correlation of these (Spearman 1904). */
+/* Returns the mean rank of value i, which is (number below) + (number equal + 1) / 2, minus the middle rank (n + 1) /
+   2. Spearman's rho is Pearson's correlation of these (Spearman 1904). */
 static double centred_rank(const double *values, size_t n, size_t i)
 {
     double rank = -0.5 * (double)n;

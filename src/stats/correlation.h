@@ -11,7 +11,7 @@ double koksma__spearman(const double *x, const double *y, size_t n);
 double koksma__kendall(const double *x, const double *y, size_t n);
 
 /* Writes to `out` the centred mean ranks of n values, divided by the root of their sum of squares, so that the
-   dot product of two such lists is Spearman's rho; zeros where all values are equal. */
+   dot product of two such lists is Spearman's rho; if all values are equal, it writes zeros. */
 void koksma__unit_ranks(const double *values, size_t n, double *out);
 
 #endif

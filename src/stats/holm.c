@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Several tests at once: p from resamples, and Holm's step-down correction ("A simple sequentially rejective
- * multiple test procedure", Scandinavian Journal of Statistics 6, 1979). The smallest of n p-values is multiplied
- * by n, the next by n - 1 and so on, and each result is at least the one before it: the closed test procedure of
- * Bonferroni's test.
+ * Several tests at once: p-values from resamples, and Holm's step-down correction ("A simple sequentially rejective
+ * multiple test procedure", Scandinavian Journal of Statistics 6, 1979). The smallest of n p-values is multiplied by
+ * n, the next by n - 1 and so on; a result smaller than the previous one is replaced by the previous one. This is the
+ * closed test procedure of Bonferroni's test.
  */
 #include "stats/holm.h"
 

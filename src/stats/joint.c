@@ -31,9 +31,9 @@ void koksma_joint_add(koksma_joint *joint, size_t n, const double *values)
 }
 
 /*
- * Prefixes of one set are nested, so that the means at several sizes are correlated, and their residuals are too small
- * to show how far the line would move with other sets. The slope is sum_i w_i log m_i with
- * w_i = (x_i - x)/sum (x_i - x)^2, so that to first order its variance over trials is
+ * Prefixes of one set are nested, so the means at several sizes are correlated. Their residuals are too small to show
+ * how far the line would move with other sets. The slope is sum_i w_i log m_i with w_i = (x_i - x)/sum (x_i - x)^2,
+ * so that to first order its variance over trials is
  *
  *     sum_ik w_i w_k S_ik/(m_i m_k) / (T (T - 1)),
  *
@@ -46,7 +46,7 @@ static double error_of_trials(size_t n, const double *sizes, const double *means
         for (size_t i = 0; i < n; i++) {
             weights[i] = 0;
             if (!(means[i] > 0 && isfinite(means[i]))) {
-                continue; /* the fit of the line skips this mean, too */
+                continue; /* skipped, because the fit of the line skips this mean, too */
             }
             if (pass == 0) {
                 middle += (log(sizes[i]) - middle) / ++count;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Fits a line by least squares in two passes: first the means by updates (Welford 1962), then sums of squares and
-   products about the means, which do not lose digits if the means are large, as sums of raw squares would. The
-   caller keeps the pairs and omits those with NaN. */
+   products about the means. Unlike sums of raw squares, these lose no digits if the means are large. The caller
+   stores the pairs and omits those with NaN. */
 #include "stats/least_squares.h"
 
 void koksma__fit_mean(koksma__fit *fit, double x, double y, double weight)

@@ -17,7 +17,8 @@ KOKSMA__LAB void koksma__fit_mean(koksma__fit *fit, double x, double y, double w
 /* Adds a pair to the sums; call it after all pairs have been added to the means. */
 KOKSMA__LAB void koksma__fit_add(koksma__fit *fit, double x, double y, double weight);
 
-/* The slope xy / xx of the line y = fit->y + slope (x - fit->x). NaN or infinite if all x are equal. */
+/* Returns the slope xy / xx of the line y = fit->y + slope (x - fit->x), which is NaN or infinite if all x are equal.
+   */
 KOKSMA__LAB double koksma__fit_slope(const koksma__fit *fit);
 
 #endif

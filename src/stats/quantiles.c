@@ -4,9 +4,9 @@
  * fraction, and the incomplete gamma function by its series (Abramowitz & Stegun 1964, 26.5.8, 26.7.1, 6.5.29,
  * 26.4.19).
  *
- * The logarithms of gamma in the beta function cancel, which loses some 1e-17 nu log nu of t with nu degrees of
- * freedom. With more than MANY, t is therefore computed from the normal quantile z by the first terms of its
- * expansion in 1/nu (26.7.5):
+ * The logarithms of gamma in the beta function cancel, so t with nu degrees of freedom has an error of about 1e-17 nu
+ * log nu. With more than MANY, t is therefore computed from the normal quantile z by the first terms of its expansion
+ * in 1/nu (26.7.5):
  *     t = z + (z^3 + z) / (4 nu) + (5 z^5 + 16 z^3 + 3 z) / (96 nu^2) + O(nu^-3)
  */
 #include "stats/quantiles.h"
@@ -23,7 +23,7 @@ static double away(double x)
     return fabs(x) < 1e-300 ? 1e-300 : x;
 }
 
-/* I_x(a, b) for x below (a + 1) / (a + b + 2), by Lentz's method. */
+/* Returns I_x(a, b) for x below (a + 1) / (a + b + 2), by Lentz's method. */
 static double beta_fraction(double a, double b, double x)
 {
     double c = 1, d = 1 / away(1 - (a + b) * x / (a + 1)), f = d;
@@ -44,8 +44,8 @@ static double beta_fraction(double a, double b, double x)
            f / a;
 }
 
-/* P(T > t) for t > 0, of Student's t; with more than MANY degrees of freedom, P(Z > t) of the normal
-   distribution. */
+/* Returns P(T > t) of Student's t distribution for t > 0, or, with more than MANY degrees of freedom, P(Z > t) of the
+   normal distribution. */
 static double student_tail(double t, double degrees)
 {
     if (degrees > MANY) {
@@ -78,7 +78,7 @@ double koksma__student_quantile(double p, double degrees)
                           : t;
 }
 
-/* P(X <= x) of the chi-squared distribution. */
+/* Returns P(X <= x) of the chi-squared distribution. */
 static double chi_squared(double x, double degrees)
 {
     const double a = 0.5 * degrees, z = 0.5 * x;

@@ -7,7 +7,7 @@
  * with the error. A fit to several scenes uses the sums of their G and c; leaving a scene out subtracts its G and c.
  * With weights b the squared error per case is 1 - 2 b'c + b'G b.
  *
- *   single   the measure with the least squared error, that is, the largest c_j^2 / G_jj; only its sign is fitted
+ *   single the measure with the least squared error, that is, the largest c_j^2 / G_jj; only its sign is fitted
  *   pair     the pair of measures with the largest c' G^-1 c, among all k (k - 1) / 2 pairs
  *   all      ridge: (G + penalty I) b = c, with the penalty of least error in a cross-validation among the other scenes
  */
@@ -25,10 +25,10 @@ static const double penalties[PENALTIES] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 
 
 /* The matrices G (k x k) and c (k) of each scene and of sums over scenes, with memory for the computations. */
 typedef struct sums {
-    size_t k, n_scenes, size; /* size: how many numbers G and c of a scene have, k (k + 1) */
+    size_t k, n_scenes, size; /* size: count of the numbers in G and c of a scene, k (k + 1) */
     double *of;               /* G and c of each scene, `size` numbers for each */
     size_t *cases;            /* number of cases in each scene */
-    /* sum over all scenes; sum over the training scenes; a Cholesky factor; k weights */
+    /* sum over all scenes; sum over the training scenes; memory for a Cholesky factor and for k weights */
     double *all, *train, *factor, *weights;
 } sums;
 
@@ -86,7 +86,7 @@ static void add_cases(sums *s, const koksma__rank_case *cases, size_t n_cases)
     }
 }
 
-/* Sets s->train to the sum over all scenes but two, or but one if `scene` equals `other`. */
+/* Sets s->train to the sum over all scenes except `scene` and `other`, which may be equal. */
 static void leave_out(sums *s, size_t scene, size_t other)
 {
     for (size_t i = 0; i < s->size; i++) {
@@ -116,7 +116,7 @@ static void fit_ridge(sums *s, double penalty, size_t count)
     }
 }
 
-/* The squared error of the weights per case of a scene, minus the constant 1. */
+/* Returns the squared error of the weights per case of a scene, minus the constant 1. */
 static double error_in(const sums *s, size_t scene)
 {
     const size_t k = s->k;
@@ -128,8 +128,8 @@ static double error_in(const sums *s, size_t scene)
     return error;
 }
 
-/* Chooses the penalty with the least error in a cross-validation among all scenes but `scene`; of equal ones the
-   larger. */
+/* Chooses the penalty with the least error in a cross-validation among all scenes except `scene`; among penalties
+   with equal errors, the largest. */
 static double choose_penalty(sums *s, size_t scene, size_t n_used)
 {
     double best = penalties[PENALTIES - 1], least = INFINITY;
@@ -150,8 +150,8 @@ static double choose_penalty(sums *s, size_t scene, size_t n_used)
     return best;
 }
 
-/* The part of the squared error that a pair of measures explains in s->train, and the pair's weights; -1 if the
-   pair is nearly collinear. */
+/* Returns the part of the squared error that a pair of measures explains in s->train, or -1 if the pair is nearly
+   collinear. Also computes the weights of the pair. */
 static double explained(const sums *s, size_t a, size_t b, double weights[2])
 {
     const size_t k = s->k;
@@ -196,8 +196,8 @@ static void choose_pair(const sums *s, koksma__held_out *out, double weights[2])
     }
 }
 
-/* Spearman's correlation of the weighted sum of ranks with the error's ranks; 0 if all sums are equal and so
-   define no order. */
+/* Returns Spearman's correlation of the weighted sum of ranks with the ranks of the error, or 0 if all sums are equal
+   and thus define no order. */
 static double predict(const koksma__rank_case *at, size_t k, const size_t *which, const double *weights, size_t n,
                       double *scores)
 {

@@ -19,11 +19,11 @@ typedef struct koksma__held_out {
     size_t cases;   /* number of the scene's cases; 0: the other members are not set */
     size_t single;  /* the measure that the other scenes select */
     size_t pair[2]; /* the pair that the other scenes select; with k = 1, both are `single` */
-    /* Penalty of the ridge regression on all measures; aligned to 8 also where a double needs less, so that the
-       struct is an array of doubles. */
+    /* Penalty of the ridge regression on all measures. Aligned to 8 bytes on all machines, so that the struct is an
+       array of doubles. */
     _Alignas(8) double penalty;
-    /* the single measure that is best in the scene itself, which is no prediction; rho_hindsight is its
-       correlation */
+    /* the measure that is best in the scene itself (chosen in hindsight, so it is no prediction); rho_hindsight is
+       its correlation */
     size_t hindsight;
     double rho_single, rho_pair, rho_all, rho_hindsight;
 } koksma__held_out;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How errors fall with n. A slope is that of the least-squares line through (log n, log mean). Its interval comes
-   from the standard errors of the means, to first order in the logarithms, or from the residuals where the errors
-   are unknown; the lack of fit of a weighted line shows whether the means lie on a line at all. The number of
-   samples that reaches a given error is interpolated between the two nearest sizes, as if the error followed c
+/* Describes how errors decrease with n. A slope is the slope of the least-squares line through (log n, log mean). Its
+   interval comes from the standard errors of the means, to first order in the logarithms, or from the residuals if
+   the errors are unknown. The lack of fit of a weighted line shows whether the means lie on a line at all. The number
+   of samples that reaches a given error is interpolated between the two nearest sizes, as if the error followed c
    n^slope between them. */
 #include "stats/slopes.h"
 
@@ -15,14 +15,14 @@
 
 #define NORMAL_99 2.3263478740408408 /* the 99 % quantile of the normal distribution */
 
-/* Standard error of the log of a mean, to first order; NaN for one trial of a random value, 0 for a deterministic
-   value. */
+/* Returns the standard error of the logarithm of a mean, to first order. It is NaN for one trial of a random value,
+   and 0 for a deterministic value. */
 static double log_error(const koksma__summary *s)
 {
     return s->sd / sqrt((double)s->n) / s->mean;
 }
 
-/* Whether all of the log_error are known, whether some are above 0, and whether all are. */
+/* Flags: all numbers log_error are known; some of them are above 0; all of them are above 0. */
 typedef struct errors {
     bool known, some, all;
 } errors;
@@ -39,7 +39,7 @@ static errors errors_of(const koksma__summary *y, size_t count)
     return e;
 }
 
-/* The weight 1 / sigma^2 of a mean, or 1 without weights. */
+/* Returns the weight 1 / sigma^2 of a mean, or 1 without weights. */
 static double weight(const koksma__summary *y, bool weighted)
 {
     return weighted ? 1 / (log_error(y) * log_error(y)) : 1;
@@ -67,9 +67,9 @@ static double squared_residuals(const koksma__fit *f, const double *n, const kok
     return sum;
 }
 
-/* Half the width of the interval of the slope sum c_i y_i with c_i = (x_i - x') / sxx. The variance is V = sum
-   c_i^2 sigma_i^2, with V^2 / sum (c_i^2 sigma_i^2)^2 / (trials_i - 1) degrees of freedom (Satterthwaite 1946;
-   Welch 1947). */
+/* Returns half the width of the interval of the slope, which is sum c_i y_i with c_i = (x_i - x') / sxx. The variance
+   is V = sum c_i^2 sigma_i^2, with V^2 / sum (c_i^2 sigma_i^2)^2 / (trials_i - 1) degrees of freedom (Satterthwaite
+   1946; Welch 1947). */
 static double half_of_trials(const koksma__fit *f, const double *n, const koksma__summary *y, size_t count)
 {
     double variance = 0, fourth = 0;
@@ -84,7 +84,7 @@ static double half_of_trials(const koksma__fit *f, const double *n, const koksma
     return fourth > 0 ? koksma__student_quantile(0.975, variance * variance / fourth) * sqrt(variance) : 0;
 }
 
-/* Half the width of the interval of the slope, from the residuals alone. */
+/* Returns half the width of the interval of the slope, computed only from the residuals. */
 static double half_of_residuals(const koksma__fit *f, const double *n, const koksma__summary *y, size_t count)
 {
     if (count < 3) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Means, standard deviations and intervals of values, and comparisons of pairs by their differences. Sums are
-   compensated (core/sum.h) and in the order of the index, so that equal values give equal bits. Where exact
-   arithmetic gives 0, rounding leaves about 1e-16 of the values; differences up to 1e-12 of the values therefore
-   count as 0, because an interval of no width would otherwise make rounding noise significant. */
+   compensated (core/sum.h) and in order of the index, so that equal values give equal bits. If a difference is
+   exactly 0, rounding errors of about 1e-16 of the values remain, and an interval of width 0 would make them
+   significant. Therefore differences up to 1e-12 of the values count as 0. */
 #include "stats/statistics.h"
 
 #include <math.h>
@@ -11,8 +11,8 @@
 
 #include "core/sum.h"
 
-/* Values that are equal in exact arithmetic differ by less than this, relative to their size, if they are
-   accurate to their last digits. */
+/* Values that are equal in exact arithmetic and are computed accurately differ by less than this, relative to their
+   size. */
 #define ROUNDING 1e-12
 
 int koksma__compare(double a, double b)
@@ -20,7 +20,7 @@ int koksma__compare(double a, double b)
     return fabs(a - b) <= ROUNDING * fmax(fabs(a), fabs(b)) ? 0 : (a > b) - (a < b);
 }
 
-/* a[i] - b[i], or 0 if they compare equal; a[i] if b is NULL. */
+/* Returns a[i] - b[i], or 0 if they compare equal; if b is NULL, it returns a[i]. */
 static double item(const double *a, const double *b, size_t i)
 {
     return !b ? a[i] : koksma__compare(a[i], b[i]) || isnan(a[i] - b[i]) ? a[i] - b[i] : 0;
@@ -80,7 +80,8 @@ koksma__estimate koksma__relative_change(const double *a, const double *base, si
 
 double koksma__trials_factor(double difference, double half)
 {
-    const double wanted = (1.95996 + 0.84162) / 1.95996; /* normal quantiles of 97.5 % and 80 % */
+    const double wanted = (1.95996 + 0.84162) / 1.95996; /* the 97.5 % and 80 % quantiles of the normal distribution
+                                                            */
     const double ratio = wanted * half / difference;
     return ratio * ratio;
 }

@@ -12,27 +12,27 @@
 typedef struct koksma__summary {
     size_t n;
     double mean, sd;  /* sd: of the sample, with n - 1; NaN for n = 1 */
-    double low, high; /* interval of the mean by Student's t; NaN for n = 1, as one value does not show the spread */
+    double low, high; /* interval of the mean by Student's t; NaN for n = 1, because one value has no spread */
     double max;
 } koksma__summary;
 
-/* Compares two values: 1: a > b, -1: a < b, 0: they differ by at most 1e-12 of the larger, as rounding may do, or
-   one is NaN. */
+/* Compares two values. Returns 1 if a > b, -1 if a < b, and 0 if they differ by at most 1e-12 of the larger (which
+   may be rounding) or if one is NaN. */
 int koksma__compare(double a, double b);
 
 /* Summarises the n values values[0], values[stride], …; n = 0 gives NaN. Sums are compensated, in the order of
    the index. An sd up to 1e-12 of the largest value is rounding noise and becomes 0. */
 koksma__summary koksma__summarize(const double *values, size_t n, size_t stride);
 
-/* The summary of a value without variance, such as the result of a deterministic pattern. */
+/* Makes the summary of a value without variance, such as the result of a deterministic pattern. */
 koksma__summary koksma__exactly(double value);
 
 /* Summarises the differences a[i] - b[i] of n pairs, 0 where they compare equal; consecutive values are `stride`
    apart. */
 koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride);
 
-/* Takes the largest value of each whole block of `block` values; returns their mean, and their sample SD, which
-   is NaN for fewer than two blocks. */
+/* Takes the largest value of each complete block of `block` values, and computes the mean and the sample SD of these
+   maxima. The SD is NaN for fewer than two blocks. */
 void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd);
 
 /* An estimate with its 95 % interval. */
@@ -40,11 +40,12 @@ typedef struct koksma__estimate {
     double value, low, high;
 } koksma__estimate;
 
-/* By what factor the number of trials must grow so that a test finds the difference of two means with a
-   probability of 80 %; `half` is half the width of the present interval of the difference. Errors fall as trials^-1/2. */
+/* Returns the factor by which the number of trials must grow so that a test finds the difference of two means with a
+   probability of 80 %, because errors decrease as trials^-1/2. half: half the width of the present interval of the
+   difference. */
 double koksma__trials_factor(double difference, double half);
 
-/* The relative difference of means over n pairs, mean a / mean base - 1. It is 0 if both means are 0; the
+/* Computes the relative difference of means over n pairs, mean a / mean base - 1. It is 0 if both means are 0; the
    interval is NaN for n = 1. */
 koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n);
 

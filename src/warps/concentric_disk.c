@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * concentric-disk: maps concentric squares to concentric circles; it keeps ratios of areas and is continuous. With
- * (a,b) = 2u - 1: if |a| > |b|, radius a and angle (pi/4)(b/a); else radius b and angle pi/2 - (pi/4)(a/b). Source:
- * Shirley & Chiu 1997. Known exactly: the square's centre goes to the disk's centre, and its corners to the points of
- * the circle on the diagonals.
+ * concentric-disk: maps concentric squares to concentric circles. The map is continuous and preserves ratios of
+ * areas. With (a,b) = 2u - 1: if |a| > |b|, radius a and angle (pi/4)(b/a); else radius b and angle pi/2 -
+ * (pi/4)(a/b). Source: Shirley & Chiu 1997. Known exactly: the centre of the square is mapped to the centre of the
+ * disk, and its corners to the points of the circle on the diagonals.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
 
 const koksma_warp koksma__warp_concentric_disk = {
     .name = "concentric-disk",
-    .title = "low-distortion map of squares to circles",
+    .title = "low-distortion map of concentric squares to concentric circles",
     .cite = "shirley1997",
     .domain = KOKSMA_DOMAIN_DISK,
     .dim = 2,

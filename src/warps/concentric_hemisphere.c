@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * concentric-hemisphere: the concentric map to the disk, then the radius r becomes r sqrt(2 - r^2) at the height z =
- * 1 - r^2: the directions are uniform in solid angle. Source: Shirley & Chiu 1997.
+ * concentric-hemisphere: the concentric map to the disk, followed by a lift that maps radius r to radius r sqrt(2 -
+ * r^2) at height z = 1 - r^2. The directions are uniform in solid angle. Source: Shirley & Chiu 1997.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
@@ -14,7 +14,7 @@ static void map(const double *u, double *x)
 
 const koksma_warp koksma__warp_concentric_hemisphere = {
     .name = "concentric-hemisphere",
-    .title = "the concentric disk, lifted; uniform directions",
+    .title = "concentric map to the disk, lifted to uniform directions",
     .cite = "shirley1997",
     .domain = KOKSMA_DOMAIN_HEMISPHERE,
     .dim = 3,

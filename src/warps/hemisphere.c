@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * hemisphere: the polar map to the disk, then the radius r becomes r sqrt(2 - r^2) at the height z = 1 - r^2. The
- * height is thus 1 - u_0, the angle 2 pi u_1, and the directions are uniform in solid angle. Source: Shirley 1991;
- * the map from the disk to the hemisphere is the inverse of Lambert's equal-area projection.
+ * hemisphere: the polar map to the disk, followed by a lift that maps radius r to radius r sqrt(2 - r^2) at height z
+ * = 1 - r^2. The height is thus 1 - u_0, the angle 2 pi u_1, and the directions are uniform in solid angle. Source:
+ * Shirley 1991; the map from the disk to the hemisphere is the inverse of Lambert's equal-area projection.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
@@ -15,7 +15,7 @@ static void map(const double *u, double *x)
 
 const koksma_warp koksma__warp_hemisphere = {
     .name = "hemisphere",
-    .title = "height 1 - u, angle 2 pi v; uniform directions",
+    .title = "(u, v) to height 1 - u and angle 2 pi v; uniform directions",
     .cite = "shirley1991",
     .domain = KOKSMA_DOMAIN_HEMISPHERE,
     .dim = 3,

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * triangle: maps (u_0, u_1) to (1 - sqrt u_0, u_1 sqrt u_0). Strips of constant u_0 become strips parallel to a side
- * of the triangle; ratios of areas are kept. The side u_0 = 0 of the square shrinks to a corner of the triangle.
+ * triangle: maps (u_0, u_1) to (1 - sqrt u_0, u_1 sqrt u_0). Lines of constant u_0 become lines parallel to a side of
+ * the triangle, and ratios of areas are preserved. The side u_0 = 0 of the square shrinks to a corner of the
+ * triangle.
  * Source: Turk 1990.
  */
 #include <math.h>
@@ -17,7 +18,7 @@ static void map(const double *u, double *x)
 
 const koksma_warp koksma__warp_triangle = {
     .name = "triangle",
-    .title = "(1 - sqrt u, v sqrt u) in the triangle (0,0) (1,0) (0,1)",
+    .title = "(u, v) to (1 - sqrt u, v sqrt u) in the triangle (0,0) (1,0) (0,1)",
     .cite = "turk1990",
     .domain = KOKSMA_DOMAIN_TRIANGLE,
     .dim = 2,

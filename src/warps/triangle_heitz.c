@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * triangle-heitz: moves the corner (1,1) of the square to the middle of the diagonal from (1,0) to (0,1). The map
- * keeps ratios of areas, and no side of the square shrinks to a point. (u, v) goes to (u/2, v - u/2) where v >= u,
- * else to (u - v/2, v/2). Source: Heitz 2019.
+ * preserves ratios of areas, and no side of the square shrinks to a point. (u, v) is mapped to (u/2, v - u/2) if v >=
+ * u, else to (u - v/2, v/2). Source: Heitz 2019.
  */
 #include "warps/warps.h"
 
@@ -15,7 +15,7 @@ static void map(const double *u, double *x)
 
 const koksma_warp koksma__warp_triangle_heitz = {
     .name = "triangle-heitz",
-    .title = "low-distortion map of a triangle",
+    .title = "low-distortion map to a triangle",
     .cite = "heitz2019",
     .domain = KOKSMA_DOMAIN_TRIANGLE,
     .dim = 2,

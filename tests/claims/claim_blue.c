@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* blue: 2D, 4 points or more, of a sequence 64: the smallest distance on the torus is above half of the densest
-   packing's. */
+/* blue: in 2D, with at least 4 points (a sequence: 64), the smallest distance on the torus is more than half of
+   that in the densest packing. */
 #include "claims/claims.h"
 
 void claim_BLUE(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

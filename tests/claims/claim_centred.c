@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* centred: with STRATIFIED: each point in the middle half of its cell. */
+/* centred: on each axis, each point lies in the middle half of its stratum (patterns that also claim `stratified`).
+   */
 #include "claims/claims.h"
 
 void claim_CENTRED(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* fraction: 2D, on the torus: no two points closer than parameter 'f' times the distance of the densest packing. */
+/* fraction: in 2D on the torus, no two points are closer than the parameter f times the smallest distance in the
+   densest packing. */
 #include "claims/claims.h"
 
 void claim_FRACTION(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* grid: 2D, n = m^2: one point in each of the m x m cells, in any order. */
+/* grid: in 2D with n = m^2, each of the m x m cells has one point; the points are in any order. */
 #include "claims/claims.h"
 
 void claim_GRID(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

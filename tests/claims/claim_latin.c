@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* latin: each coordinate has one point in each [j/n, (j+1)/n). */
+/* latin: on each axis, each of the n intervals [j/n, (j+1)/n) has one point. */
 #include "claims/claims.h"
 
 void claim_LATIN(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* latin-prefixes: the first b^m points have one point in each [j/b^m, (j+1)/b^m) of coordinate k, b being the k-th
-   prime. */
+/* latin-prefixes: on axis k, each of the intervals [j/b^m, (j+1)/b^m) has one of the first b^m points, where b is
+   the k-th prime. */
 #include "claims/claims.h"
 
 void claim_LATIN_PREFIXES(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

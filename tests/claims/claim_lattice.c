@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lattice: the differences of the points are a group on the torus. */
+/* lattice: the points are a lattice: their differences form a group on the torus. */
 #include "claims/claims.h"
 
 void claim_LATTICE(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

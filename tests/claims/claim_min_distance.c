@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* min-distance: no two points closer than parameter 'd' (on the torus with torus=1). */
+/* min-distance: no two points are closer than the parameter d (on the torus if torus=1). */
 #include "claims/claims.h"
 
 void claim_MIN_DISTANCE(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

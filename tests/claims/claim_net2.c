@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* net2: 2D, n = 2^m: a (0,m,2)-net in base 2. */
+/* net2: in 2D with n = 2^m, the points are a (0,m,2)-net in base 2. */
 #include "claims/claims.h"
 
 void claim_NET2(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* net2-prefixes: 2D: points a 2^m .. (a + 1) 2^m - 1 are a (0,m,2)-net in base 2, for every a and m. */
+/* net2-prefixes: in 2D, for all a and m, points a 2^m to (a + 1) 2^m - 1 are a (0,m,2)-net in base 2. */
 #include "claims/claims.h"
 
 void claim_NET2_PREFIXES(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

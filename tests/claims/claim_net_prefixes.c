@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* net-prefixes: dim d, b the smallest prime >= d: the first b^m points are a (0,m,d)-net in base b, for every m. */
+/* net-prefixes: in d dimensions, for every m, the first b^m points are a (0,m,d)-net in base b, where b is the
+   smallest prime >= d. */
 #include "claims/claims.h"
 
 void claim_NET_PREFIXES(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

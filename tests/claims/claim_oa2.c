@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* oa2: n = s^2: each 2D projection has one point in each of the s x s cells. */
+/* oa2: for n = s^2, each 2D projection has one point in each of its s x s cells. */
 #include "claims/claims.h"
 
 void claim_OA2(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* oa3: n = s^3 with strength=3: each 3D projection, s x s x s cells. */
+/* oa3: for n = s^3 and strength=3, each 3D projection has one point in each of its s x s x s cells. */
 #include "claims/claims.h"
 
 void claim_OA3(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sequence: the first k of n points are the set of k points. */
+/* sequence: for every k <= n, the first k of n points equal the set generated for k points. */
 #include "claims/claims.h"
 
 void claim_SEQUENCE(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

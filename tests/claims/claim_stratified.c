@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* stratified: n = m^dim: one point in each of the m^dim cells, in order of the cells: the last coordinate's cell
-   changes fastest. */
+/* stratified: for n = m^dim, each of the m^dim cells has one point; the points are in the order of the cells, in
+   which the last coordinate changes fastest. */
 #include "claims/claims.h"
 
 void claim_STRATIFIED(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

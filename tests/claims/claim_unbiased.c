@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* unbiased: each point set is uniform in the mean: E(#/n in B) = volume of B. */
+/* unbiased: for every box B, the expected fraction of the points in B is the volume of B. */
 #include "claims/claims.h"
 
 void claim_UNBIASED(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

@@ -96,8 +96,8 @@ def main():
             check(bad, code not in (0, 1) and reason in said and said.count("\n") == 1 and not rows, (code, rows, said))
         check("nothing is left after failures", not os.listdir(os.environ["TMPDIR"]))
 
-        for arguments, reason in ((["--with", command], "--with takes --patterns"),
-                                  (["--reference", "random"], "--reference takes --with")):
+        for arguments, reason in ((["--with", command], "--with needs --patterns"),
+                                  (["--reference", "random"], "--reference needs --with")):
             done = subprocess.run([PROGRAM, "rank", "ball", *arguments], capture_output=True, text=True)
             check(reason, done.returncode == 2 and reason in done.stderr, done)
 

@@ -231,7 +231,7 @@ def rows():
     change("r", "UPDATE series SET made_by = 'random 1' WHERE made_by = 'random 0'", "UPDATE result SET v0 = 0.0 WHERE id & 4294967295 IN "
            "(SELECT id FROM series WHERE made_by = 'random 1')", sealed=True)
     told = study("audit", "r", "--rows", "all")
-    check(told.returncode == 0 and re.search(r"not compared: 20 rows of other revisions, such as random 1; .*\(here: random 0;", told.stdout),
+    check(told.returncode == 0 and re.search(r"not compared: 20 rows made by other revisions, such as random 1; .*\(here: random 0;", told.stdout),
           f"another revision: {told}")
     koksma("study", "run", "./plan.json", "-o", "r", "-q")
     export = study("export", "r").stdout.split("\n")
@@ -255,7 +255,7 @@ def references():
         found("another reference", "x", words)
     os.remove("x/" + name)
     told = study("audit", "x")
-    check(told.returncode == 0 and "the files of 1 are not there" in told.stdout, f"no reference: {told}")
+    check(told.returncode == 0 and "the files of 1 are missing" in told.stdout, f"no reference: {told}")
     check(study("run", "x").returncode == 0, "a run makes a reference again")
     koksma("study", "run", "./plan.json", "-o", "whole", "-q", "--trials", "7")
     check(study("export", "x").stdout == study("export", "whole").stdout, "rows with a reference that was made again")

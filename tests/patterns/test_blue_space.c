@@ -103,9 +103,9 @@ static void limits_are_said(void **state)
         size_t n;
         int dim;
     } rows[] = {
-        {"poisson-disk-maximal:d=0.3", "with this seed has", 7, 3},
-        {"poisson-disk-maximal:d=0.01", "no d would do", 7, 4},
-        {"poisson-disk-maximal:d=0.001", "no d would do", 7, 6},
+        {"poisson-disk-maximal:d=0.3", "with this seed gives", 7, 3},
+        {"poisson-disk-maximal:d=0.01", "leave out d to get n points", 7, 4},
+        {"poisson-disk-maximal:d=0.001", "leave out d to get n points", 7, 6},
         {"gaussian-blue-noise", "20000 or less would do", 30000, 6},
     };
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {

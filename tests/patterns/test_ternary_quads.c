@@ -150,8 +150,8 @@ static void points_end_at_the_table(void **state)
     assert_ok(koksma_generate_range(&spec, 0, 0, 3486784399, NULL, &points));
     assert_int_equal(koksma_generate_range(&spec, 0, 0, 3486784400, NULL, &points), KOKSMA_N);
     assert_non_null(strstr(koksma_error_text(),
-                           "ternary-quads: point 3486784401: in base 3 there are only points below "
-                           "number 3486784401"));
+                           "ternary-quads: point 3486784401: in base 3 all points have numbers below "
+                           "3486784401"));
     koksma_points_fini(&points);
 }
 

@@ -132,7 +132,7 @@ class Rendering(unittest.TestCase):
     def test_refusals(self):
         for arguments, said in ((dict(budget=3), "a method of adaptive sampling"), (dict(adaptive="contrast", budget=-1), "budget -1"),
                                 (dict(adaptive="contrast", budget=float("nan")), "budget nan"), (dict(depth=65), "depth 65: it takes 0 to 64"),
-                                (dict(adaptive="hierarchical", pattern="random"), "strata of its own"),
+                                (dict(adaptive="hierarchical", pattern="random"), "places its own samples"),
                                 (dict(adaptive="contrast", splat=True), "splat")):
             with self.subTest(arguments=arguments), self.assertRaisesRegex(koksma.Error, said):
                 koksma.render("ball", spp=4, size=(8, 8), **arguments)

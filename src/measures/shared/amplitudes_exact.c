@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The power spectrum by direct sums. exp(-2 pi i k.x) is a product over the coordinates: with C, S the cosine and
-   sine of 2 pi kx x and c, s those of 2 pi ky y, the sums over the points of Cc, Cs, Sc and Ss give the power at (kx,
-   ky) and at (-kx, ky). These sums for all frequencies are one matrix product, computed in tiles of 8 x 16 numbers;
-   rows 2k, 2k+1 (columns likewise) are the cosine and the sine at frequency k. The columns are filled for a chunk of
-   the points at a time and used for a band of rows, so that memory does not grow with the number of points. */
+/* Computes the power spectrum by direct sums. The factor exp(-2 pi i k.x) is a product over the coordinates: with C,
+   S the cosine and sine of 2 pi kx x and c, s those of 2 pi ky y, the sums over the points of Cc, Cs, Sc and Ss give
+   the power at (kx, ky) and at (-kx, ky). These sums for all frequencies are one matrix product, computed in tiles of
+   8 x 16 numbers. Rows 2k and 2k+1 have the cosine and the sine at frequency k of x, columns those of y. The columns
+   are computed for one chunk of the points at a time and used for a band of rows, so that memory does not grow with
+   the number of points. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,12 +21,12 @@ typedef struct job {
     int half;
     size_t n_columns;              /* counted in tiles */
     size_t room, from, count;      /* capacity of a chunk in points; first point and size of this chunk */
-    size_t first_block;            /* the first block of this band */
-    double *y_panels;              /* for each tile of columns, [j][16] for point j of the chunk */
-    double (*sums)[ROWS][COLUMNS]; /* for each tile of the band's rows and tile of columns */
+    size_t first_block;            /* index of the first block of rows in this band */
+    double *y_panels;              /* for each tile of columns: 16 numbers for each point of the chunk */
+    double (*sums)[ROWS][COLUMNS]; /* one tile of sums for each tile of rows in the band and each tile of columns */
     double *power;
     const koksma_run *run;
-    double done, share; /* share of all work done before this step; share of this step */
+    double done, share; /* fraction of all work that was done before this step; fraction that this step is */
 } job;
 
 static bool keep_going(void *context, double fraction)
@@ -34,8 +35,8 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(j->run, j->done + j->share * fraction);
 }
 
-/* out[width j + r], r < width, for point from + j, j < count: the cosine (even r) or sine (odd r) at frequency
-   first/2 + r/2 of coordinate k. */
+/* Writes for each point from + j, j < count, and each r < width the number out[width j + r]: the cosine (even r) or
+   sine (odd r) of coordinate k at frequency first/2 + r/2, rounded down. */
 static void fill_panel(const koksma_points *p, int k, size_t first, int width, size_t from, size_t count, double *out)
 {
     for (size_t j = 0; j < count; j++) {
@@ -77,8 +78,8 @@ static koksma_status fill_columns(void *context, size_t column)
     return KOKSMA_OK;
 }
 
-/* Adds the chunk's sums for one block, which is GROUP tiles of rows by all columns. A panel of columns stays in the
-   cache while it is used for all rows of the block. */
+/* Adds the sums of the chunk for one block, which consists of GROUP tiles of rows and all columns. A panel of columns
+   stays in the cache while it is used for all rows of the block. */
 static koksma_status row_block(void *context, size_t block)
 {
     const job *j = context;
@@ -108,7 +109,8 @@ static koksma_status row_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Sums over all chunks of points for the blocks of a band. steps: the number of chunks in all bands, for progress. */
+/* Computes the sums over all chunks of points for the blocks of a band. steps: the number of chunks in all bands, for
+   the progress report. */
 static koksma_status add_band(job *j, size_t n_blocks, double steps)
 {
     const size_t n = j->points->n;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The power spectrum by a nonuniform fast Fourier transform of type 1 (Dutt and Rokhlin 1993; with the kernel of
- * Barnett, Magland and af Klinteberg 2019). Each point is spread over WIDTH x WIDTH cells of a grid of m x m cells,
- * where m >= 1.5 (2 half + 1) is a power of two, by the kernel exp(beta (sqrt(1 - z^2) - 1)). The Fourier transform
- * of the grid, divided by that of the kernel, is the transform of the points. All columns are transformed along y
+ * Computes the power spectrum by a nonuniform fast Fourier transform of type 1 (Dutt and Rokhlin 1993; with the
+ * kernel of Barnett, Magland and af Klinteberg 2019). Each point is spread over WIDTH x WIDTH cells of a grid of m x
+ * m cells, where m >= 1.5 (2 half + 1) is a power of two, by the kernel exp(beta (sqrt(1 - z^2) - 1)). The Fourier
+ * transform of the points is that of the grid divided by that of the kernel. All columns are transformed along y
  * first, two real columns as one complex column, then the rows with 0 <= ky <= half along x.
  */
 #include <math.h>
@@ -22,8 +22,8 @@ typedef struct job {
     int half;
     double *grid; /* [y][x] */
     double *twiddles;
-    double *re, *im;     /* real and imaginary parts after the transform along y: [ky][x], ky <= half */
-    double *corrections; /* 1 / (the kernel's transform at |k|) */
+    double *re, *im;     /* real and imaginary parts after the transform along y, row by row for ky = 0 .. half */
+    double *corrections; /* 1 / (Fourier transform of the kernel at frequency |k|) */
     double *power;
 } job;
 
@@ -85,7 +85,8 @@ static koksma_status transform_columns(void *context, size_t block)
 {
     job *j = context;
     const size_t m = j->m, room = LANES * m;
-    double *memory = aligned_alloc(64, 4 * room * sizeof *memory); /* so that no vector crosses a cache line */
+    double *memory = aligned_alloc(64, 4 * room * sizeof *memory); /* aligned so that no vector crosses a cache line
+                                                                      */
     KOKSMA__REQUIRE_MEMORY(memory, 4 * room * sizeof *memory);
     double *re = memory, *im = re + room;
     for (size_t y = 0; y < m; y++) {
@@ -101,7 +102,8 @@ static koksma_status transform_columns(void *context, size_t block)
         const double *other_x = re + LANES * ((m - k) & (m - 1)), *other_y = im + LANES * ((m - k) & (m - 1));
         double *to_re = j->re + k * m + 2 * LANES * block, *to_im = j->im + k * m + 2 * LANES * block;
         for (size_t l = 0; l < LANES;
-             l++) { /* the two real columns: (Z(k) + conj Z(-k))/2 and (Z(k) - conj Z(-k))/2i */
+             l++) { /* separate the transforms of the two real columns: (Z(k) + conj Z(-k))/2 and (Z(k) - conj
+                       Z(-k))/2i */
             to_re[l] = (x[l] + other_x[l]) / 2;
             to_im[l] = (y[l] - other_y[l]) / 2;
             to_re[LANES + l] = (y[l] + other_y[l]) / 2;

@@ -2,10 +2,10 @@
 /*
  * The smallest distance between two points of a set in any dimension, by a k-d tree (Bentley 1975): a node splits
  * its points at the median along its longest side. The closest pair lies within one half or between the two halves. A
- * pair of nodes is skipped if their boxes are further apart than the closest pair found so far; otherwise the larger
- * node is replaced by its two children, and of two leaves all pairs of points are compared. On the
- * torus the distance of two boxes is the shorter way around in each coordinate. O(n log n) for evenly spread points in
- * few dimensions; in many, where most boxes are near each other, O(n^2).
+ * pair of nodes is skipped if their boxes are further apart than the closest pair found so far. Otherwise the larger
+ * node is replaced by its two children; if both nodes are leaves, all pairs of their points are compared. On the
+ * torus the distance of two boxes is the shorter way around in each coordinate. It takes O(n log n) for evenly spread
+ * points in few dimensions, and O(n^2) in many dimensions, where most boxes are near each other.
  */
 #include "measures/shared/closest_space.h"
 
@@ -19,7 +19,8 @@
 
 enum { LEAF = 8, PAIRS_AT_ONCE = 1 << 16, MOST = KOKSMA__CLOSEST_DIM };
 
-/* Points first .. end - 1 of the order; the children of node i are 2 i + 1 and 2 i + 2, and a leaf has none. */
+/* A node has points first .. end - 1 of `order`. The children of node i are nodes 2 i + 1 and 2 i + 2; a leaf has no
+   children. */
 typedef struct node {
     size_t first, end;
     double low[MOST], high[MOST];
@@ -45,8 +46,8 @@ static double coordinate(const search *s, size_t i, size_t k)
     return s->xs[s->order[i] * s->dim + k];
 }
 
-/* Hoare's selection: puts the points with the smallest coordinates k before `middle`. The pivot is not the last point,
-   so that both sides have points. */
+/* Hoare's selection: puts the points with the smallest coordinates k before `middle`. The pivot is not the last
+   point, so that neither side is empty. */
 static void halve(search *s, size_t first, size_t end, size_t middle, size_t k)
 {
     while (end - first > 1) {
@@ -96,7 +97,7 @@ static void build(search *s, size_t at, size_t first, size_t end)
     }
 }
 
-/* A lower bound of the squared distance of points in two boxes, with a margin for rounding. */
+/* Returns a lower bound of the squared distance between points of two boxes, with a margin for rounding. */
 static double box_distance(const search *s, const node *a, const node *b)
 {
     double sum = 0;
@@ -135,7 +136,8 @@ static void search_pairs(search *s, size_t at, size_t with)
             }
         }
         s->pairs += LEAF * LEAF;
-        s->done = a->first; /* leaves meet themselves in the order of their points */
+        s->done = a->first; /* each leaf is compared with itself once, in the order of the points: this measures
+                               progress */
         if (s->pairs >= PAIRS_AT_ONCE) {
             s->pairs = 0;
             s->stopped = !koksma__keep_going(s->run, (double)s->done / (double)s->n);
@@ -161,7 +163,8 @@ koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, 
     search s = {
         .xs = points->xs, .run = run, .n = points->n, .dim = (size_t)points->dim, .torus = torus, .best = INFINITY};
     size_t nodes = 1;
-    for (size_t most = s.n; most > LEAF; most = (most + 1) / 2) { /* of the largest node of a level */
+    for (size_t most = s.n; most > LEAF; most = (most + 1) / 2) { /* `most` is the number of points in the largest
+                                                                     node of a level */
         nodes = 2 * nodes + 1;
     }
     s.order = malloc(s.n * sizeof *s.order);

@@ -6,8 +6,8 @@
 
 enum { KOKSMA__CLOSEST_DIM = 16 };
 
-/* The smallest distance between two of n >= 2 points of up to KOKSMA__CLOSEST_DIM dimensions, in the unit cube or on the
-   torus. Errors: MEMORY, INTERRUPTED. */
+/* Computes the smallest distance between two of n >= 2 points of up to KOKSMA__CLOSEST_DIM dimensions, in the unit
+   cube or on the torus. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__closest_in_space(const koksma_points *points, bool torus, const koksma_run *run,
                                        double *distance);
 

@@ -9,8 +9,8 @@
 
 #include "core/clock.h"
 
-/* The time, in seconds of koksma__now_s, at which `share` of run's time limit will have passed from now; infinite
-   without a limit. */
+/* Returns the time on the clock koksma__now_s at which the fraction `share` of run's time limit will have passed from
+   now; infinite without a limit. */
 static inline double koksma__deadline_s(const koksma_run *run, double share)
 {
     return run && run->time_limit_s > 0 ? koksma__now_s() + share * run->time_limit_s : (double)INFINITY;

@@ -9,10 +9,10 @@
  *     deficit <= max_i pi min(r, d_i + rho)^2 - (i - 1)/n    over d_i - rho <= r, and d_(n+1) = infinity;
  *
  * with rho = 0 these are the values of the best disks about c itself. Cells that may contain the centre of a better
- * disk than the best so far are cut in four, level by level, so that the result is the same on any number of threads.
- * The points on the rim of a disk of radius s about a centre in the cell are between s - rho and s + rho away from c.
- * For a better disk they are near a d_i whose bound exceeds the best value. When these points are few, the disks
- * through all pairs of them are tried, and the cell is finished.
+ * disk than the best so far are cut in four, level by level, so that the result is the same for any number of
+ * threads. The points on the rim of a disk of radius s about a centre in the cell are between s - rho and s + rho
+ * away from c. If the disk is better than the best so far, these distances are close to a d_i whose bound exceeds the
+ * best value. When these points are few, the disks through all pairs of them are tried, and the cell is finished.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ enum {
     LOOKS_A_PAIR = 16
 };
 
-static const double max_work = 0x1p28; /* limit of point tests when there is no time limit: some seconds of work */
+static const double max_work = 0x1p28; /* limit of point tests if there is no time limit; they take some seconds */
 static const double slack = 1e-12;     /* larger than the rounding errors of a bound */
 
 typedef struct cell {
@@ -42,13 +42,14 @@ typedef struct cell {
 typedef struct cover {
     const koksma__disk_set *set;
     double rho, deadline_s, work;
-    koksma__disk_best start, *best; /* best of the levels before; best of each block */
+    koksma__disk_best start, *best; /* best disk of all earlier levels; best disk of each block */
     size_t *pairs;                  /* number of pairs tried in each block */
     cell *cells;
     size_t n_cells;
 } cover;
 
-/* A point near a cell: its distance from the cell's centre, and the bounds for disks with their rim near it. */
+/* A point near a cell: its distance from the centre of the cell, and the bounds for disks whose rim is near this
+   point. */
 typedef struct neighbour {
     double square, distance, excess, deficit;
     size_t index;
@@ -57,11 +58,11 @@ typedef struct neighbour {
 /* The scratch memory of a block: the neighbours, and space to sort them. */
 typedef struct desk {
     neighbour *found, *sorted;
-    size_t *starts, n_pairs; /* n_pairs: number of pairs tried so far */
+    size_t *starts, n_pairs; /* n_pairs: number of pairs that have been tried */
 } desk;
 
-/* Finds the points up to `reach` away from (x, y), sorted by distance: into bins of equal area, and by insertion
-   within them. Returns the number of points. */
+/* Finds the points up to `reach` away from (x, y), sorts them by distance (into bins of equal area, and by insertion
+   within the bins), and returns their number. */
 static size_t find_neighbours(const koksma__disk_set *set, double x, double y, double reach, desk *d)
 {
     const double limit = reach * reach, scale = (double)set->m / limit;
@@ -113,8 +114,8 @@ static koksma_status try_pairs(const cover *c, const cell *at, const desk *d, si
     return status;
 }
 
-/* Tries the pairs of points that may be on the rim of a better disk than the best so far, if they are few, and then
-   marks the cell as finished. */
+/* If few pairs of points can be on the rim of a disk better than the best so far, tries them and marks the cell as
+   finished. */
 static koksma_status settle(const cover *c, cell *at, desk *d, size_t count, koksma__disk_best *best)
 {
     const double margin = 2 * c->rho + 1e-9;
@@ -144,8 +145,8 @@ static koksma_status settle(const cover *c, cell *at, desk *d, size_t count, kok
     return KOKSMA_OK;
 }
 
-/* Computes the bound of a cell and tries the disks about its centre, closed ones with and open ones without the
-   points on their rim. */
+/* Computes the bound of a cell and tries the disks about its centre: closed disks contain the points on their rim,
+   open disks do not. */
 static koksma_status look(const cover *c, cell *at, desk *d, koksma__disk_best *best)
 {
     const koksma__disk_set *set = c->set;
@@ -169,11 +170,12 @@ static koksma_status look(const cover *c, cell *at, desk *d, koksma__disk_best *
         }
         upper = fmax(upper, fmax(p->deficit, p->excess));
     }
-    /* Then the open disk of the largest radius about the centre, and the deficit bound for d_(n+1) = infinity. */
+    /* Finally it tries the open disk of the largest radius about the centre, and computes the deficit bound for
+       d_(n+1) = infinity. */
     koksma__disk_try(set, best, false, at_r, centre, r * r);
     upper = fmax(upper, M_PI * r * r - (double)up_to / n + slack);
     at->upper = fmin(at->upper, upper);
-    /* For r + rho >= 1/2 another periodic image of a point may be the one on the rim. */
+    /* For r + rho >= 1/2 more than one periodic image of a point may be on the rim. */
     return at->upper > c->start.value && r + rho < 0.5 ? settle(c, at, d, count, best) : KOKSMA_OK;
 }
 

@@ -41,8 +41,8 @@ double koksma__disk_square(koksma__disk_law law, double r)
     return M_PI * M_PI * r * r * r * r / divisors[law];
 }
 
-/* With h half of the distance and t = r - h. Two balls of radius h + s overlap in a volume of (2 pi / 3) (2 s + 3 h)
-   s^2. */
+/* Here h is half of the distance and t = r - h. Two balls of radius h + s overlap in a volume of (2 pi / 3) (2 s + 3
+   h) s^2. */
 double koksma__ball_overlap(koksma__disk_law law, double r, double distance2)
 {
     const double h = sqrt(distance2) / 2, t = r - h;
@@ -59,8 +59,8 @@ double koksma__ball_overlap(koksma__disk_law law, double r, double distance2)
     return M_PI * t * t * t * (r + h) / (3 * r);
 }
 
-/* Minus the mean, over the law, of the length of the common chord of two disks, or of the area of the common disk of
-   two balls, which is the rate at which the overlap falls with the distance. */
+/* Returns the derivative of the mean overlap by the distance. For a given radius it is minus the length of the common
+   chord of two disks, or minus the area of the common disk of two balls. */
 double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double distance)
 {
     const double h = distance / 2;

@@ -11,25 +11,26 @@ typedef enum koksma__disk_law { KOKSMA__DISKS_FIXED, KOKSMA__DISKS_RADIUS, KOKSM
 
 extern const char *const koksma__disk_laws[]; /* the values of the parameter `law` */
 
-/* The radius for the parameter r of a measure: r, or for r = 0 the default, 1/4 for FIXED and 1/2 for the other
-   laws. */
+/* Returns the radius for the parameter r of a measure: r itself, or for r = 0 the default, which is 1/4 for FIXED and
+   1/2 for the other laws. */
 double koksma__disk_radius(koksma__disk_law law, double r);
 
-/* The mean over the law of the overlap of two disks whose centres are sqrt(distance2) apart; 0 from a distance of 2r
-   on. */
+/* Returns the mean over the law of the overlap of two disks whose centres are sqrt(distance2) apart; it is 0 for
+   distances of 2r and more. */
 double koksma__disk_overlap(koksma__disk_law law, double r, double distance2);
 
-/* The derivative of the mean overlap of two disks (dim = 2) or balls (dim = 3) by the distance of their centres. */
+/* Returns the derivative of the mean overlap of two disks (dim = 2) or balls (dim = 3) by the distance of their
+   centres. */
 double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double distance);
 
-/* The mean over the law of the squared area of a disk. */
+/* Returns the mean over the law of the squared area of a disk. */
 double koksma__disk_square(koksma__disk_law law, double r);
 
-/* For balls: the mean over the law of the overlap of two of them, and of the squared volume of one. */
+/* Return the mean over the law of the overlap of two balls, and of the squared volume of a ball. */
 double koksma__ball_overlap(koksma__disk_law law, double r, double distance2);
 double koksma__ball_square(koksma__disk_law law, double r);
 
-/* The centre and the squared radius of random disk `index` of a seed. */
+/* Computes the centre and the squared radius of random disk `index` of a seed. */
 void koksma__random_disk(koksma__disk_law law, double r, uint64_t seed, uint64_t index, int dim, double centre[3],
                          double *radius2);
 

@@ -10,10 +10,10 @@
  * the deficit of open disks, which is largest for the largest area).
  *
  * Before sorting, the events are counted in BINS equal intervals of t, and each bin is bounded by its most favourable
- * count and its most favourable area. When no bin can exceed the best disk so far, the pencil is skipped, in O(n)
- * instead of O(n log n). On the torus several periodic images of a point may be near enough. Points whose squared
- * distance is within KOKSMA__DISK_RIM of the squared radius count as on the rim; this is more than the rounding
- * errors of squared distances.
+ * count and its most favourable area. If no bin can exceed the best disk so far, the pencil is skipped. This takes
+ * O(n) instead of O(n log n). On the torus several periodic images of a point may be near enough to matter. Points
+ * whose squared distance is within KOKSMA__DISK_RIM of the squared radius count as on the rim; this is more than the
+ * rounding errors of squared distances.
  */
 #include "measures/shared/disk_pencil.h"
 
@@ -24,7 +24,7 @@
 
 enum { BINS = 32 };
 
-/* A point enters (delta > 0) or leaves the disk as its centre passes t. */
+/* An event: a point enters (delta > 0) or leaves the disk when the centre of the disk passes position t. */
 typedef struct event {
     double t;
     long delta;
@@ -79,14 +79,15 @@ static void add_point(pencil *p, double qx, double qy, long weight)
     }
 }
 
-/* Fills count and events. On the torus a point may have several periodic images near enough. */
+/* Fills count and events. On the torus several periodic images of a point may be near enough to matter. */
 static void fill(pencil *p, size_t i, size_t j)
 {
     const koksma__disk_set *set = p->set;
     const double reach = p->top + set->r + 1e-7, reach2 = reach * reach;
     p->count = p->closed ? (long)(set->weights[i] + set->weights[j]) : 0;
     p->n_events = 0;
-    const int images = reach > 0.5 ? 4 : 1; /* the nearest periodic image, or all that can be less than 1 away */
+    const int images = reach > 0.5 ? 4 : 1; /* visit the nearest periodic image, or all images that can be less than 1
+                                               away */
     for (size_t k = 0; k < set->m; k++) {
         const double dx = set->xs[k] - p->middle[0], dy = set->ys[k] - p->middle[1];
         const double x = dx - round(dx), y = dy - round(dy);
@@ -103,8 +104,8 @@ static void fill(pencil *p, size_t i, size_t j)
     }
 }
 
-/* Whether some disk of the pencil may be better than the best so far, by a bound for each bin from its most
-   favourable count and its most favourable area. */
+/* Returns whether some disk of the pencil may be better than the best so far. The bound for each bin combines its
+   most favourable count with its most favourable area. */
 static bool promising(const pencil *p)
 {
     long enter[BINS] = {0}, leave[BINS] = {0}, count = p->count;
@@ -173,7 +174,7 @@ static void try_pair(pencil *p, size_t i, size_t j, double dx, double dy)
     for (int closed = 0; closed < 2; closed++) {
         p->closed = closed;
         fill(p, i, j);
-        if (closed) { /* also the smallest closed disk, and the two largest open disks */
+        if (closed) { /* add the smallest closed disk, or the two largest open disks */
             add_event(p, 0, 0);
         } else {
             add_event(p, -p->top, 0);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Numbers of about 106 bits as unevaluated sums of two doubles (Dekker 1971; Hida, Li and Bailey 2001), for sums that
-   cancel to 1e-12 of their terms. Exact products use Dekker's splitting, as a fused multiply-add may be missing. */
+   cancel to 1e-12 of their terms. Exact products use Dekker's splitting, because the machine may lack a fused
+   multiply-add. */
 #ifndef KOKSMA_MEASURES_SHARED_DOUBLE_DOUBLE_H
 #define KOKSMA_MEASURES_SHARED_DOUBLE_DOUBLE_H
 
@@ -8,7 +9,7 @@ typedef struct koksma__dd {
     double hi, lo;
 } koksma__dd;
 
-#ifdef __SIZEOF_INT128__ /* compilers for 32-bit processors lack it */
+#ifdef __SIZEOF_INT128__ /* compilers for 32-bit processors lack this type */
 __extension__ typedef __int128 koksma__int128;
 #endif
 
@@ -26,7 +27,7 @@ static inline koksma__dd koksma__dd_quick_sum(double a, double b)
     return (koksma__dd){s, b - (s - a)};
 }
 
-/* a b exactly, for |a|, |b| < 2^900, which prevents overflow. */
+/* Returns the exact product a b; |a| and |b| must be below 2^900 to prevent overflow. */
 static inline koksma__dd koksma__dd_product(double a, double b)
 {
     const double p = a * b, sa = a * 134217729.0, sb = b * 134217729.0;
@@ -53,7 +54,7 @@ static inline koksma__dd koksma__dd_scale(koksma__dd a, double b)
     return koksma__dd_quick_sum(p.hi, p.lo + a.lo * b);
 }
 
-/* a / b with a relative error of about 1e-31. */
+/* Returns a / b with a relative error of about 1e-31. */
 static inline koksma__dd koksma__dd_divide(koksma__dd a, double b)
 {
     const double q = a.hi / b;

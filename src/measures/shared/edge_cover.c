@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Bounds for the discrepancy of half-planes. Within distance rho of a centre, turning a line about a point by up to
- * eta moves it by at most s = 2 rho sin(eta/2). So a half-plane whose direction is within eta of the middle one lies,
- * within the domain, between the half-planes of the middle direction that are moved inward and outward by s, which
- * bound its count and its mass. Over all lines of an interval of directions this gives
+ * Bounds for the discrepancy of half-planes. The domain lies within distance rho of a centre. Turning a line about a
+ * point of the domain by up to eta moves it there by at most s = 2 rho sin(eta/2). So a half-plane whose direction
+ * differs by up to eta from a middle direction lies, within the domain, between two half-planes of the middle
+ * direction that are shifted inward and outward by s. These bound its count and its mass. Over all lines of an
+ * interval of directions this gives
  *
  *     excess <= max_c #{x below c}/n - mass(below c - 2s),    deficit <= max_c mass(below c + 2s) - #{x below c}/n,
  *
@@ -22,12 +23,12 @@
 enum { FIRST_CUTS = 32, MAX_CUTS = 1 << 20 };
 
 static const double finest =
-    1e-9; /* narrowest interval; near a smooth maximum about width^-1/2 intervals cannot be excluded */
+    1e-9; /* smallest width of an interval; near a smooth maximum about width^-1/2 intervals cannot be excluded */
 
 /* An interval of directions, within half a width of the middle one, and the bound for its lines. */
 typedef struct cut {
     double middle, bound;
-    koksma__edge_line line; /* the best one found in the middle direction */
+    koksma__edge_line line; /* the best half-plane found in the middle direction */
 } cut;
 
 typedef struct cover {
@@ -38,7 +39,7 @@ typedef struct cover {
     cut *cuts;
 } cover;
 
-/* The mass below the line with unit normal (a, b) at signed distance c from the origin. */
+/* Returns the mass below the line with unit normal (a, b) at signed distance c from the origin. */
 static double mass_below(const cover *v, double a, double b, double c)
 {
     return v->domain->area_below_through(a, b, (double[2]){a * c, b * c});
@@ -50,7 +51,7 @@ static void bound_cut(const cover *v, cut *now, double a, double b, const double
 {
     const double n = (double)v->n, slack = 4 * v->domain->radius * sin(v->width / 4) + 1e-14;
     double bounds[2] = {-1, -1};
-    size_t best[2] = {0, 0}; /* ranks of the largest excess and of the largest deficit */
+    size_t best[2] = {0, 0}; /* positions, in the sorted order, of the largest excess and of the largest deficit */
     for (size_t r = 0; r < v->n; r++) {
         const double c = t[at[r]];
         const double excess = (double)(r + 1) / n - mass_below(v, a, b, c - slack);
@@ -84,7 +85,7 @@ static koksma_status look_along(void *context, size_t block)
     const double a = cos(now->middle), b = sin(now->middle);
     double *t = koksma__now_s() < v->deadline_s ? malloc(bytes) : NULL, low = INFINITY, high = -INFINITY;
     if (!t) {
-        return KOKSMA_OK; /* the bound of the wider interval that contains this one still holds */
+        return KOKSMA_OK; /* the bound of the wider interval that contains this one is also a bound here */
     }
     double *scaled = t + v->n;
     uint32_t *order = (uint32_t *)(scaled + v->n);
@@ -119,8 +120,8 @@ static size_t halve(const cover *v, size_t count, double lower, cut *to)
     return kept;
 }
 
-/* Halves, in rounds, the intervals of directions that may contain a better line, until none is left, the deadline has
-   passed, or there are too many of them or they are too narrow. */
+/* In rounds, halves the intervals of directions that may contain a better line. It stops when none is left, when the
+   deadline has passed, or when the intervals are too many or too narrow. */
 static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *best, double *upper)
 {
     size_t count = FIRST_CUTS;

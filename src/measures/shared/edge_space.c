@@ -1,26 +1,27 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * edge in 3 dimensions. The deficit of an open half-space is the excess of its complement, a closed half-space, so
- * the supremum is that of #/n - volume over closed half-spaces. It belongs to the half-space of least volume that
- * contains some subset of the points. The plane of this half-space goes through three points; or through two points
- * whose line contains the centroid of the plane's section of the cube, as otherwise turning the plane about that line
- * would reduce the volume; or through one point, which is this centroid.
+ * edge in 3 dimensions. The deficit of an open half-space is the excess of its complement, a closed half-space. So
+ * the supremum is that of count/n - volume over closed half-spaces. It is reached by a half-space that has the least
+ * volume among those that contain some subset of the points. Consider the section of its plane with the cube. The
+ * plane goes through three points; or through two points whose line contains the centroid of the section (otherwise
+ * turning the plane about that line would reduce the volume); or through one point, which is the centroid.
  *
  * The cube has a centre of symmetry. So (Meyer and Reisner 1991) for each v < 1/2 there is a convex body that all
- * planes that cut off the volume v touch, each at the centroid of its section. The body for a larger v is inside that
- * for a smaller v, so that only one of the bodies touches a given line or a given point. Hence, as a plane turns
+ * planes that cut off the volume v touch, each at the centroid of its section. The bodies are nested: the larger v,
+ * the smaller the body. Therefore only one of them touches a given line or a given point. Hence, as a plane turns
  * about a line, the volume has one minimum and one maximum, opposite to each other, and is stationary nowhere else:
- * golden section search finds the minimum. For planes through a point, take the least volume over the planes through
- * each horizontal line through this point; it has one minimum over the directions of that line.
+ * golden section search finds the minimum. For planes through a point, compute for each horizontal line through the
+ * point the least volume over the planes through that line. As a function of the direction of the line this has one
+ * minimum.
  *
- * Only for points on an axis of the cube do many sections have the same centroid, so that the volume is constant
- * while the plane turns. Then some optimal plane also goes through another point and through a corner of the cube or
- * a third point; or the plane can turn without meeting another point, and the plane perpendicular to the axis is
- * optimal.
+ * There is one exception: many sections can have the same centroid if it is on an axis of the cube. The volume is
+ * then constant while the plane turns. Then some optimal plane also goes through another point and through a corner
+ * of the cube or a third point; or the plane can turn without meeting another point, and the plane perpendicular to
+ * the axis is optimal.
  *
- * The cost is that of n^3/6 planes, each with a pass over the points. A point within 2e-15 of a plane counts as on
- * it, which causes errors of a few 1e-15 in the values. Normals of planes through three points are computed with 106
- * bits, as the points may be almost collinear.
+ * The cost is that of n^3/6 planes, with one pass over the points for each plane. A point within 2e-15 of a plane
+ * counts as on it, which causes errors of a few 1e-15 in the values. Normals of planes through three points are
+ * computed with 106 bits, because the points may be almost collinear.
  */
 #include <math.h>
 #include <stdatomic.h>
@@ -45,7 +46,7 @@ typedef struct search {
     size_t n;
     const double *points;
     double *coordinates[3];
-    half_space *best; /* the best for each first point of a plane */
+    half_space *best; /* for each point, the best half-space among the planes that begin with it */
     double deadline_s;
     atomic_bool late;
 } search;
@@ -56,7 +57,7 @@ typedef struct fan {
     double e[3], f[3];
 } fan;
 
-/* a . x, with the order of additions that a reader uses to check a witness. */
+/* Returns a . x, with the order of additions that users need to check a witness. */
 static double project(const double a[3], const double x[3])
 {
     return a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
@@ -130,8 +131,8 @@ static double about_line(const double *p, const void *context, double angle, dou
     return koksma__volume_below_through(best ? best : normal, p);
 }
 
-/* The angle where f is least. f has one minimum and one maximum in a period, so that the minimum is in one of the two
-   intervals beside the least of equidistant samples. */
+/* Returns the angle where f is least. f has one minimum and one maximum in a period, so the minimum is in one of the
+   two intervals beside the least of equidistant samples. */
 static double least(turned f, const double *p, const void *context, double period, int samples)
 {
     const double step = period / samples;
@@ -168,7 +169,7 @@ static void try_point(const search *s, half_space *best, const double *p)
 {
     static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double normal[3];
-    for (int k = 0; k < 3; k++) { /* includes the planes of the cube's faces, for points on them */
+    for (int k = 0; k < 3; k++) { /* planes perpendicular to the axes, which include the faces of the cube */
         consider(s, best, axes[k], p);
     }
     about_point(p, NULL, least(about_point, p, NULL, M_PI, ABOUT_POINT), normal);
@@ -235,7 +236,7 @@ static void try_pair(const search *s, half_space *best, const double *p, const d
     }
 }
 
-/* Tries the planes through point i and up to two points after it. */
+/* Tries the planes through point i and up to two later points. */
 static koksma_status try_first(void *context, size_t i)
 {
     search *s = context;
@@ -281,7 +282,7 @@ static void finish(const search *s, koksma_value *out)
     }
     const bool late = atomic_load(&s->late);
     out->value = out->lower = best.value;
-    out->upper = late ? 1 : best.value; /* a plane that was not tried may reach any value */
+    out->upper = late ? 1 : best.value; /* some planes were not tried, so the upper bound is 1 */
     out->exact = !late;
     out->witness = w;
 }
@@ -289,7 +290,8 @@ static void finish(const search *s, koksma_value *out)
 koksma_status koksma__edge_space(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     const size_t n = points->n;
-    KOKSMA__FAIL_IF(n > MAX_N, KOKSMA_N, "edge: n = %zu: up to %d points in 3D; l2-edge takes more", n, MAX_N);
+    KOKSMA__FAIL_IF(n > MAX_N, KOKSMA_N, "edge: n = %zu: it takes up to %d points in 3D; l2-edge takes more", n,
+                    MAX_N);
     search s = {.n = n, .points = points->xs, .deadline_s = koksma__deadline_s(run, 0.95)};
     const size_t bytes = n * (sizeof *s.best + 3 * sizeof(double));
     s.best = malloc(bytes);

@@ -4,8 +4,9 @@
  *
  * While a half-plane moves without its border passing a point, its count is constant and its area changes, until the
  * border touches points. So the supremum is reached by a line through two points, or through one point that bisects
- * the chord of the line (where the area is stationary as the line turns). For each point as the pivot, the directions
- * to the other points are turned into the upper half-plane and sorted by angle; they are called rays:
+ * the chord of the line (where the area is stationary as the line turns). Each point is the pivot once. The
+ * directions from the pivot to the other points are turned into the upper half-plane and sorted by angle; they are
+ * called rays:
  *
  *            \   c  /              the line turns counter-clockwise about the pivot o and passes a, b, c; a point of
  *             \    /   b           the upper half-plane leaves the left side as the line passes it, one of the lower,
@@ -15,8 +16,8 @@
  * Points at the same angle are passed together. At each angle the closed half-plane, with the points on the line, is
  * tried for the excess, and the open one, without them, for the deficit. Sorting uses a key in doubles; nearly equal
  * keys are ordered by the exact sign of the cross product (orientation.c), so that collinear points are recognised.
- * Threads work on blocks of pivots; pivots left when the deadline passes are skipped, and the value is then a lower
- * bound. See measures/edge.c.
+ * Threads work on blocks of pivots. If the deadline passes, the remaining pivots are skipped, and the value is a
+ * lower bound. See measures/edge.c.
  */
 #include "measures/shared/edge_sweep.h"
 
@@ -39,8 +40,8 @@ typedef struct ray {
     bool flipped;
 } ray;
 
-/* The best line so far, through point `pivot` along (dx, dy). other: the second point on it, or n + c for chord c of
-   the pivot. */
+/* The best line so far, through point `pivot` along (dx, dy). other: the second point on the line, or n + c if the
+   line is chord c of the pivot. */
 typedef struct best_line {
     double value;
     size_t pivot, other;
@@ -52,7 +53,7 @@ typedef struct pivots {
     const koksma__domain *domain;
     const double *xs;
     size_t n;
-    best_line *best; /* one for each block */
+    best_line *best; /* the best line of each block of pivots */
     double deadline_s;
     atomic_bool late; /* the deadline passed before all pivots were tried */
 } pivots;
@@ -70,7 +71,8 @@ static void turn_up(koksma__chord *c)
     }
 }
 
-/* The exact sign of the cross product of rays a and b of the pivot p; it is positive if a has the smaller angle. */
+/* Returns the exact sign of the cross product of rays a and b of the pivot p, which is positive if a has the smaller
+   angle. */
 static int turn(const double *xs, const double p[2], const ray *a, const ray *b)
 {
     const double *u = xs + 2 * (size_t)a->index, *v = xs + 2 * (size_t)b->index;
@@ -79,7 +81,7 @@ static int turn(const double *xs, const double p[2], const ray *a, const ray *b)
     return a->flipped == b->flipped ? sign : -sign;
 }
 
-/* One stable pass of a radix sort, by DIGIT bits from bit `shift` on. */
+/* Does one stable pass of a radix sort by the DIGIT bits that begin at bit `shift`. */
 static void sort_digit(const uint64_t *from, uint64_t *to, size_t n, int shift)
 {
     uint32_t start[1 << DIGIT] = {0}, total = 0;
@@ -109,8 +111,9 @@ static void merge_sort(ray *rays, ray *spare, size_t n)
     }
 }
 
-/* Sorts rays by key, stably: by a radix sort of the keys rounded to 32 bits and an insertion sort of the result; by a
-   merge sort if insertion takes more than 4n moves, as when many points lie in almost the same direction. */
+/* Sorts rays stably by key: first a radix sort of the keys rounded to 32 bits, then an insertion sort. If insertion
+   takes more than 4n moves, for example because many points lie in almost the same direction, a merge sort replaces
+   it. */
 static void sort_rays(ray *rays, ray *spare, uint64_t *items, size_t n)
 {
     size_t moves = 0;
@@ -164,7 +167,7 @@ static void consider(const pivots *job, best_line *best, size_t left_open, size_
     }
 }
 
-/* The sign of the angle from a chord of the pivot p to a ray: > 0 if the chord comes first. */
+/* Returns the sign of the angle from a chord of the pivot p to a ray, which is positive if the chord comes first. */
 static int chord_turn(const double *xs, const double p[2], const koksma__chord *c, const ray *r)
 {
     const double *v = xs + 2 * (size_t)r->index, vx[2] = {v[0], p[0]}, vy[2] = {v[1], p[1]};
@@ -172,8 +175,8 @@ static int chord_turn(const double *xs, const double p[2], const koksma__chord *
     return r->flipped ? -sign : sign;
 }
 
-/* Tries the chords that come before ray r, or all remaining ones if r is NULL. A chord along r is removed, as the
-   caller tries the line of r. */
+/* Tries the chords that come before ray r, or all remaining ones if r is NULL. A chord along r is removed, because
+   the caller tries the line of r itself. */
 static void try_chords(const pivots *job, size_t pivot, koksma__chord chords[KOKSMA__MAX_CHORDS], const ray *r,
                        size_t left, size_t same, best_line *best)
 {
@@ -299,8 +302,8 @@ static void make_witness(const pivots *job, const best_line *line, koksma_value 
     out->witness = w;
 }
 
-/* After the deadline: computes an upper bound for all lines, and takes the best line found on the way if it is
-   better. */
+/* Called after the deadline: computes an upper bound for all lines, and replaces the best line if this computation
+   finds a better one. */
 static koksma_status find_bound(const pivots *job, const koksma_run *run, double deadline_s, koksma_value *out)
 {
     koksma__edge_line line = {.value = out->value};

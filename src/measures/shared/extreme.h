@@ -4,16 +4,16 @@
 
 #include <koksma/koksma.h>
 
-/* The largest |#/n - volume| over all boxes, exactly, with its witness, in d = 1 to 3 dimensions in O(n^(2d-1)). If a
-   time limit ends the search, out has a lower and an upper bound. Errors: N, MEMORY, INTERRUPTED. */
+/* Computes the largest |count/n - volume| over all boxes, exactly, with its witness, in d = 1 to 3 dimensions in
+   O(n^(2d-1)). If a time limit ends the search, out has a lower and an upper bound. Errors: N, MEMORY, INTERRUPTED. */
 koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out);
 
-/* The same value in 2 dimensions in O(n^2 log^2 n) at worst, by branch and bound and by a sweep. If a time limit ends
-   the search, out has a lower and an upper bound. */
+/* Computes the same value in 2 dimensions in O(n^2 log^2 n) at worst, by branch and bound and by a sweep. If a time
+   limit ends the search, out has a lower and an upper bound. */
 koksma_status koksma__extreme_plane(const koksma_points *points, const koksma_run *run, koksma_value *out);
 
 /* The methods to search the plane, which tests compare: BOUND is branch and bound over strips, SWEEP a sweep from
-   each left side; EITHER begins a block with the first and uses the second where the first takes too long. */
+   each left side; EITHER begins each block with BOUND and changes to SWEEP if BOUND takes too long. */
 typedef enum koksma__extreme_method {
     KOKSMA__EXTREME_EITHER,
     KOKSMA__EXTREME_BOUND,

@@ -5,12 +5,13 @@
  * the set of strips whose left side is one of the levels a1 .. a2 of x and whose right side is one of b1 .. b2. The
  * same pass gives a bound for a tile: the excess is bounded by the points of the widest strip with the width of the
  * narrowest, the deficit by the points of the narrowest strip with the width of the widest. Tiles whose bound does
- * not exceed the best box are dropped, others are cut into 4 x 4 tiles, down to single strips. Passes are done for 16
- * tiles at once. For the parts of a tile the points that all its strips share are first joined to runs (extreme_runs.c),
- * so that these passes take the number of its sides, not of its points; what no bound drops is then measured with its
- * points. Each block of left sides is a separate job with its own best box, so that the result does not depend
- * on the number of threads. A block for which bounding has cost as much as a sweep from each of its left sides would
- * is swept instead; counted work decides this, not a clock.
+ * not exceed the best box are dropped; the others are cut into 4 x 4 tiles, down to single strips. One pass handles
+ * 16 tiles at once. Before the parts of a tile are searched, the points that all its strips share are joined to runs
+ * (extreme_runs.c), so that a pass takes time proportional to the number of sides in the tile, not to the number of
+ * points. Strips that no bound excludes are then measured with all their points. Each block of left sides is a
+ * separate job with its own best box, so that the result does not depend on the number of threads. If bounding a
+ * block has cost as much as sweeping it from each of its left sides would cost, the block is swept instead. The cost
+ * is a count of operations, not a time, so that results are reproducible.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -27,14 +28,15 @@
 enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48, MAX_ROWS = 64 };
 
 #define SWEEP_COST 20.0
-#define ROUNDING 1e-12 /* more than the bounds from runs are wrong by, for each point */
+#define ROUNDING 1e-12 /* larger than the error per point of the bounds from runs */
 
 /* The number of levels in the side of a tile at each depth of the search. */
 static const size_t tile_sides[DEPTH] = {COARSE, 8, 2, 1};
 
 typedef struct tile {
-    size_t a, b;  /* first levels; the last ones are a + side - 1 and b + side - 1, or the last level of all */
-    double bound; /* bound of the tile from which this one was cut; infinite at first */
+    size_t a, b;  /* first levels of the left and of the right sides; the last levels are a + side - 1 and b + side -
+                     1, or the last level that exists */
+    double bound; /* bound of the tile from which this one was cut; infinity for the first tiles */
 } tile;
 
 typedef struct best_strip {
@@ -45,11 +47,13 @@ typedef struct best_strip {
 
 typedef struct plane {
     size_t n, n_levels;
-    double *x, *y;     /* points in order of y */
+    double *x, *y;     /* coordinates of the points in order of y */
     double *levels;    /* the distinct values of x, with 0 and 1 */
-    best_strip *best;  /* for each block of left sides */
-    double *upper;     /* for each block, a bound on the tiles left at the deadline; infinite: not bounded yet */
-    double *row_upper; /* for each row of wide tiles, of row_side left sides each, its bound after the deadline */
+    best_strip *best;  /* best strip of each block of left sides */
+    double *upper;     /* for each block, an upper bound of the tiles that remained at the deadline; infinity: not
+                       computed yet */
+    double *row_upper; /* computed after the deadline: an upper bound for each row of wide tiles, which have row_side
+                          left sides each */
     size_t row_side;
     double deadline_s;
     koksma__extreme_method method;
@@ -58,12 +62,13 @@ typedef struct plane {
 
 typedef struct searcher {
     const plane *p;
-    koksma__run_list lists[DEPTH]; /* the points of a group of tiles, of 16 tiles, and of tiles at depths 0 and 1 */
+    koksma__run_list lists[DEPTH]; /* lists of points: of a group of tiles, of 16 tiles, and of tiles at depths 0 and
+                                      1 */
     tile waiting[LANES];           /* strips to measure */
     size_t n_waiting;
     best_strip best;
     void *memory;
-    double upper, work, budget; /* points passed so far; number of points passed that costs as much as a sweep */
+    double upper, work, budget; /* number of points visited so far; number of visits that costs as much as a sweep */
     bool late;
 } searcher;
 
@@ -84,7 +89,8 @@ static void set_sides(const plane *p, tile t, size_t side, double sides[6][LANES
     sides[5][lane] = n * (x[b2] - x[t.a]);
 }
 
-/* Bounds of 16 tiles at most, from the points of a list; exact for single strips if the list has no runs. */
+/* Computes bounds of up to 16 tiles from the points of a list. For single strips and a list without runs the bounds
+   are the exact values. */
 static void bound_tiles(searcher *s, const koksma__run_list *list, size_t side, const tile *tiles, size_t count,
                         double excess[LANES], double deficit[LANES])
 {
@@ -140,8 +146,8 @@ static void add_strip(searcher *s, tile t)
     }
 }
 
-/* Builds in *to the run list for the strips of the tile t, or of all tiles from t to the one that begins at `end`.
-   Returns `from` where the new list would be no shorter. */
+/* Makes in *to the run list for the strips of tile t, or of all tiles from t to the one that begins at `end`. Returns
+   `from` if the new list would not be shorter. */
 static const koksma__run_list *narrowed(searcher *s, const koksma__run_list *from, tile t, size_t end, size_t side,
                                         koksma__run_list *to)
 {
@@ -225,7 +231,7 @@ static void search(searcher *s, const koksma__run_list *list, int depth, const t
     search(s, wide, depth + 1, parts, n_parts);
 }
 
-/* Collects the points between two levels, in order of y, and the upper side of the square. */
+/* Collects the points between two levels, in order of y, followed by the upper side of the square. */
 static void gather(searcher *s, size_t from, size_t to)
 {
     const plane *p = s->p;
@@ -258,8 +264,8 @@ static bool open_searcher(const plane *p, searcher *s)
     return true;
 }
 
-/* The work of bounding that costs as much as sweeping the block. The unit is one point passed for 16 tiles; in a
-   sweep a point costs SWEEP_COST units for each of the log2 n nodes on its path. */
+/* Returns the amount of bounding work that costs as much as sweeping the block. The unit is one point visited for 16
+   tiles; in a sweep a point costs SWEEP_COST units for each of the log2 n nodes on its path. */
 static double budget_of(const plane *p, size_t a)
 {
     const double left = fmin(COARSE, (double)(p->n_levels - a));
@@ -269,7 +275,7 @@ static double budget_of(const plane *p, size_t a)
                                                 : SWEEP_COST * left * points * log2((double)p->n + 2);
 }
 
-/* Finds the exact maximum of a block of strips by a sweep; for blocks where bounding would take longer. */
+/* Finds the exact maximum of a block of strips by a sweep; used for blocks for which bounding would take longer. */
 static koksma_status sweep_block(const plane *p, size_t a, searcher *s)
 {
     koksma__sweep_best best = {s->best.value, s->best.strip.a, s->best.strip.b, s->best.closed};
@@ -322,7 +328,7 @@ static koksma_status search_block(void *context, size_t block)
     return status;
 }
 
-/* Bounds a row of wide tiles, so that strips that were not searched before the deadline have a bound too. */
+/* Bounds a row of wide tiles, so that strips that were not searched before the deadline also have a bound. */
 static koksma_status bound_row(void *context, size_t row)
 {
     const plane *p = context;
@@ -349,8 +355,8 @@ static koksma_status bound_row(void *context, size_t row)
     return KOKSMA_OK;
 }
 
-/* Bounds the blocks that were unfinished at the deadline. The more points, the fewer rows of tiles are used, as this
-   step has no time limit. */
+/* Bounds the blocks that were unfinished at the deadline. This step has no time limit, so the number of rows of tiles
+   decreases with the number of points. */
 static koksma_status bound_rest(plane *p, size_t n_blocks, const koksma_run *run)
 {
     bool all = true;
@@ -370,7 +376,7 @@ static koksma_status bound_rest(plane *p, size_t n_blocks, const koksma_run *run
     return status;
 }
 
-/* Searches some strips first, so that pruning starts with a good value whatever the order of the search. */
+/* Searches some strips first, so that pruning starts with a good value for any order of the search. */
 static koksma_status first_value(plane *p)
 {
     searcher s;
@@ -392,8 +398,8 @@ static koksma_status first_value(plane *p)
     return KOKSMA_OK;
 }
 
-/* Fills by_x, the indices of the points in order of x (the points are in order of y), and first, where each level
-   begins in by_x. */
+/* Fills by_x with the indices of the points in order of x (the points themselves are in order of y), and `first` with
+   the position at which each level begins in by_x. */
 static koksma_status prepare_sweep(plane *p, const koksma_run *run, uint32_t *by_x, uint32_t *first)
 {
     const koksma_status status = koksma__order(run, p->n, p->x, 1, by_x);

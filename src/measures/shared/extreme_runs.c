@@ -1,29 +1,37 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Shortens the points for a set of strips with nearly equal sides. Most points of these strips are in all of them. A
- * run of such points, next to each other in order of y, needs no more than four functions of w, n times the width of
- * the strip (the summary of a maximum subarray: Bentley 1984). With i and j its points, counted from 1:
+ * Summarises the points of a set of strips with nearly equal sides. Most points are in all of these strips. A run is
+ * a sequence of such points that are adjacent in order of y. To find the best box of a strip, four functions of w
+ * replace the points of a run; w is n times the width of the strip. (They are the summary in Bentley's algorithm for
+ * the maximum subarray, 1984.) With i and j numbering the points of the run from 1:
  *
  *     top = max j - w y_j,   bottom = max w y_i - (i - 1),
  *     excess = max j - i + 1 - w (y_j - y_i) over i <= j,   deficit = max w (y_j - y_i) - (j - i - 1) over i < j.
  *
- * Strips with s left and s right sides have at most 2 s other points, so that a pass over their list takes O(s), not
- * O(n), and the list of a subset of strips is made from the list of the set.
+ * A set of strips with s left and s right sides has at most 2 s points that are not in runs, so a pass over its list
+ * takes O(s), not O(n). The list of a subset of the strips is made from the list of the set.
  *
  * Each function is a maximum of lines, thus convex: the chord between its values at the narrowest and at the widest
- * strip is an upper bound, and that is what is kept. Over a set both the range of w and the number of runs are about
- * 2 s, so that chords are too high by tenths of a point only. Where all strips have one width they are exact.
+ * strip is an upper bound, and only the chord is stored. Both the range of w and the number of runs are about 2 s, so
+ * that chords are too high only by some tenths of a point. If all strips have equal widths, the chords are exact.
  */
 #include "measures/shared/extreme_runs.h"
 
-enum { TOP = 0, BOTTOM = 2, EXCESS = 4, DEFICIT = 6, COUNT = 8 }; /* of a run; lines have an offset and a slope */
+enum {
+    TOP = 0,
+    BOTTOM = 2,
+    EXCESS = 4,
+    DEFICIT = 6,
+    COUNT = 8
+}; /* positions in the numbers of a run; each line has
+                                                                     an offset and a slope */
 
 /* The functions of a run at the narrowest and at the widest strip. */
 typedef struct ends {
     double count, top[2], bottom[2], excess[2], deficit[2];
 } ends;
 
-#define NONE (-1e300) /* finite: the chord between two of these must not be NaN */
+#define NONE (-1e300) /* not infinite, because the chord between two such values must not be NaN */
 
 static const ends no_points = {0, {NONE, NONE}, {NONE, NONE}, {NONE, NONE}, {NONE, NONE}};
 
@@ -32,7 +40,7 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
-/* Puts the run `above` on top of e. */
+/* Appends to the run e the run `above`, which follows it in order of y. */
 static inline void append(ends *e, ends above)
 {
     for (int k = 0; k < 2; k++) {

@@ -18,7 +18,7 @@ typedef struct search {
     size_t n;
     int dim;
     double *lists[3];  /* lists[k]: the points between the sides in coordinates above k, dim numbers each */
-    double *levels[3]; /* distinct coordinates of all points in order; for deficits with 0 and 1 */
+    double *levels[3]; /* sorted distinct coordinates of all points; for deficits also 0 and 1 */
     size_t n_levels[3];
     double lo[3], hi[3];
     const koksma_run *run;
@@ -80,7 +80,8 @@ static void best_deficit(search *s, const double *list, size_t count, double wid
     while (i < count && list[i * (size_t)s->dim] <= 0) {
         i++;
     }
-    double low = -(double)i / n, low_at = 0, best = s->out->value; /* low = min of width lo - #{z <= lo}/n */
+    double low = -(double)i / n, low_at = 0, best = s->out->value; /* low = the least value so far of width lo - #{z
+                                                                      <= lo}/n */
     size_t low_index = i;
     for (;;) {
         const double z = i < count ? list[i * (size_t)s->dim] : 1;
@@ -162,7 +163,8 @@ static void fill_levels(search *s, bool closed)
 koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     const size_t n = points->n, dim = (size_t)points->dim;
-    KOKSMA__FAIL_IF(dim == 3 && n > MAX_N_3D, KOKSMA_N, "extreme: n = %zu: up to %d points in 3D", n, MAX_N_3D);
+    KOKSMA__FAIL_IF(dim == 3 && n > MAX_N_3D, KOKSMA_N, "extreme: n = %zu: it takes up to %d points in 3D", n,
+                    MAX_N_3D);
     if (!koksma__keep_going(run, 0)) {
         return koksma__fail_interrupted();
     }
@@ -180,13 +182,13 @@ koksma_status koksma__extreme_small(const koksma_points *points, const koksma_ru
     for (size_t k = 0; k < dim; k++) {
         s.hi[k] = 1;
     }
-    keep(&s, 0, true, n, 1); /* the whole cube, so that there is always a witness */
+    keep(&s, 0, true, n, 1); /* start with the whole cube, so that there is always a witness */
     for (int closed = 0; closed < 2; closed++) {
         fill_levels(&s, closed);
         choose(&s, points->dim - 1, n, 1, closed);
     }
     free(memory);
-    if (s.late) { /* a box that was not tried may reach any value */
+    if (s.late) { /* some boxes were not tried, so the upper bound is 1 */
         out->exact = false;
         out->lower = out->value;
         out->upper = 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds the best box of one strip again once the searches of the plane know the strip, with all sides of the box and
-   the value as it is reported. */
+/* When a search has found the best strip, the functions of this file find the best box of this strip again, with all
+   its sides and the value that is reported. */
 #include "measures/shared/extreme.h"
 
 void koksma__extreme_of_strip(size_t n, const double *x, const double *y, double left, double right, bool closed,

@@ -7,11 +7,11 @@
  *
  * The largest excess is the largest F_j - G_i, i <= j, for closed strips. The largest deficit is the largest F_i -
  * G_j, i < j, for open strips, where the lower and the upper side of the square count as points too. F, G and the
- * differences are lines in w. A tree over the points in order of y keeps for each node the largest F, the smallest G
- * and the best difference below it, and the w up to which these are valid (a kinetic segment tree: Basch, Guibas and
- * Hershberger 1999). A new point changes the nodes on one path; the points in a left subtree shift all lines of the
- * right one equally and do not change their order. Among points with equal y the first has the smallest G and the
- * last the largest F; the others give smaller values only.
+ * differences are lines in w. Each node of a tree over the points in order of y stores the largest F, the smallest G
+ * and the best difference of the leaves below it, and the w up to which these are valid (a kinetic segment tree:
+ * Basch, Guibas and Hershberger 1999). A new point changes the nodes on one path. A point in a left subtree shifts
+ * all lines of the right subtree equally, which does not change their order. Among points with equal y the first has
+ * the smallest G and the last the largest F; the others give only smaller values.
  */
 #include "measures/shared/extreme_sweep.h"
 
@@ -31,7 +31,7 @@ typedef struct node {
 } node;
 
 typedef struct tree {
-    size_t leaves; /* a power of two; node i has children 2 i and 2 i + 1 */
+    size_t leaves; /* number of leaves, a power of two; node i has children 2 i and 2 i + 1 */
     node *nodes;
     bool closed;
     double width;
@@ -46,8 +46,8 @@ static inline line shifted(line l, double count)
     return (line){l.count + count, l.slope};
 }
 
-/* Returns the line that is larger at w, or if they are equal the one that falls less. Lowers *until to the width at
-   which the other line overtakes it. */
+/* Returns the line that is larger at w, or, if both are equal, the line with the larger slope. Reduces *until to the
+   width at which the other line overtakes it. */
 static inline line larger(line a, line b, double w, double *until)
 {
     const double ahead = a.count - b.count - w * (a.slope - b.slope);

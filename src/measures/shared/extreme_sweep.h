@@ -4,7 +4,7 @@
 
 #include <koksma/koksma.h>
 
-/* The points in order of y, and the levels of x: the distinct x of the points, with 0 and 1. */
+/* The points in order of y, and the levels: the distinct x coordinates of the points, with 0 and 1. */
 typedef struct koksma__sweep_plane {
     size_t n, n_levels;
     const double *y, *levels;

@@ -54,8 +54,9 @@ typedef struct pairs {
     const koksma__l2_row *row;
     size_t n;
     int dim;
-    double *u, *g;     /* u[k n + j] is coordinate k of point j, g[k n + j] the kernel's function g of it */
-    koksma__sum *sums; /* one for each block of rows */
+    double *u, *g;     /* u[k n + j] is coordinate k of point j, and g[k n + j] the function g of the kernel at this
+                          coordinate */
+    koksma__sum *sums; /* the sum of each block of rows */
 } pairs;
 
 static koksma_status sum_block(void *context, size_t block)
@@ -123,9 +124,9 @@ koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points
     return status;
 }
 
-/* True if divide and conquer is used. It is faster than summing pairs (measured with AVX-512) from the n in this
-   table on, by dimension and by the number of products of the kernel; above n = 2^24 its lists would take
-   gigabytes. */
+/* Returns whether to use divide and conquer. The table has the least n from which it is faster than summing pairs
+   (measured with AVX-512), by dimension and by the number of products of the kernel. Above n = 2^24 its lists would
+   take gigabytes. */
 static bool divides(const koksma__l2_row *row, const koksma_points *points)
 {
     static const size_t from[][3] = {{3072, 6144, 16384}, {8192, 49152, 131072}};

@@ -32,7 +32,7 @@ enum { KOKSMA__L2_DIVIDE_DIM = 4 };
 
 /* f[0] + f[1] z + f[2] z^2 + f[3] |z|, z = u - 1/2. */
 double koksma__l2_polynomial(const double f[4], double u);
-koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* as a function of z, in 106 bits */
+koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* the kernel as a function of z, in 106 bits */
 
 /* prod_k a(x_k) in 106 bits. */
 koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim);
@@ -42,20 +42,20 @@ koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim
 koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                          koksma_value *out);
 
-/* The value by sums over pairs. It is correct even where terms of the square are beyond the range of doubles, or the
-   square itself, which is NaN then. The error DIM means that the value, or a product over the first coordinates of a
-   point, is beyond this range. */
+/* Computes the value by sums over pairs. It is correct even if terms of the square are beyond the range of doubles,
+   or if the square itself is, which is then NaN. The error DIM means that the value, or a product over the first
+   coordinates of a point, is beyond this range. */
 koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                         koksma_value *out);
 
-/* The algorithms one by one, for tests that compare them. koksma__l2_by_sorting requires one or two dimensions, n <
-   2^28, and that r and all coefficients of a24 and g except the first are multiples of 1/16; where the compiler has
-   no 128-bit integers it sums over pairs instead. */
+/* The functions below each use one algorithm, for tests that compare them. koksma__l2_by_sorting requires one or two
+   dimensions, n < 2^28, and that r and all coefficients of a24 and g except the first are multiples of 1/16; if the
+   compiler has no 128-bit integers, it sums over pairs instead. */
 koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                   double *square);
 koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                     double *square);
-/* The number of products, 1 to 3, into which the kernel K(a, b) separates for a <= b. */
+/* Returns the number of products, 1 to 3, into which the kernel K(a, b) separates for a <= b. */
 int koksma__l2_ranks(const koksma__l2_row *row);
 /* For 3 to KOKSMA__L2_DIVIDE_DIM dimensions. */
 koksma_status koksma__l2_by_dividing(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sums over all pairs of points of which one is below the other in both coordinates, by a radix sort that counts
- * inversions. The points, in y order, are distributed to the 2^k parts of their x order. A binary tree over the parts
- * holds for each node the number of points that have gone to its left half, and the sum of their y. On its path from
- * the root to its part a point is added to the nodes where the path turns left; where the path turns right, the node
- * holds the points that precede it in y and are in lower parts of this node. The same is done within each part.
+ * Sums over all pairs of points in which one point is below the other in both coordinates, by a radix sort that
+ * counts inversions. The points are distributed, in order of y, to 2^k parts according to their rank in x. Each node
+ * of a binary tree over the parts stores the number of points that have gone to its left half so far, and the sum of
+ * their y. A point follows the path from the root to its part. Where the path turns left, the point is added to the
+ * node. Where it turns right, the node has exactly the points of its left half that precede the point in y. The same
+ * procedure then handles the points within each part.
  *
  * The sums are exact: y is split into two halves so that sums of either half stay below 2^63, and products are summed
  * in 128 bits.
@@ -17,14 +18,14 @@
 #include "core/parallel.h"
 #include "core/status.h"
 
-#ifdef __SIZEOF_INT128__ /* without 128-bit integers l2_sort.c sums over all pairs */
+#ifdef __SIZEOF_INT128__ /* without 128-bit integers, l2_sort.c sums over all pairs instead */
 
 enum { MAX_BITS = 8, PARTS = 1 << MAX_BITS, LOW_BITS = 26, CHUNK = 1 << 15 };
 
 typedef koksma__int128 wide;
 typedef koksma__l2_point point;
 
-/* For a set of points: the sum of the low LOW_BITS bits of y, the sum of the bits above, and the number of points. */
+/* Sums over a set of points: of the low LOW_BITS bits of y, of the bits above these, and the number of points. */
 typedef int64_t halves __attribute__((vector_size(16)));
 typedef struct node {
     halves y;
@@ -40,8 +41,9 @@ typedef struct job {
     size_t n, n_chunks;
     int bits, rest; /* number of bits of the first digit, and of the digits below it */
     point *points, *spare;
-    node (*starts)[PARTS]; /* for each chunk, the points in each part; later those of all chunks before it */
-    total *totals;         /* the result of each chunk, later of each part */
+    node (*starts)[PARTS]; /* for each chunk, the sums of its points in each part; later the sums over all earlier
+                              chunks */
+    total *totals;         /* first the result of each chunk, later that of each part */
 } job;
 
 static void add(node *sum, const node *other)
@@ -55,12 +57,12 @@ static node node_of(const point *p)
     return (node){{p->y & ((1 << LOW_BITS) - 1), p->y >> LOW_BITS}, 1};
 }
 
-/* Distributes points to their parts by the digit at bit `rest`, and returns the sum over the pairs that this digit
-   separates. tree: the nodes level by level, with the root at index 1; places: where the next point of each part
-   goes. */
+/* Distributes points to their parts by the digit at bit `rest`, and returns the sum over the pairs whose points go to
+   different parts. tree: the nodes level by level, with the root at index 1; places: the position of the next point
+   of each part. */
 static total deal(const point *points, size_t n, int bits, int rest, node *tree, uint32_t *places, point *to)
 {
-    static const halves masks[2] = {{0, 0}, {-1, -1}}; /* a table: loading a mask is faster than computing it */
+    static const halves masks[2] = {{0, 0}, {-1, -1}}; /* loading a mask from a table is faster than computing it */
     total sum = {0, 0};
     for (size_t i = 0; i < n; i++) {
         const point p = points[i];

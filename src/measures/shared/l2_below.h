@@ -6,14 +6,16 @@
 
 #include "measures/shared/double_double.h"
 
-/* A point of the plane in units that make its coordinates whole numbers, |x| and |y| <= 2^52. */
+/* A point of the plane whose coordinates are multiples of a small unit: whole numbers of up to 2^52 in absolute
+   value. */
 typedef struct koksma__l2_point {
     int64_t x, y;
     uint32_t at; /* rank in x order */
 } koksma__l2_point;
 
-/* sum_i x_i sum_j (y_i - y_j) over the points j before point i in x order and in y order. The n < 2^28 points must be
-   in y order; `points` and `spare`, which has room for n points, are overwritten. Errors: MEMORY, INTERRUPTED. */
+/* Returns sum_i x_i sum_j (y_i - y_j), where j runs over the points before point i both in x order and in y order.
+   The n < 2^28 points must be in y order; `points` and `spare`, which has capacity for n points, are overwritten.
+   Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__l2_sum_below(const koksma_run *run, size_t n, koksma__l2_point *points, koksma__l2_point *spare,
                                    koksma__dd *sum);
 

@@ -7,9 +7,9 @@
  *
  * which is one product if G - q z is constant (star, modified) or if K is a multiple of (a + s) (b - s) (extreme),
  * two if r = 0, else three. The points are halved in order of a coordinate. Pairs within a half are a smaller problem
- * of the same kind. For pairs across the halves the order in this coordinate is known, so that the factors A_m and
- * B_m go into weights of the points, and the next coordinate is treated likewise. At the last coordinate but one the
- * halves are returned sorted by the last coordinate, and one pass with prefix sums handles all pairs across.
+ * of the same kind. For pairs across the halves the order in this coordinate is known, so weights of the points can
+ * absorb the factors A_m and B_m, and the remaining problem has one coordinate less. At the last coordinate but one
+ * the halves are sorted by the last coordinate, and one pass with prefix sums handles all pairs across the halves.
  *
  *     problem on coordinate k:  [ lower half | upper half ]   in order of coordinate k
  *       within the halves:          solve      solve          the same problem, half as large
@@ -18,13 +18,14 @@
  *                                   between two sets on coordinate k + 1, once for each m
  *
  * T_d(n) = 2 T_d(n/2) + M T_(d-1)(n) with M <= 3 products gives n log n for each coordinate but the last two, which
- * share one merge: n log^(d-1) n in total, with a constant that grows as M^(d-1). For at most FEW points pairs are
- * summed directly.
+ * share one merge: n log^(d-1) n in total, with a constant that grows as M^(d-1). Problems of up to FEW points are
+ * solved by summing over pairs.
  *
- * Above four dimensions pairs are used. With MAX_DIM = 6 this file was slower than pairs with AVX-512 up to n = 16,384
- * (one product: 3.0 times in 5D, 5.1 in 6D; three: 19 and 50 times). At n = 65,536 it was level in 5D with one product
- * (2.27 s, pairs 2.42) and slower in 6D (1.9 times) and with three (6.1 times in 5D). Larger n were
- * not measured; there the values would differ from those of pairs from the 13th digit on.
+ * Above four dimensions pairs are used. In a test with MAX_DIM = 6 divide and conquer was slower than pairs with
+ * AVX-512 up to n = 16,384: 3.0 times in 5D and 5.1 times in 6D for kernels with one product, 19 and 50 times for
+ * kernels with three. At n = 65,536 it was equal in 5D with one product (2.27 s, pairs 2.42 s), but slower in 6D (1.9
+ * times) and with three products (6.1 times in 5D). Larger n were not measured; there the values would differ from
+ * those of pairs from the 13th digit on.
  *
  * All sums are compensated. The weights are rounded products, with independent errors of 1e-16 for each point that
  * average out. The halves do not depend on the number of threads, and their sums are added in a fixed order.
@@ -45,9 +46,9 @@ typedef koksma__dd dd;
 enum { MAX_DIM = KOKSMA__L2_DIVIDE_DIM, RANKS = 3, FEW = 24, PIECE = 1 << 13 };
 
 typedef struct item {
-    double z[MAX_DIM], g[MAX_DIM]; /* u - 1/2 and G for each coordinate */
+    double z[MAX_DIM], g[MAX_DIM]; /* u - 1/2, and G of this number, for each coordinate u */
     double weight;
-    uint32_t left; /* 1 in the left of two sets; below: 1 in the upper half */
+    uint32_t left; /* 1: the item is in the left one of two sets. `upper` is 1 if it is in the upper half */
     uint32_t upper;
 } item;
 
@@ -55,8 +56,8 @@ typedef struct divider {
     const koksma__l2_row *row;
     int dim, ranks;
     size_t n, width;
-    item *items, *spare; /* items are in order of the first coordinate, later of the second */
-    koksma__sum *sums;   /* one for each block */
+    item *items, *spare; /* items are first in order of the first coordinate, later in order of the second */
+    koksma__sum *sums;   /* the sum of each block */
 } divider;
 
 /* The memory of one thread. lists[k]: the items of a problem on coordinate k, followed by equal space for merging. */
@@ -69,7 +70,7 @@ typedef struct worker {
 static void find_factors(const divider *d, double z, double g, double a[RANKS], double b[RANKS])
 {
     const double q = d->row->q, r = d->row->r;
-    if (d->ranks == 1 && r == 0) { /* here G - q z is the constant d->row->g[0] */
+    if (d->ranks == 1 && r == 0) { /* in this case G - q z is constant and equal to d->row->g[0] */
         a[0] = 1;
         b[0] = d->row->g[0] + g + q * z;
     } else if (d->ranks == 1) { /* here K = -2 r (a - q/2r) (b + q/2r) */
@@ -94,7 +95,7 @@ int koksma__l2_ranks(const koksma__l2_row *row)
     return linear || product ? 1 : row->r == 0 ? 2 : 3;
 }
 
-/* The product of K over the coordinates from k on. */
+/* Returns the product of K over coordinate k and all later coordinates. */
 static double kernel_from(const divider *d, int k, const item *u, const item *v)
 {
     double product = 1;
@@ -140,7 +141,8 @@ static void pass(worker *w, const item *items, size_t n, int k)
 {
     const divider *d = w->d;
     const int ranks = d->ranks;
-    koksma__sum before[4][RANKS][RANKS]; /* by kind (left, upper) and by product of k and of k + 1 */
+    koksma__sum before[4][RANKS][RANKS]; /* sums of the items so far, by kind (left, upper) and by the products of
+                                            coordinates k and k + 1 */
     memset(before, 0, sizeof before);
     for (size_t i = 0; i < n; i++) {
         double a[2][RANKS], b[2][RANKS], sum = 0;
@@ -218,7 +220,7 @@ static void between(worker *w, item *items, item *spare, size_t n, int k)
 }
 
 /* Adds the pairs across two halves of the first coordinate. Each half is in order of the second coordinate; on return
-   all items are. */
+   all items are in this order. */
 static void across(worker *w, item *items, size_t half, size_t n, item *to)
 {
     for (size_t i = 0; i < n; i++) {

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The square of an L2 discrepancy and its gradient, by sums over pairs. With K = prod_k K_k,
+ * Computes the square of an L2 discrepancy and its gradient by sums over pairs. With K = prod_k K_k,
  *
  *     d square / d x_ik = (2/n^2) sum_(j != i) K_k'(x_ik, x_jk) prod_(l != k) K_l + (1/n^2) d K(x_i, x_i) / d x_ik
  *                         - (2/n) a'(x_ik) prod_(l != k) a(x_il),
  *     K_k'(u, v) = g'(u) + sign(u - v) (q + 2 r |u - v|).
  *
- * A product without one factor is the product of the factors before it times that of the factors after it. For point
- * i the factors with all other points are stored in one row for each coordinate, so that the compiler can vectorise
- * over points; sums are in index order.
+ * To leave out one factor of a product, multiply the product of the factors before it by the product of the factors
+ * after it. For point i the factors with all other points are stored in one row for each coordinate, so that the
+ * compiler can vectorise over points; sums are in index order.
  */
 #include "measures/shared/l2_gradient.h"
 
@@ -17,7 +17,7 @@
 
 #include "core/status.h"
 
-/* The derivative of koksma__l2_polynomial. */
+/* Returns the derivative of koksma__l2_polynomial. */
 static double slope(const double f[4], double u)
 {
     const double z = u - 0.5;
@@ -27,8 +27,8 @@ static double slope(const double f[4], double u)
 typedef struct job {
     const koksma__l2_row *row;
     size_t n, dim;
-    double *u, *g;            /* coordinate k of point j at k n + j */
-    double *factors, *behind; /* K_k of point i with each point; the product of the factors after k */
+    double *u, *g;            /* xs[k n + j] is coordinate k of point j */
+    double *factors, *behind; /* kernel K_k of point i and each other point; product of the factors after k */
 } job;
 
 /* Adds to gradient, for each coordinate k of point i, the sum over j != i of K_k' times the other factors, without

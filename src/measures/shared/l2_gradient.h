@@ -4,8 +4,8 @@
 
 #include "measures/shared/l2.h"
 
-/* The square of an L2 discrepancy, by sums over pairs, and its derivatives by all coordinates, in O(n^2 d). Errors:
-   MEMORY. */
+/* Computes the square of an L2 discrepancy by sums over pairs, and its derivatives by all coordinates, in O(n^2 d).
+   Errors: MEMORY. */
 koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points *points, double *square,
                                   double *gradient);
 

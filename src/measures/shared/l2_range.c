@@ -3,9 +3,9 @@
  * L2 discrepancies in hundreds of dimensions, where terms may be beyond the range of doubles. With M the larger of
  * c^d and max_i prod_k K(x_ik, x_ik), no term exceeds M: as K is positive definite, |K(x, y)|^2 <= K(x, x) K(y, y)
  * and a(x)^2 <= K(x, x) c (Cauchy and Schwarz). If M is far from 1, the one-dimensional kernel is multiplied by a
- * factor f near M^(-1/d) that has 5 bits, so that the coefficients in the table stay exact. The result is f^d times
- * the square, and its root is divided by f^(d/2). The root has half the exponent of the square, so it is in the range
- * of doubles in more dimensions.
+ * factor f near M^(-1/d) that has 5 bits, so that the products with the coefficients in the table are exact. The
+ * result is f^d times the square, and its root is divided by f^(d/2). The root has half the exponent of the square,
+ * so it is in the range of doubles in more dimensions.
  */
 #include <math.h>
 
@@ -15,13 +15,13 @@
 /* Up to PLAIN_DIM dimensions every term of every L2 discrepancy is in the range of doubles. */
 enum { PLAIN_DIM = 200, FAR_BITS = 900, GUARD_BITS = 1000 };
 
-/* log2(f K(x, x)) for the one-dimensional kernel K. */
+/* Returns log2(f K(x, x)) for the one-dimensional kernel K. */
 static double bits_of(const koksma__l2_row *row, double x, double f)
 {
     return log2(2 * koksma__l2_polynomial(row->g, x) * f);
 }
 
-/* log2 of the M that the head of this file defines. */
+/* Returns log2 M, with the M that the comment at the top of this file defines. */
 static double bits_of_largest(const koksma__l2_row *row, const koksma_points *points)
 {
     const size_t dim = (size_t)points->dim;
@@ -36,8 +36,8 @@ static double bits_of_largest(const koksma__l2_row *row, const koksma_points *po
     return most;
 }
 
-/* Whether the products over the first k coordinates of each point are in the range of doubles for all k, except where
-   the whole product is negligible. */
+/* Returns whether the products over the first k coordinates of each point are in the range of doubles for all k.
+   Points whose whole product is negligible are ignored. */
 static bool stays_in_range(const koksma__l2_row *row, const koksma_points *points, double f)
 {
     const size_t dim = (size_t)points->dim;
@@ -57,10 +57,10 @@ static bool stays_in_range(const koksma__l2_row *row, const koksma_points *point
 
 static koksma_status fail_range(const koksma__l2_row *row, int dim)
 {
-    return koksma__fail(KOKSMA_DIM, "%s: in %d dimensions it is beyond the range of doubles", row->name, dim);
+    return koksma__fail(KOKSMA_DIM, "%s: in %d dimensions the value is beyond the range of doubles", row->name, dim);
 }
 
-/* The error of an intermediate product beyond the range of doubles; the value itself may be within that range. */
+/* Fails because an intermediate product is beyond the range of doubles; the value itself may be within that range. */
 static koksma_status fail_product(const koksma__l2_row *row, int dim)
 {
     return koksma__fail(KOKSMA_DIM,

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The L2 discrepancies of the line and the plane in O(n log n) and more than 100 bits, by splitting the kernels: with
- * G(z) = g(z) + r z^2, K = G(z_u) + G(z_v) - 2 r z_u z_v + q t and t = |u - v|. In a product of two kernels all
- * factors but t separate. Sums with one factor t need the points in order of one coordinate. sum_ij t_x t_y, which is
- * the same for every kernel, needs the pairs of points of which one is below the other in both coordinates
- * (l2_below.c). With t_x,i = sum_j |x_i - x_j|, and the points in x order,
+ * Computes the L2 discrepancies of the line and the plane in O(n log n) with more than 100 bits. The kernels are
+ * split: with G(z) = g(z) + r z^2, K = G(z_u) + G(z_v) - 2 r z_u z_v + q t, where t = |u - v|. In a product of two
+ * kernels all factors except t separate into functions of u and of v. Sums with one factor t need the points in order
+ * of one coordinate. The sum over pairs of t_x t_y is the same for every kernel; it needs the pairs in which one
+ * point is below the other in both coordinates (l2_below.c). With t_y,i = sum_j |y_i - y_j|, and the points in x
+ * order,
  *
  *     sum_ij t_x t_y = 4 sum_i x_i (sum over j < i with y_j < y_i of (y_i - y_j))
  *                      + 2 sum_i x_i sum_{j < i} (y_j - y_i) - 2 sum_i x_i t_y,i.
  *
  * Coordinates are z in units of 2^-bits, and all sums over points are sums of whole numbers. The only rounding is
- * that the product of the low halves of two 112-bit factors is dropped. For n < 2^22 the unit is 2^-53, as coarse as
- * doubles near 1; moving a point by so little changes the square by less than 1e-16/n.
+ * that the product of the low halves of two 112-bit factors is dropped. For n < 2^22 the unit is 2^-53, which is the
+ * spacing of doubles near 1. Moving a point by such a distance changes the square by less than 1e-16/n.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +26,7 @@
 #include "measures/shared/order.h"
 
 #ifndef __SIZEOF_INT128__
-/* Compilers for 32-bit processors have no 128-bit integers. With them the pairs are summed, in O(n^2). */
+/* Compilers for 32-bit processors have no 128-bit integers. With these compilers the pairs are summed in O(n^2). */
 koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                     double *square)
 {
@@ -56,7 +57,7 @@ typedef struct polynomial {
     int64_t linear, absolute, square;
 } polynomial;
 
-/* Sums of x, y and x y over the points of a block; after add_up over all points before the block. */
+/* Sums of x, y and x y over the points of a block, or, after add_up, over all points before the block. */
 typedef struct partial {
     wide x, y, xy;
 } partial;
@@ -72,7 +73,7 @@ typedef struct plane {
     uint32_t *order;
     double *ys; /* the y coordinates in x order, for sorting */
     point *by_x, *by_y;
-    partial *before_x, *before_y; /* one for each block, in x order and in y order */
+    partial *before_x, *before_y; /* the sums of each block, in x order and in y order */
     partial all;
     dd (*sums)[SUMS]; /* for each block */
 } plane;
@@ -82,8 +83,8 @@ static factor factor_of(wide v)
     return (factor){(int64_t)(v >> LOW_BITS), (int64_t)(v & (((wide)1 << LOW_BITS) - 1))};
 }
 
-/* Adds a b to s, whose unit is 2^LOW_BITS times that of the product. The dropped product of the low halves is below
-   2^(2 LOW_BITS). */
+/* Adds a b to s, whose unit is 2^LOW_BITS times that of the product. The product of the low halves, which is below
+   2^(2 LOW_BITS), is ignored. */
 static void add_product(products *s, factor a, factor b)
 {
     s->high += (wide)a.high * b.high;
@@ -96,7 +97,7 @@ static void add_multiple(products *s, factor a, int64_t b)
     s->low += (wide)a.low * b;
 }
 
-/* v 2^exponent as a double-double. */
+/* Returns v 2^exponent as a double-double. */
 static dd dd_of_wide(wide v, int exponent)
 {
     const dd whole = koksma__dd_of_int(v);
@@ -160,7 +161,7 @@ static koksma_status load_by_y(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Replaces the sums over blocks by the sums over all blocks before each. Returns the sum over all blocks. */
+/* Replaces the sum of each block by the sum over all earlier blocks. Returns the sum over all blocks. */
 static partial add_up(partial *sums, size_t n_blocks)
 {
     partial total = {0, 0, 0};
@@ -172,8 +173,8 @@ static partial add_up(partial *sums, size_t n_blocks)
     return total;
 }
 
-/* sum_j |u - u_j| for the number u of rank i, from `before`, the sum of the numbers before it in order, and `all`,
-   the sum of all. */
+/* Returns sum_j |u - u_j| for the number u of rank i. before: the sum of the numbers of lower rank; all: the sum of
+   all numbers. */
 static wide sum_of_distances(const plane *p, size_t i, int64_t u, wide before, wide all)
 {
     return u * ((wide)2 * (wide)i + 1 - (wide)p->n) - 2 * before + all - u;
@@ -261,7 +262,7 @@ static koksma_status sum_line(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* The sum over all i and j of the products of the two kernels in the plane. below: the result of
+/* Returns the sum over all i and j of the products of the two kernels in the plane. below: the result of
    koksma__l2_sum_below. */
 static dd pair_sum_plane(const plane *p, const dd s[SUMS], dd below)
 {
@@ -273,7 +274,7 @@ static dd pair_sum_plane(const plane *p, const dd s[SUMS], dd below)
     dd mixed = koksma__dd_add(koksma__dd_mul(s[GW], w), koksma__dd_mul(s[HZ], z));
     sum = koksma__dd_add(sum, koksma__dd_scale(mixed, -4 * r));
     sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_scale(koksma__dd_mul(zw, zw), 4 * r), r));
-    /* q sum_ij (G_i + G_j - 2 r z_i z_j) t_y, plus this term with the coordinates exchanged */
+    /* add q sum_ij (G_i + G_j - 2 r z_i z_j) t_y, and the same term with the coordinates exchanged */
     dd single = koksma__dd_scale(koksma__dd_add(s[G_TY], s[H_TX]), 2);
     const dd moments = koksma__dd_scale(koksma__dd_add(s[MOMENT_X], s[MOMENT_Y]), -4 * r);
     sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_add(single, moments), q));

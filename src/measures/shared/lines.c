@@ -21,13 +21,13 @@ koksma_status koksma__fail_law_of_plane(const char *measure)
                         measure);
 }
 
-/* The area of the triangle that a line cuts off from a corner at distances c/a and c/b. */
+/* Returns the area of the triangle that a line cuts off from a corner at distances c/a and c/b. */
 static double triangle(double a, double b, double c)
 {
     return a * b > 0x1p-900 ? c * c / (2 * a * b) : c / a * (c / b) / 2;
 }
 
-/* The area of the square where a x + b y <= c, for a >= b >= 0. */
+/* Returns the area of the part of the square with a x + b y <= c, for a >= b >= 0. */
 static double corner_area(double a, double b, double c)
 {
     if (c <= 0) {
@@ -51,7 +51,7 @@ double koksma__area_below(double a, double b, double c)
 
 double koksma__area_below_through(double a, double b, const double p[2])
 {
-    if (fabs(a) < 0x1p-400 && fabs(b) < 0x1p-400) { /* the products below would lose digits */
+    if (fabs(a) < 0x1p-400 && fabs(b) < 0x1p-400) { /* the general formula would lose digits here */
         a *= 0x1p600;
         b *= 0x1p600;
     }
@@ -69,7 +69,7 @@ double koksma__line_separates(koksma__line_law law, double dx, double dy)
     return a > 0 ? ((a + b) * log1p(b / a) + a - b) / 2 : 0;
 }
 
-/* The integral of sigma(1, s) over 0 < s < t. */
+/* Returns the integral of sigma(1, s) over 0 < s < t. */
 static double integral(koksma__line_law law, double t)
 {
     if (law == KOKSMA__LINES_ISOTROPIC) {
@@ -84,7 +84,7 @@ static double integral(koksma__line_law law, double t)
     return sum;
 }
 
-/* The integral of sigma over [0, a] x [0, b]. */
+/* Returns the integral of sigma over [0, a] x [0, b]. */
 static double rectangle(koksma__line_law law, double a, double b)
 {
     if (a < 1e-90 || b < 1e-90) {
@@ -114,8 +114,8 @@ void koksma__line_separates_slope(koksma__line_law law, double dx, double dy, do
     }
 }
 
-/* The integral of sigma over a side of length b at distance a, which is the derivative of rectangle(law, a, b) by
-   a. */
+/* Returns the integral of sigma over a side of length b at distance a, which is the derivative of rectangle(law, a,
+   b) by a. */
 static double side(koksma__line_law law, double a, double b)
 {
     return a < 1e-90 ? 0 : a * a * integral(law, b / a);
@@ -140,7 +140,7 @@ void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, do
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 0, r);
     koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 1, s);
     if (law == KOKSMA__LINES_ISOTROPIC) {
-        /* the angle of the normal has a density proportional to the width of the square, cos + sin */
+        /* the angle of the normal has a density proportional to cos + sin, which is the width of the square */
         const double angle = M_PI_4 + asin((2 * r[0] - 1) / M_SQRT2);
         *a = cos(angle);
         *b = r[1] < 0.5 ? sin(angle) : -sin(angle);

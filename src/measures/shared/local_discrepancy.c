@@ -34,7 +34,7 @@ koksma_status koksma_local_discrepancy(const koksma_points *points, const double
     return KOKSMA_OK;
 }
 
-/* The first k for which the corner coordinate (k + 1/2) / side is above the coordinate; `side` if there is none. */
+/* Returns the first k for which the corner coordinate (k + 1/2) / side is above x, or `side` if there is none. */
 static size_t first_corner(double coordinate, size_t side)
 {
     const double at = coordinate * (double)side - 0.5;

@@ -7,7 +7,7 @@
 
 #include "core/visibility.h"
 
-/* For no sets of n points does the measure fall faster than n^-power (log n)^logs. */
+/* A bound: no sets of n points have a measure that falls faster than n^-power (log n)^logs. */
 typedef struct koksma__bound {
     double power, logs;
     const char *source; /* for example "Schmidt 1972" */

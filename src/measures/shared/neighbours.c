@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Visits the pairs of points nearer than r with a grid of cells at least r wide: the partners of a point are in its
-   cell and the eight cells around it. This takes O(n + pairs) for evenly spread points. If many points share few
-   cells, the smallest distance is found by divide and conquer (core/closest_pair.c) in O(n log n). Both methods
-   square the same differences, so that they give the same bits. Points of other dimensions than 2 go to
-   closest_space.c. */
+/* Visits all pairs of points with a distance below r. In a grid of cells at least r wide, the partners of a point are
+   in its own cell and in the eight cells around it. This takes O(n + pairs) for evenly spread points. If many points
+   share few cells, the smallest distance is found by divide and conquer (core/closest_pair.c) in O(n log n). Both
+   methods square the same differences, so that they give the same bits. closest_space.c handles points that are not
+   in the plane. */
 #include "measures/shared/neighbours.h"
 
 #include <math.h>
@@ -46,11 +46,11 @@ typedef struct visit {
     double r2;
     bool torus;
     const koksma_run *run;
-    double least; /* the smallest squared distance below r2; unused if counts is not NULL */
+    double least; /* the smallest squared distance found so far, below r2; unused if counts is not NULL */
     double scale; /* number of bins per unit of distance */
     size_t bins;
-    uint64_t *counts; /* numbers of pairs by distance, then eight spare entries; or NULL */
-    size_t unasked;   /* pairs since the last call of koksma__keep_going */
+    uint64_t *counts; /* number of pairs in each bin of distances, followed by eight spare entries; or NULL */
+    size_t unasked;   /* number of pairs visited since the last call of koksma__keep_going */
     bool stopped;     /* true when the caller asked to stop */
 } visit;
 
@@ -75,7 +75,7 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
     const koksma__torus_cells *g = v->g;
     for (size_t i = g->start[c]; i < g->start[c + 1]; i++) {
         pairs_of_point(v, i, d == c ? i + 1 : g->start[d], g->start[last + 1]);
-        if (!v->counts && v->least == 0) { /* no distance can be smaller */
+        if (!v->counts && v->least == 0) { /* stop: no distance can be smaller */
             return false;
         }
         v->unasked += 1 + g->start[last + 1] - g->start[d];
@@ -90,8 +90,8 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
     return true;
 }
 
-/* Visits the pairs of cell c with itself and with its later neighbour cells, each neighbour once. Adjacent neighbours
-   are visited together, as their points are contiguous in memory. */
+/* Visits the pairs of cell c with itself and with its later neighbour cells, each neighbour once. Adjacent neighbour
+   cells are visited together, because their points are contiguous in memory. */
 static bool pairs_of_cell(visit *v, size_t c)
 {
     const size_t m = v->g->columns;
@@ -129,7 +129,8 @@ static koksma_status visit_pairs(visit *v)
 
 enum { CROWD = 64 };
 
-/* True if there are few pairs within cells; pairs with neighbour cells are then at most nine times as many. */
+/* Returns whether there are few pairs within cells. The pairs of points in neighbouring cells are then at most nine
+   times as many. */
 static bool is_spread(const koksma__torus_cells *g, size_t n)
 {
     double pairs = 0;
@@ -140,8 +141,8 @@ static bool is_spread(const koksma__torus_cells *g, size_t n)
     return pairs <= CROWD * (double)n;
 }
 
-/* The smallest distance, by cells of width r or, for crowded points, by divide and conquer. Both square the same
-   differences, so that they give the same bits. */
+/* Computes the smallest distance with cells of width r or, for crowded points, by divide and conquer. Both square the
+   same differences, so that they give the same bits. */
 static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                    double *distance)
 {
@@ -161,12 +162,12 @@ static koksma_status least_of_many(const koksma_points *points, double r, bool t
 koksma_status koksma__min_distance(const char *name, const koksma_points *points, bool torus, const koksma_run *run,
                                    double *distance)
 {
-    KOKSMA__FAIL_IF(points->n < 2, KOKSMA_N, "%s: n = 1: one point has no distance; two points or more have", name);
+    KOKSMA__FAIL_IF(points->n < 2, KOKSMA_N, "%s: n = 1: the smallest distance needs at least two points", name);
     if (points->dim != 2) {
         return koksma__closest_in_space(points, torus, run, distance);
     }
     double least = HUGE_VAL,
-           r = fmin(1.1 / sqrt((double)points->n), 0.5); /* n points cannot all be farther apart than this */
+           r = fmin(1.1 / sqrt((double)points->n), 0.5); /* upper bound of the smallest distance of n points */
     if (points->n < 16) {
         for (size_t i = 0; i < points->n; i++) {
             for (size_t j = 0; j < i; j++) {
@@ -190,7 +191,7 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2",
                     points->dim);
     KOKSMA__FAIL_IF(!(r_max > 0 && r_max <= 0.5) || bins == 0, KOKSMA_ARGUMENT,
-                    "pair correlation: r_max = %g, %zu bins: it takes 0 < r_max <= 1/2 and 1 bin or more", r_max,
+                    "pair correlation: r_max = %g, %zu bins: it takes 0 < r_max <= 1/2 and at least 1 bin", r_max,
                     bins);
     koksma_status checked = koksma__points_check(points);
     checked = checked ? checked : koksma__array_check("bins", values, bins, sizeof *values);

@@ -22,12 +22,12 @@ typedef struct sorter {
     const double *xs;
     uint32_t *order;
     item *from, *to;
-    uint32_t (*starts)[MAX_VALUES]; /* for each block, by digit */
+    uint32_t (*starts)[MAX_VALUES]; /* counts of each block by digit */
     int shift;
     uint32_t mask; /* one less than the number of values of a digit */
 } sorter;
 
-/* An item to be compared exactly, when keys are equal. */
+/* An item with its number, which decides the order if keys are equal. */
 typedef struct exact {
     double x;
     uint32_t index;
@@ -65,8 +65,8 @@ static koksma_status count(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Replaces the counts by the positions where items begin. Returns false if all items have the same digit, so that
-   none must move. */
+/* Replaces the counts by the positions where items begin. Returns false if all items have the same digit and the pass
+   can be skipped. */
 static bool find_starts(sorter *s)
 {
     uint32_t total = 0;

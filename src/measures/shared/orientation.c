@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The sign of a cross product after Shewchuk 1997. It is computed in doubles with an error bound first. Where this
-   does not decide, the 16 exact products of the exact differences are summed as an expansion, whose largest part has
-   the sign. The numbers are multiplied by a power of two before, so that no part of a product underflows. */
+/* Computes the exact sign of a cross product (Shewchuk 1997). The product is first computed in doubles, with an error
+   bound. If the bound leaves the sign open, the 16 exact products of the exact differences are summed as an
+   expansion, and the sign of its largest part is the result. Before this the numbers are multiplied by a power of
+   two, so that no part of a product underflows. */
 #include "measures/shared/orientation.h"
 
 #include <math.h>

@@ -8,12 +8,13 @@
  *
  *     [c^3 - (c-a)^3 - (c-b)^3 - (c-d)^3 + (c-a-b)^3] / (6 a b d),
  *
- * where a term counts only if its base is positive. The terms cancel for small a, so the first two are combined into
- * one polynomial; each of the others has a base of at most a.
+ * where terms with a negative base are left out. The terms cancel for small a, so the first two are combined into one
+ * polynomial; each of the others has a base of at most a.
  *
- * Potential: the distance r from the origin is homogeneous of degree 1. So its integral over a box with a corner at
- * the origin is the sum over the three far faces of a quarter of the distance of the face times the integral of r
- * over it, which has a closed form. The mean distance of two points of the cube is from Robbins 1978.
+ * Potential: the distance r from the origin is a homogeneous function of degree 1. Its integral over a box with a
+ * corner at the origin is therefore a sum over the three faces that do not touch the origin: a quarter of the
+ * distance of the face times the integral of r over the face, which has a closed form. The mean distance of two
+ * points of the cube is from Robbins 1978.
  */
 #include "measures/shared/planes.h"
 
@@ -21,7 +22,8 @@
 
 #include "core/random.h"
 
-/* The volume of the cube where a x + b y + d z <= c, for 0 <= a <= b <= d and c <= (a + b + d) / 2. */
+/* Returns the volume of the part of the cube with a x + b y + d z <= c, for 0 <= a <= b <= d and c <= (a + b + d) /
+   2. */
 static double small_part(double a, double b, double d, double c)
 {
     if (c <= a) {
@@ -40,7 +42,7 @@ static double small_part(double a, double b, double d, double c)
     return part;
 }
 
-/* The volume of the cube where a x + b y + d z <= c, for a, b, d >= 0. */
+/* Returns the volume of the part of the cube with a x + b y + d z <= c, for a, b, d >= 0. */
 static double positive_volume(double a, double b, double d, double c)
 {
     double swap;
@@ -74,7 +76,7 @@ double koksma__volume_below_through(const double a[3], const double p[3])
     return positive_volume(fabs(a[0]), fabs(a[1]), fabs(a[2]), c);
 }
 
-/* The integral of sqrt(a^2 + y^2 + z^2) over 0 < y < b, 0 < z < c. */
+/* Returns the integral of sqrt(a^2 + y^2 + z^2) over 0 < y < b, 0 < z < c. */
 static double face(double a, double b, double c)
 {
     const double r = sqrt(a * a + b * b + c * c);
@@ -120,8 +122,8 @@ double koksma__plane_constant(void)
     return ((4 + 17 * M_SQRT2 - 6 * root3) / 105 + log(1 + M_SQRT2) / 5 + 2 * log(2 + root3) / 5 - M_PI / 15) / 3;
 }
 
-/* The density of the normal is proportional to the width of the cube, |a1| + |a2| + |a3|. It is a mixture of three
-   densities, |a_k| for each axis k, of which one is chosen at random. */
+/* The density of the normal is proportional to the width of the cube, |a1| + |a2| + |a3|. This is a mixture of three
+   densities, |a_k| for each axis k; an axis is chosen at random. */
 void koksma__random_plane(uint64_t seed, uint64_t index, double a[3], double *c)
 {
     double r[2], s[2];

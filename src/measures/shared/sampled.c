@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The root mean square of samples and its standard error, which is the standard error of the mean square divided by
- * twice the root (delta method).
+ * Computes the root mean square of samples and its standard error, which is the standard error of the mean square
+ * divided by twice the root (delta method).
  */
 #include "measures/shared/sampled.h"
 
@@ -9,7 +9,7 @@
 
 #include "core/sum.h"
 
-/* In two passes: the mean first, then the sum of squared differences from the mean, which loses no digits. */
+/* Takes two passes, so that no digits are lost: first the mean, then the sum of squared differences from the mean. */
 void koksma__sampled_root(const double *squares, size_t count, koksma_value *out)
 {
     koksma__sum sum = {0}, spread = {0};

@@ -46,8 +46,8 @@ void koksma_spectrum_fini(koksma_spectrum *spectrum)
     }
 }
 
-/* A loop over the frequencies (kx, ky) of the rings 1 .. half, with one of k and -k. No distance is near a half, as
-   (r + 1/2)^2 is not a whole number. */
+/* A loop over the frequencies k = (kx, ky) of the rings 1 .. half, with only one of k and -k. No |k| is exactly
+   between two rings, because (r + 1/2)^2 is not a whole number. */
 #define FOR_EACH_FREQUENCY(half, kx, ky, ring)                                                                       \
     for (int ky = 0; ky <= (half); ky++)                                                                             \
         for (int kx = ky ? -(half) : 1; kx <= (half); kx++)                                                          \
@@ -136,13 +136,13 @@ koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spe
     }
     const koksma_points rows = {side, (int)side, grid};
     const koksma_status written =
-        koksma__numbers_write(path, &rows, "power, rows of ky from below, columns of kx", NULL);
+        koksma__numbers_write(path, &rows, "power, one row for each ky, from -half up; one column for each kx", NULL);
     free(grid);
     return written;
 }
 
-/* Amplitudes from the method FAST have errors up to AMPLITUDE n, below which power cannot be distinguished from 0,
-   nor powers from equal ones. */
+/* Amplitudes from the method FAST have errors of up to AMPLITUDE n. A power below this error cannot be distinguished
+   from 0, and powers that differ by less cannot be distinguished from each other. */
 #define AMPLITUDE 1e-9
 
 static double anisotropy_db(double points, double power, double variance)
@@ -178,8 +178,8 @@ koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring
     return KOKSMA_OK;
 }
 
-/* The oscillation over a band of rings: it begins at the first ring whose mean exceeds RISEN (about 1) and is
-   BAND sqrt(n) rings wide, whatever the size of the spectrum. NaN if the band ends beyond the spectrum. */
+/* Returns the oscillation over a band of rings: the band begins at the first ring whose mean exceeds RISEN (about 1)
+   and is BAND sqrt(n) rings wide, for any size of the spectrum. It is NaN if the band ends beyond the spectrum. */
 static double oscillation(const koksma_spectrum *s)
 {
     int from = 1;

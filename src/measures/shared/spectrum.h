@@ -6,7 +6,7 @@
 
 #include "core/visibility.h"
 
-/* Fails unless koksma_spectrum_init has initialised the spectrum. Errors: ARGUMENT. */
+/* Fails if the spectrum was not initialised by koksma_spectrum_init. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__spectrum_check(const koksma_spectrum *spectrum);
 
 #endif

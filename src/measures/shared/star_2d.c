@@ -2,7 +2,7 @@
 /* The star discrepancy of the plane and of the line. In the plane a line sweeps over the points in order of x. For
    each rank j by y the sweep keeps the number of points so far whose rank is below j, which gives the excess (rank <=
    j) and the deficit (rank < j) of the box to (x, y_j). Equal coordinates need no special case: a box that is
-   evaluated before all its points are counted gives too small a value, and the correct box is evaluated as well. */
+   evaluated before all its points are counted gives too small a value, but the sweep evaluates it again later. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -43,11 +43,11 @@ void koksma__star_keep(const koksma_points *points, const double *corner, bool c
 }
 
 typedef struct sweep {
-    double *x, *y, *count; /* n, n + 8 and n + 9 numbers, arguments of the kernel star_sweep */
+    double *x, *y, *count; /* arguments of the kernel star_sweep, with n, n + 8 and n + 9 numbers */
     uint32_t *order, *rank;
 } sweep;
 
-/* The y of the best box whose x coordinate is that of index `at`. The counts are computed again. */
+/* Returns the y of the best box whose x coordinate is that of index `at`, after counting the points again. */
 static double best_y(size_t n, const sweep *s, size_t at, bool closed)
 {
     const size_t used = closed ? at + 1 : at;
@@ -83,8 +83,8 @@ static size_t end_of(const preparation *p, size_t block)
     return end < p->points->n ? end : p->points->n;
 }
 
-/* Fills y from `order`, which is the order by y here. The ranks are kept in `count`, by index of the point, until
-   `order` is the order by x. */
+/* Fills y from `order`, which has the order by y at this time. The ranks of the points are stored in `count` until
+   `order` has the order by x. */
 static koksma_status take_ys(void *context, size_t block)
 {
     const preparation *p = context;
@@ -143,9 +143,9 @@ koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, cons
     return status;
 }
 
-/* The star discrepancy on the line. With x_0 <= x_1 <= .. the largest excess is max (i + 1)/n - x_i, and the largest
-   deficit is max x_i - i/n, or 0 at x = 1 (Niederreiter 1992, theorem 2.6). Of equal points the last gives the excess
-   and the first the deficit, as their values are the largest. */
+/* Computes the star discrepancy on the line. With x_0 <= x_1 <= .. the largest excess is max (i + 1)/n - x_i, and the
+   largest deficit is max x_i - i/n, or 0 at x = 1 (Niederreiter 1992, theorem 2.6). Among equal points the last one
+   has the largest excess and the first one the largest deficit. */
 static koksma_status star_line(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     const size_t n = points->n;

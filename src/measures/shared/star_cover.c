@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Certified upper bounds (after Thiemard 2001): boxes [a, b] that cover all corners. No corner y in [a, b] has an
-   excess above #(x <= b)/n - volume(a), or a deficit above volume(b) - #(x < a)/n. The box with the largest bound is
-   cut in two until the deadline passes or the memory is full; the largest bound that remains is an upper bound of the
-   discrepancy. */
+/* Computes certified upper bounds (after Thiemard 2001) from boxes [a, b] that cover all corners. No corner y in [a,
+   b] has an excess above #(x <= b)/n - volume(a), or a deficit above volume(b) - #(x < a)/n. The box with the largest
+   bound is cut in two until the deadline passes or the memory is full; the largest bound that remains is an upper
+   bound of the discrepancy. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@ enum { MAX_BOXES = 1 << 19, POINTS_PER_CHECK = 1 << 16 };
 
 typedef struct cover {
     const koksma_points *points;
-    size_t dim, size; /* size: numbers for each box, which are its bound, a and b */
+    size_t dim, size; /* size: count of the numbers that describe a box (its bound, a and b) */
     size_t count, room;
     double *boxes, **heap;
 } cover;
@@ -75,7 +75,7 @@ static void sift_up(const cover *c, size_t i)
     }
 }
 
-/* Cuts the box at the top of the heap in two, across the side that is the longest in proportion to its upper end. */
+/* Cuts the box at the top of the heap in two. It cuts the side whose length is largest relative to its upper end. */
 static void cut(cover *c)
 {
     double *box = c->heap[0], *other = c->boxes + c->count * c->size;

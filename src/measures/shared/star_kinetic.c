@@ -2,20 +2,21 @@
 /*
  * A segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: the excess (k = -n y_j, b counts
  * points) or the deficit (k = n y_j, b minus that) of the box to (x, y_j), times n. Inserting a point adds a constant
- * to the lines of a range of ranks; x only grows. The amount `lazy` of a node remains to be added to its children.
+ * to the lines of a range of ranks; x only grows. The amount `lazy` of a node has not been added to its children yet.
  * The lowest levels of the tree are replaced by blocks of leaves, which are scanned. The star discrepancy of the
  * plane is the largest value of a leaf over all x, and x takes n values from left to right.
  *
- * At first the nodes hold bounds. The bound of a node is a line with the largest slope of its leaves that is above
- * all of them at the current x, and so at every later x. A subtree is searched only when its bound is above the best
- * value so far. An insertion scans one block and takes the larger of two bounds on its way back to the root, in O(log
- * n). The bound of a subtree of w ranks rises by at most w/n relative to its leaves in each step to the right, so
- * that it is searched once in about n/w steps for each unit by which its leaves are below the best value.
+ * At first the nodes store bounds. The bound of a node is a line that is above all its leaves at the current x. It
+ * has the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only when its
+ * bound is above the best value so far. An insertion scans one block and takes the larger of two bounds on its way
+ * back to the root, in O(log n). In each step to the right, the bound of a subtree of w ranks rises by at most w/n
+ * relative to its leaves. If the leaves are u below the best value, the subtree is therefore searched only once in
+ * about u n/w steps.
  *
  * For some points, such as Hammersley's, values near the best occur everywhere, and subtrees are searched too often.
  * These searches are counted, and when there are too many, the rest of the walk is a kinetic tournament (Basch,
- * Guibas & Hershberger 1999) with x as the time. A node then holds the line of its leaves with the largest value (the
- * winner), and the x until which this line is known to win:
+ * Guibas & Hershberger 1999) with x as the time. A node then stores the winner, which is the line with the largest
+ * value among its leaves, and the x until which this line is known to win:
  *
  *     value |        ____.--  line 2 overtakes at `until`    asking a subtree at x: below `until` the stored winner
  *           |  __.--'  .--'                                  answers in O(1); past it the children are asked, and the
@@ -23,8 +24,9 @@
  *           +----------|--------- x
  *
  * An insertion adds one to the counts of a range of ranks: this changes `lazy` of O(log n) nodes, and only the
- * winners on the paths to the ends of the range are compared again. Each other recomputation follows an overtaking.
- * Winners are decided in doubles: at a near tie either line has the largest value up to rounding.
+ * winners on the paths to the ends of the range are compared again. All other recomputations happen because one line
+ * has overtaken another. Comparisons are made in doubles. If two lines are nearly equal, either may win, because
+ * their values are equal up to rounding.
  */
 #include <math.h>
 #include <pthread.h>
@@ -38,8 +40,8 @@
 enum { BLOCK = 16, CHECK_EVERY = 1 << 14, PARTS = 4, MANY = 1 << 12 };
 
 typedef struct node {
-    double k, b;  /* b + k x: the winner; or a bound of all leaves, with their largest k */
-    double until; /* x up to which the winner is known to win; unused with bounds */
+    double k, b;  /* the line b + k x: the winner, or a bound of all leaves with their largest k */
+    double until; /* x up to which the winner is known to win; unused while nodes store bounds */
     double lazy;
 } node;
 
@@ -48,7 +50,7 @@ typedef struct tree {
     node *nodes;     /* 1 .. 2 n_blocks - 1; block i is node n_blocks + i */
     double *k, *b;   /* the lines of the leaves */
     double x;
-    bool exact;   /* true if nodes hold winners, false if bounds */
+    bool exact;   /* true: nodes store winners; false: nodes store bounds */
     size_t looks; /* number of bounds that were tested */
 } tree;
 
@@ -64,7 +66,7 @@ typedef struct walks {
     const double *x, *y;
     const uint32_t *rank;
     const koksma_run *run;
-    pthread_t caller; /* the only thread that may call run->keep_going */
+    pthread_t caller; /* the caller's thread, which alone may call run->keep_going */
     atomic_bool stopped;
     best_box best[2][PARTS];
 } walks;
@@ -171,7 +173,7 @@ static void advance(tree *t, size_t v)
     pull(t, v);
 }
 
-/* Raises *best to the largest leaf below node v if it is larger. Bounds may be too low by `slack`. */
+/* Raises *best to the largest leaf below node v if it is larger. slack: the amount by which bounds may be too low. */
 static void look(tree *t, size_t v, double slack, double *best)
 {
     t->looks++;
@@ -190,7 +192,7 @@ static void look(tree *t, size_t v, double slack, double *best)
     pull(t, v);
 }
 
-/* Adds the amount to all leaves from `from` on, and updates the nodes on the path for the current x. */
+/* Adds an amount to all leaves with index >= `from`, and updates the nodes on the path for the current x. */
 static void add_from(tree *t, size_t from, double amount)
 {
     size_t v = 1, half = t->n_blocks * BLOCK / 2, path[64], depth = 0;
@@ -252,14 +254,15 @@ static bool keeps_going(walks *w, double fraction_done)
     return !atomic_load(&w->stopped);
 }
 
-/* Finds the best value from point `from` to point `end`. sign 1: the excess, evaluated after each insertion; -1: the
-   deficit, evaluated before each. */
+/* Finds the best value among points `from` to `end`. sign 1: the excess, evaluated after each insertion; sign -1: the
+   deficit, evaluated before each insertion. */
 static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sign, best_box *best)
 {
     const size_t n = w->n;
     const double slack =
         0x1p-51 * (double)n * (double)n; /* rounding error of bounds, which are sums of at most n terms up to 2n */
-    const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks); /* as costly as a tournament */
+    const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks); /* after this number of searches a tournament
+                                                                          would have been as fast */
     *best = (best_box){-INFINITY, from};
     start(t, w, from, sign);
     for (size_t i = from; i < end; i++) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The partition of the space of box corners by Dobkin, Eppstein and Mitchell, after Overmars and Yap. One coordinate
- * after the other is cut into slabs. For corners in a slab (a, b] of coordinate k, a point with x_k <= a is inside in
- * this coordinate, a point with x_k >= b is outside the box, and a point between becomes undecided in k. A point that
- * is already undecided in an earlier coordinate cannot become undecided again, as cuts are made through it. In a leaf
- * every point is therefore undecided in at most one coordinate. So for each coordinate and each count c it suffices
- * to know the largest (smallest) side of an open (closed) box that contains c of the points undecided in this
- * coordinate. The slabs of the first coordinate are separate blocks of work, each with its own best box, so that the
- * result does not depend on the number of threads.
+ * Computes the exact discrepancy by the partition of the space of box corners of Dobkin, Eppstein and Mitchell, after
+ * Overmars and Yap. One coordinate after the other is cut into slabs. For corners in a slab (a, b] of coordinate k, a
+ * point with x_k <= a is inside in this coordinate, a point with x_k >= b is outside the box, and a point between
+ * becomes undecided in k. A point that is undecided in an earlier coordinate cannot become undecided again, because
+ * each later coordinate is cut at this point. In a leaf every point is therefore undecided in at most one coordinate.
+ * So for each coordinate and each count c it suffices to know the largest (smallest) side of an open (closed) box
+ * that contains c of the points undecided in this coordinate. The slabs of the first coordinate are separate blocks
+ * of work, each with its own best box, so that the result does not depend on the number of threads.
  */
 #include <math.h>
 #include <pthread.h>
@@ -27,12 +27,12 @@ enum { LEAVES_PER_CHECK = 256 };
 typedef struct problem {
     const koksma_points *points;
     size_t n, dim, spacing;
-    uint32_t *orders; /* for each coordinate, the points in its order */
+    uint32_t *orders; /* for each coordinate, the points in order of this coordinate */
     double *cuts;     /* the cuts of the first coordinate */
     size_t n_cuts;
     double deadline_s;
     const koksma_run *run;
-    pthread_t caller; /* the only thread that may call run->keep_going */
+    pthread_t caller; /* the caller's thread, which alone may call run->keep_going */
     atomic_bool interrupted;
     atomic_size_t blocks_done;
     koksma_value *values; /* for each block */
@@ -41,22 +41,24 @@ typedef struct problem {
 
 /* The points of a region of corners. There is one region for each level of the recursion. */
 typedef struct region {
-    uint32_t *inside;    /* points inside in all coordinates so far, unordered */
-    uint32_t *undecided; /* first[k] .. first[k+1] - 1: those of coordinate k, in its order */
+    uint32_t *inside;    /* points that are inside in all coordinates so far, in any order */
+    uint32_t *undecided; /* undecided points; first[k] .. first[k+1] - 1 are undecided in coordinate k and in order of
+                            it */
     size_t n_inside, *first;
 } region;
 
 typedef struct searcher {
     problem *p;
     region *levels;       /* dim + 1 */
-    double *lo, *hi;      /* the slabs of the region, for each coordinate */
+    double *lo, *hi;      /* bounds of the region's slabs for each coordinate */
     double *cuts;         /* dim rows of n + 2 */
-    uint32_t *sorted;     /* dim rows of n: `inside` in order of the next coordinate */
+    uint32_t *sorted;     /* dim rows of n: the points of `inside` in order of the next coordinate */
     double *sorted_at;    /* dim rows of n: the next coordinate of the points in sorted */
-    double *undecided_at; /* dim rows of n: the same coordinate of the child's undecided points */
+    double *undecided_at; /* dim rows of n: the next coordinate of the child's undecided points */
     bool *flags;          /* n */
-    double *sides;        /* the sides of boxes in a leaf: 2 rows of n + dim */
-    double **products;    /* dim pairs of rows of n + 2 dim + 8: products of sides up to coordinate k */
+    double *sides;        /* 2 rows of n + dim: the sides of boxes in a leaf */
+    double **products;    /* products of the sides in coordinates 0 .. k, for each k: dim pairs of rows of n + 2 dim +
+                          8 numbers */
     size_t leaves;
     bool stop;
     koksma_value *best;
@@ -122,7 +124,7 @@ static void leaf(searcher *s)
         return;
     }
     for (size_t k = 0; k < dim; k++) {
-        /* of the sides lo, z_1, .. z_g, hi closed boxes use the first g + 1, open ones the last g + 1 */
+        /* the sides are lo, z_1, .. z_g, hi; closed boxes use the first g + 1 of them, open boxes the last g + 1 */
         closed_sides[k] = next;
         *next++ = s->lo[k];
         for (size_t u = r->first[k]; u < r->first[k + 1]; u++) {
@@ -159,8 +161,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Chooses the cuts of coordinate k of a region: 0, the coordinate of every undecided point, that of every
-   p->spacing-th point inside, infinity. Returns the number of slabs. */
+/* Chooses the cuts of coordinate k of a region: 0, the coordinates of all undecided points and of every p->spacing-th
+   point inside, and infinity. Returns the number of slabs. */
 static size_t find_cuts(const problem *p, size_t k, const region *r, const uint32_t *sorted, double *cuts)
 {
     size_t count = 0, kept = 0;
@@ -236,15 +238,16 @@ static size_t place_slab(searcher *s, size_t k, const uint32_t *sorted, double a
     while (high < n_inside && at[high] < b) {
         high++;
     }
-    child->inside = (uint32_t *)sorted; /* the child's points are a prefix of sorted, which is not written to */
+    child->inside = (uint32_t *)sorted; /* the child's points are the first entries of `sorted`, which nobody changes
+                                           */
     child->n_inside = low;
     s->lo[k] = a;
     s->hi[k] = b;
     return high - low;
 }
 
-/* Fills the undecided points of the child. Slabs are visited from the last to the first, so that the points undecided
-   in coordinates before k are among those of the slab visited before. */
+/* Fills the undecided points of the child. Slabs are visited from last to first, so that the points undecided in
+   earlier coordinates are a subset of those of the previously visited slab. */
 static void fill_slab(searcher *s, size_t k, const uint32_t *sorted, size_t of_k)
 {
     region *child = &s->levels[k + 1];

@@ -3,15 +3,15 @@
  * A lower bound of the star discrepancy by threshold accepting over corners (Gnewuch, Wahlstrom and Winzen 2012),
  * with separate walks for closed boxes (excess) and open boxes (deficit).
  *
- * The paper moves a corner to the nearest critical corner. Here a step climbs instead to a corner that no change of a
- * single coordinate improves. With the other coordinates fixed, one pass over the points in order of coordinate k,
- * which counts the points inside in the other coordinates, gives the value of the box for every end along k; the best
- * end is taken. This is repeated until a round over all coordinates gains nothing. For each point the number of
- * coordinates in which it is outside is stored, so that a pass reads each point once, and moving an end updates only
- * the points between the old and the new end.
+ * In the paper a corner moves to the nearest critical corner. Here a step instead climbs to a corner that no change
+ * of a single coordinate improves. With the other coordinates fixed, one pass over the points in order of coordinate
+ * k counts the points that are inside in the other coordinates. This gives the value of the box for every end along
+ * k, and the best end is taken. This is repeated until a round over all coordinates brings no improvement. The search
+ * stores for each point the number of coordinates in which it is outside. A pass therefore reads each point once, and
+ * moving an end updates only the points between the old and the new end.
  *
- * A step moves some coordinates by a bounded number of ranks, climbs, and is undone unless the new value is at least
- * the old value less a threshold. The moves get smaller and the threshold goes to zero.
+ * A step moves some coordinates by a bounded number of ranks and climbs. It is undone if the new value is less than
+ * the old value minus a threshold. The moves get smaller and the threshold goes to zero.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,15 +30,15 @@ typedef struct walk {
     const koksma_points *points;
     size_t n, dim;
     double *levels;   /* dim rows of n + 1: the coordinates of the points in order, then 1 */
-    uint32_t *orders; /* dim rows of n: the indices of the points in this order */
-    /* The box: corner[k] is one of the levels. cut[k] is the number of points below it (for closed boxes: up to it)
-       in coordinate k; outside[i] is the number of coordinates in which point i is not one of these. */
+    uint32_t *orders; /* dim rows of n: the indices of the points in order of each coordinate */
+    /* The box: corner[k] is one of the levels. cut[k] is the number of points whose coordinate k is below corner[k]
+       (for closed boxes: at most corner[k]); outside[i] is the number of coordinates in which point i is outside. */
     bool closed;
     double corner[DIMS];
     size_t cut[DIMS];
     uint8_t *outside;
     uint64_t seed, index;
-    uint32_t lane, n_walks; /* this walk is number `lane` of n_walks */
+    uint32_t lane, n_walks; /* index of this walk among n_walks */
     const koksma_run *run;
     double deadline_s;
     bool stopped, late;
@@ -56,7 +56,7 @@ static size_t draw_below(walk *w, size_t n)
     return (size_t)(draw(w) * (double)n);
 }
 
-/* The first level of coordinate k that is not below x. */
+/* Returns the first level of coordinate k that is not below x. */
 static size_t rank_of(const walk *w, size_t k, double x)
 {
     const double *levels = w->levels + k * (w->n + 1);
@@ -94,7 +94,7 @@ static void set_end(walk *w, size_t k, size_t rank)
     w->cut[k] = cut;
 }
 
-/* Moves the end of the box along coordinate k to where the value is largest. Returns n times this value. */
+/* Moves the end of the box along coordinate k to the level with the largest value. Returns n times this value. */
 static double best_end(walk *w, size_t k)
 {
     const double *levels = w->levels + k * (w->n + 1);
@@ -122,7 +122,7 @@ static double best_end(walk *w, size_t k)
     return best;
 }
 
-/* True if the walk must end, because the deadline has passed or the caller asked to stop. */
+/* Returns whether the walk must end, because the deadline has passed or the caller asked to stop. */
 static bool ends(walk *w, double fraction_done)
 {
     w->stopped = w->stopped || !koksma__keep_going(w->run, (w->lane + fraction_done) / w->n_walks);
@@ -154,7 +154,7 @@ static double random_box(walk *w)
     return climb(w, 0);
 }
 
-/* Moves the end in each of m random coordinates to a random level within `reach` ranks. */
+/* Moves the end of the box in m random coordinates, in each to a random level at most `reach` ranks away. */
 static void move(walk *w, size_t m, size_t reach)
 {
     for (size_t c = 0; c < m; c++) {
@@ -172,7 +172,7 @@ static void keep_best(const walk *w, double value, koksma_value *out)
     }
 }
 
-/* Does one walk, which evaluates at least one box whatever the deadline. */
+/* Does one walk, which evaluates at least one box even after the deadline. */
 static void run_walk(walk *w, size_t steps, koksma_value *out)
 {
     double kept[DIMS];
@@ -224,7 +224,7 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
         }
         w.levels[k * (n + 1) + n] = 1;
     }
-    if (!status) { /* the whole cube, so that there is always a witness */
+    if (!status) { /* start with the whole cube, so that there is always a witness */
         double ones[DIMS];
         for (size_t k = 0; k < dim; k++) {
             ones[k] = 1;

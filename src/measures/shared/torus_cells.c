@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sorts points of the plane into square cells by a counting sort, O(n + cells): the points of a cell, and those of a
    row of cells, are contiguous in memory. Patterns that insert points one by one use patterns/shared/torus_grid.c,
-   whose cells are lists. Patterns that sort repeatedly use patterns/shared/torus_rows.c, which keeps its memory and
-   the index of each point. */
+   whose cells are lists. Patterns that sort repeatedly use patterns/shared/torus_rows.c, which reuses its memory and
+   stores the index of each point. */
 #include "measures/shared/torus_cells.h"
 
 #include <stdlib.h>
@@ -20,7 +20,7 @@ koksma_status koksma__torus_cells_init(koksma__torus_cells *cells, const koksma_
                                        bool wrap)
 {
     const size_t n = points->n;
-    const double outside = wrap ? 1 : 2; /* coordinates from here on become 0 */
+    const double outside = wrap ? 1 : 2; /* coordinates of at least this value become 0 */
     *cells = (koksma__torus_cells){.n = n, .columns = columns > 1 ? (size_t)columns : 1};
     const size_t n_cells = cells->columns * cells->columns;
     cells->xs = malloc(2 * n * sizeof(double));

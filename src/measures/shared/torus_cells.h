@@ -7,7 +7,7 @@
 /* Points sorted into cells, which are numbered row by row. The points of cell c are start[c] .. start[c+1]-1. */
 typedef struct koksma__torus_cells {
     size_t n, columns; /* columns x columns cells */
-    double *xs, *ys;   /* in order of the cells; within a cell in the original order */
+    double *xs, *ys;   /* coordinates in order of the cells; within a cell in the original order */
     size_t *start;
 } koksma__torus_cells;
 

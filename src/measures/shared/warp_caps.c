@@ -19,7 +19,7 @@ typedef struct rows {
     size_t n;
     const double *xs;
     bool cosine;
-    koksma__sum *pairs, *linear; /* sums for each block */
+    koksma__sum *pairs, *linear; /* the sum of each block */
 } rows;
 
 typedef struct ring {
@@ -27,8 +27,8 @@ typedef struct ring {
     bool cosine;
 } ring;
 
-/* The integral of the distance from the point over the circle at angle b from the pole, with the density of the
-   measure; it is a complete elliptic integral. */
+/* Returns the integral of the distance from the point over the circle at angle b from the pole, weighted by the
+   density of the measure; it is a complete elliptic integral. */
 static double ring_distance(double b, const void *context)
 {
     const ring *r = context;

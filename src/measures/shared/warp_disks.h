@@ -7,8 +7,8 @@
 #include <koksma/koksma.h>
 
 /*
- * The root mean square, over disks of radius 0 < r <= 1 that meet the unit disk D with centres uniform within 1 + r,
- * of the difference between the share of points in the disk and the share of D's area in it.
+ * Computes the root mean square, over disks of radius 0 < r <= 1 that meet the unit disk D with centres uniform
+ * within 1 + r, of the difference between the share of points in the disk and the share of D's area in it.
  *
  * Formula: with lens(d) the overlap of two disks of radius r at distance d, L(p) the area of D in a disk of radius r
  * whose centre is at distance p from the origin, and A = pi (1+r)^2, square = (n^-2 sum_ij lens(|x_i - x_j|) - (2/n)
@@ -16,29 +16,31 @@
  * from the origin, and c is the integral of 2 pi p (L(p)/pi)^2 over p.
  * Source: derived.
  * Known exactly: random points, the mean of the square is (r^2 - c/pi)/((1+r)^2 n).
- * Limits: a and c are integrated to about 1e-14 of their size; the square is good to about 1e-15.
+ * Limits: a and c have relative errors of about 1e-14; the square has an error of about 1e-15.
  * Errors: MEMORY, INTERRUPTED.
  */
 koksma_status koksma__warp_l2_disk(size_t n, const double *xs, double r, const koksma_run *run, koksma_value *out);
 
 /*
- * The root mean square, over spherical caps {y.z >= t}, z uniform on the sphere and t on (-1,1), of the difference
- * between the share of points in the cap and the share of the hemisphere's measure in it, which is uniform or
- * weighted by the cosine.
+ * Computes the root mean square, over spherical caps {y.z >= t}, z uniform on the sphere and t on (-1,1), of the
+ * difference between the share of points in the cap and the share of the hemisphere's measure in it, which is uniform
+ * or weighted by the cosine.
  *
  * Formula (Stolarsky's invariance principle, for a measure on a part of the sphere): a random cap separates x and y
  * with probability |x - y|/4, so square = ((1/n) sum_i P(x_i) - (1/n^2) sum_{i<j} |x_i - x_j| - C/2)/4. P, the mean
  * distance of x from the hemisphere, is an integral of complete elliptic integrals over the circles of latitude; C,
- * the mean of P, is 32/(9 pi), and with the cosine 2048/(675 pi) (recognised from 18 digits, and tested).
+ * the mean of P, is 32/(9 pi) or, with the cosine weight, 2048/(675 pi) (found from 18 digits, not proven, but
+ * tested).
  * Source: Stolarsky 1973; Alexander 1990.
  * Known exactly: P is 2 sqrt(2)/3 at the pole and 4/3 at the rim; with the cosine weight 8 sqrt(2)/15 and 64/(15 pi).
  * For random points the mean of the square is C/(8n).
- * Limits: P is integrated to about 1e-15; the square is good to about 1e-15.
+ * Limits: P and the square have errors of about 1e-15.
  * Errors: MEMORY, INTERRUPTED.
  */
 koksma_status koksma__warp_caps(size_t n, const double *xs, bool cosine, const koksma_run *run, koksma_value *out);
 
-/* The potential P of a point of the hemisphere, and the constant C, in the formula of koksma__warp_caps. */
+/* Return the potential P of a point of the hemisphere, and the constant C, which the formula of koksma__warp_caps
+   contains. */
 double koksma__cap_potential(const double *x, bool cosine);
 double koksma__cap_constant(bool cosine);
 

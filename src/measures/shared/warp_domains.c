@@ -32,8 +32,8 @@ static void gauss(int n, double *x, double *w)
 
 /* ---- The unit disk ------------------------------------------------------------------------------------ */
 
-/* The share of the disk in the half-plane below the line with normal (a, b) through p, by the area of a circular
-   segment. */
+/* Returns the share of the disk in the half-plane below the line with normal (a, b) through p, from the area of a
+   circular segment. */
 static double below_in_disk(double a, double b, const double p[2])
 {
     const double length = hypot(a, b), t = (a * p[0] + b * p[1]) / length;
@@ -41,15 +41,16 @@ static double below_in_disk(double a, double b, const double p[2])
     return (acos(-h) + h * sqrt((1 - h) * (1 + h))) / M_PI;
 }
 
-/* The chord with midpoint p is perpendicular to the radius. The centre bisects every diameter, with equal areas on
-   both sides, so that one diameter is enough. */
+/* The chord with midpoint p is perpendicular to the radius. If p is the centre, every diameter is such a chord with
+   equal areas on both sides, so one of them is enough. */
 static void chords_of_disk(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
     const bool central = p[0] == 0 && p[1] == 0;
     chords[0] = central ? (koksma__chord){{1, 0}, {0, 0}} : (koksma__chord){{0, p[1]}, {p[0], 0}};
 }
 
-/* The mean distance of p, at distance rho from the centre, from a uniform point of the disk: (4/9 pi) ((rho^2 + 7) E
+/* Returns the mean distance of p, which is at distance rho from the centre, from a uniform point of the disk: (4/9
+   pi) ((rho^2 + 7) E
    - 4 (1 - rho^2) K), where K and E are the complete elliptic integrals of modulus rho, by the arithmetic-geometric
    mean. */
 static double mean_distance_in_disk(const double *p)
@@ -110,12 +111,14 @@ static double below_in_triangle(double a, double b, const double p[2])
     for (int c = 0; c < m; c++) {
         area += polygon[c][0] * polygon[(c + 1) % m][1] - polygon[c][1] * polygon[(c + 1) % m][0];
     }
-    return area; /* this is twice the polygon's area, its share of the triangle of area 1/2 */
+    return area; /* twice the area of the polygon, which is its share of the triangle because the triangle has area
+                    1/2 */
 }
 
 /* For each corner of the triangle, with s and t the barycentric coordinates of p at the other two corners, p is the
-   midpoint of the points at 2s and 2t along the two edges from this corner. For p at a corner this chord has length
-   0; the chords there are the two edges. Barycentric coordinates below 0, from rounding in maps, count as 0. */
+   midpoint of the points at 2s and 2t along the two edges from this corner. If p is a corner, this chord has length
+   0, and the two edges at the corner are used instead. Barycentric coordinates that are negative because of rounding
+   in maps count as 0. */
 static void chords_of_triangle(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
     const double share[3] = {fmax(1 - p[0] - p[1], 0), fmax(p[0], 0), fmax(p[1], 0)};
@@ -134,7 +137,7 @@ static void chords_of_triangle(const double p[2], koksma__chord chords[KOKSMA__M
     }
 }
 
-/* The integral of the distance from p over the triangle that p forms with an edge. */
+/* Returns the integral of the distance from p over the triangle that p forms with an edge. */
 static double edge_integral(const double p[2], const double u[2], const double v[2])
 {
     const double dx = v[0] - u[0], dy = v[1] - u[1], length = hypot(dx, dy);
@@ -174,9 +177,9 @@ static double triangle_constant(void)
 
 /* ---- The hemisphere z >= 0 ---------------------------------------------------------------------------- */
 
-/* A plane through the centre whose normal is at angle theta from the pole has a share of 1 - theta/pi of the
-   hemisphere on the normal's side. The potential P of a point p at angle alpha from the pole is the mean of theta/pi
-   over the normals on the side of p. */
+/* If the normal of a plane through the centre is at angle theta from the pole, a fraction 1 - theta/pi of the
+   hemisphere is on the side of the normal. The potential P of a point p at angle alpha from the pole is the mean of
+   theta/pi over the normals on the side of p. */
 static double hemisphere_potential(const double *p)
 {
     const double alpha = atan2(hypot(p[0], p[1]), p[2]);
@@ -218,7 +221,7 @@ double koksma__domain_separates(koksma__domain_kind kind, const double *p, const
         plus += (p[k] + q[k]) * (p[k] + q[k]);
     }
     return 2 * atan2(sqrt(minus), sqrt(plus)) /
-           M_PI; /* more accurate near opposite points than the arc sine of half the distance */
+           M_PI; /* for nearly opposite points this is more accurate than the arc sine of half the distance */
 }
 
 double koksma__domain_potential(koksma__domain_kind kind, const double *p)

@@ -7,15 +7,15 @@
 
 typedef enum koksma__domain_kind { KOKSMA__DISK, KOKSMA__TRIANGLE, KOKSMA__HEMISPHERE } koksma__domain_kind;
 
-extern const koksma__domain koksma__domains[2]; /* the disk and the triangle */
+extern const koksma__domain koksma__domains[2]; /* only for the disk and the triangle */
 
-/* sigma: the probability that a random line that meets the domain (on the hemisphere: a plane through its centre)
-   separates two points; the potential P and the constant C are defined in measures/l2_edge.c. */
+/* Returns sigma, the probability that a random line that meets the domain (on the hemisphere: a plane through its
+   centre) separates two points; the potential P and the constant C are defined in measures/l2_edge.c. */
 double koksma__domain_separates(koksma__domain_kind kind, const double *p, const double *q);
 double koksma__domain_potential(koksma__domain_kind kind, const double *p);
 double koksma__domain_constant(koksma__domain_kind kind);
 
-/* The area of the overlap of disks of radius 1 and r whose centres are at this distance. */
+/* Returns the area of the overlap of two disks of radius 1 and r whose centres are at this distance. */
 double koksma__disks_share(double r, double distance);
 
 #endif

@@ -2,11 +2,11 @@
 /*
  * The cells and the shrinking cover of dart throwing in 3 to 6 dimensions; ball_cover.h describes the algorithm.
  *
- * Cells are at least d wide, so that the 3^dim cells around a position hold all points within d of it. A ball that
- * contains a whole child of a cube contains the cube's centre, a corner of that child: only the points within d of the
- * centre are compared with the 2^dim children. They are found once for each region of 4^dim cubes. On the
- * torus the largest distance from a point to a box is found axis by axis, where it is at most 1/2, so that distances
- * above 1/2 need no images.
+ * Cells are at least d wide, so that the 3^dim cells around a position contain all points within d of it. Every child
+ * of a cube has the centre of the cube as a corner. A ball that contains a whole child therefore contains the centre,
+ * so only the points within d of the centre are compared with the 2^dim children. They are found once for each region
+ * of 4^dim cubes. On the torus the distance along one axis is at most 1/2. The largest distance from a point to a box
+ * is computed axis by axis, and images need not be considered.
  */
 #include "patterns/shared/ball_cover.h"
 
@@ -22,11 +22,11 @@
 enum { LOOK_EVERY = 1 << 14, CHILDREN = 1 << KOKSMA__BALL_DIMS };
 
 #define NONE UINT32_MAX
-#define FINEST ((uint32_t)1 << 29) /* cubes along an axis, at most; smaller free volumes are ignored */
+#define FINEST ((uint32_t)1 << 29) /* largest number of cubes along an axis; smaller free volumes are ignored */
 
 double koksma__balls_per_volume(int dim)
 {
-    static const double filled[] = {0.547067, 0.384131, 0.260078, 0.170776, 0.109302}; /* share of the volume */
+    static const double filled[] = {0.547067, 0.384131, 0.260078, 0.170776, 0.109302}; /* fraction of the volume */
     double ball = dim % 2 ? 2 : M_PI;
     for (int k = dim % 2 ? 3 : 4; k <= dim; k += 2) {
         ball *= 2 * M_PI / k;
@@ -43,7 +43,7 @@ static void enter(koksma__balls *s, size_t i)
     s->head[cell] = (uint32_t)i;
 }
 
-/* Empties the cells and makes them fit for distance d; the cover is the whole torus in cubes about d wide. */
+/* Empties the cells and adapts their size to distance d. The new cover is the whole torus, in cubes about d wide. */
 static koksma_status make_grid(koksma__balls *s, double d)
 {
     size_t cells = 1, cubes = 1;
@@ -106,14 +106,14 @@ static double distance2(const koksma__balls *s, const double *x, const double *y
     return sum;
 }
 
-/* The points found near a position, copied; without `xs`, only whether there is one. */
+/* Copies of the points found near a position. If xs is NULL, only their existence is recorded. */
 typedef struct near_points {
-    double limit2, *xs; /* squared distance; dim coordinates a point */
+    double limit2, *xs; /* squared distance; dim coordinates for each point */
     size_t n;
 } near_points;
 
 /* Finds points nearer to x than the limit in cells at most `reach` away along each axis, by recursion over the axes.
-   Returns true once a point is found that is not to be copied. */
+   If points are not to be copied, returns true as soon as one is found. */
 static bool look_from(const koksma__balls *s, int k, size_t row, const double *x, uint32_t reach, near_points *near)
 {
     const size_t dim = (size_t)s->dim;
@@ -180,14 +180,15 @@ static koksma_status throw_dart(koksma__balls *s)
 
 /* ---- The cover ------------------------------------------------------------------------------------------- */
 
-/* Returns those of the `open` children of a cube that the ball about y does not contain. Bit k of a child's number is
-   its side along axis k; half: half of a child's side. */
+/* Returns those of the `open` children of a cube that the ball about y does not contain. Bit k of the number of a
+   child tells on which side it is along axis k. half: half of the side of a child. */
 static uint64_t open_children(const koksma__balls *s, const double *centre, double half, const double *y,
                               uint64_t open)
 {
     double sums[CHILDREN] = {0};
     for (int k = 0; k < s->dim; k++) {
-        double far[2]; /* squared distance along the axis to the far side of the lower and of the upper children */
+        double far[2]; /* for each axis, the squared distances to the far side of the lower and of the upper children
+                          */
         for (int side = 0; side < 2; side++) {
             double t = fabs(centre[k] + (side ? half : -half) - y[k]);
             t = t > 0.5 ? fabs(1 - t) : t;
@@ -224,11 +225,11 @@ static koksma_status get_room(const koksma__balls *s, uint32_t **list, size_t *r
 
 /* The region of 4^dim cubes around a cube, and the points near it. Its cubes are neighbours in the list. */
 typedef struct region {
-    uint32_t corner[KOKSMA__BALL_DIMS]; /* in units of the region's side */
+    uint32_t corner[KOKSMA__BALL_DIMS]; /* position in units of the region's side */
     near_points near;
 } region;
 
-/* Moves the region to where `cube` is: finds all points within d of the centre of any of its cubes. */
+/* Moves the region to the position of `cube`: finds all points within d of the centre of any of its cubes. */
 static void move_region(const koksma__balls *s, const uint32_t *cube, region *r)
 {
     bool same = r->near.limit2 > 0;
@@ -237,7 +238,7 @@ static void move_region(const koksma__balls *s, const uint32_t *cube, region *r)
         same = same && r->corner[k] == cube[k] / 4;
         r->corner[k] = cube[k] / 4;
         centre[k] = (4 * r->corner[k] + 2.0) / s->along;
-        centre[k] -= centre[k] >= 1; /* a region may reach beyond the torus */
+        centre[k] -= centre[k] >= 1; /* the region may extend beyond the torus */
     }
     if (!same) {
         const double limit = s->d + 1.5 * sqrt(s->dim) / s->along;

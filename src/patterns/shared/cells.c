@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Helpers of patterns with one point in each cell of a grid: they factor n into m^dim cells or into columns and rows,
- * and put a uniform random point into each cell. Error messages name the nearest n that would do.
+ * and put a uniform random point into each cell. Error messages name the nearest n that is possible.
  */
 #include "patterns/shared/cells.h"
 
@@ -13,7 +13,7 @@
 #include "kernels/kernels.h"
 #include "patterns/shared/fill.h"
 
-/* m^dim, or SIZE_MAX where that overflows. */
+/* Returns m^dim, or SIZE_MAX if that overflows. */
 static size_t power(size_t m, int dim)
 {
     size_t product = 1;
@@ -32,7 +32,7 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
     const size_t n = out->n;
     if (columns > 0) {
         const size_t c = (size_t)columns;
-        KOKSMA__FAIL_IF(out->dim != 2, KOKSMA_ARGUMENT, "%s: columns is for dim = 2", name);
+        KOKSMA__FAIL_IF(out->dim != 2, KOKSMA_ARGUMENT, "%s: columns can be used only in dim = 2", name);
         KOKSMA__FAIL_IF(n % c, KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c,
                         n, n / c ? n / c * c : c, (n / c + 1) * c);
         *along_x = c;

@@ -7,9 +7,9 @@
 
 #include "core/visibility.h"
 
-/* The coordinate at the fraction u, in [0,1), of cell number `cell` of m cells. The result is at least the double
-   nearest to cell/m and below the double nearest to (cell+1)/m: if rounding reaches the latter, the result is the
-   double before it. For u = 1/2 the result is the double nearest to the cell's centre. */
+/* Returns the coordinate at the fraction u, in [0,1), of cell number `cell` of m cells. The result is at least the
+   double nearest to cell/m and below the double nearest to (cell+1)/m: if rounding reaches the latter, the result is
+   the double before it. For u = 1/2 the result is the double nearest to the cell's centre. */
 static inline double koksma__in_cell(double cell, double u, double m)
 {
     const double x = (cell + u) / m, end = (cell + 1) / m;
@@ -19,28 +19,30 @@ static inline double koksma__in_cell(double cell, double u, double m)
 /* The parameter `columns` of patterns on grids of cells; koksma__fill_cells expects it as params[0]. */
 #define KOKSMA__PARAM_COLUMNS                                                                                        \
     {                                                                                                                \
-        "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true   \
+        "columns", "only in 2D: number of cells along x, with n / columns cells along y; 0: equal numbers", 0, 0,    \
+            1 << 28, NULL, true                                                                                      \
     }
 
 /* The parameter `columns` of patterns on cells that take any n. */
 #define KOKSMA__PARAM_DIVISOR                                                                                        \
     {                                                                                                                \
-        "columns", "cells along x, a divisor of n; 0: the one nearest to the root of n from below", 0, 0, 1 << 28,   \
-            NULL, true                                                                                               \
+        "columns", "number of cells along x, a divisor of n; 0: the largest divisor up to the root of n", 0, 0,      \
+            1 << 28, NULL, true                                                                                      \
     }
 
-/* Factors n into columns * rows; `wanted` is the parameter `columns`. Fails with KOKSMA_N, naming the n that would
-   do. */
+/* Factors n into columns * rows; `wanted` is the parameter `columns`. Fails with KOKSMA_N and a message that names
+   possible n. */
 KOKSMA__LAB koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows);
 
-/* Computes the number of cells along the first coordinate and that along every other coordinate, such that there are
-   out->n cells. They may differ in 2D only, with columns > 0. Fails with KOKSMA_N, naming the n that would do. */
+/* Computes the number of cells along the first coordinate and along every other coordinate, such that there are
+   out->n cells. The two numbers can differ only in 2D with columns > 0. Fails with KOKSMA_N and a message that names
+   possible n. */
 KOKSMA__LAB koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
                                         size_t *along_rest);
 
-/* Makes points args->first, args->first + 1, ... of a set with one point in every cell, in order of the cells (the cell
-   along the last coordinate changes fastest). A point is at the cell's centre + (u - 1/2) * width cell sizes, with u
-   uniform in [0,1)^dim and width in [0,1]. */
+/* Computes points args->first, args->first + 1, ... of a set with one point in every cell, in order of the cells (the
+   cell along the last coordinate changes fastest). A point is at the cell's centre + (u - 1/2) * width cell sizes,
+   with u uniform in [0,1)^dim and width in [0,1]. */
 koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
                                  koksma_points *out);
 

@@ -15,7 +15,7 @@ enum { GROUP = 1 << 15, COLUMNS = 8, STREAM_BYTES = 1 << 23 };
 typedef struct job {
     koksma__block f;
     const void *context;
-    uint64_t first; /* the index of point 0 of out */
+    uint64_t first; /* the index that point 0 of `out` has in the sequence */
     koksma_points *out;
 } job;
 
@@ -47,7 +47,7 @@ void koksma__store_columns(size_t count, int some, const double *columns, size_t
     }
 }
 
-/* Makes points at .. at + count - 1, which all belong to one aligned block of KOKSMA__COLUMN_BLOCK indices. */
+/* Computes points at .. at + count - 1, which all belong to one aligned block of KOKSMA__COLUMN_BLOCK indices. */
 static void block(const job *j, uint64_t at, size_t count)
 {
     double columns[COLUMNS][KOKSMA__COLUMN_BLOCK];
@@ -60,14 +60,14 @@ static void block(const job *j, uint64_t at, size_t count)
     }
 }
 
-/* The number of groups that points first .. first + n - 1 touch. Groups are aligned ranges of GROUP indices and do not
-   depend on `first`. */
+/* Returns the number of groups that contain points first .. first + n - 1. Groups are aligned ranges of GROUP indices
+   and do not depend on `first`. */
 static size_t groups_of(uint64_t first, size_t n)
 {
     return (size_t)((first + n - 1) / GROUP - first / GROUP + 1);
 }
 
-/* The part at .. end - 1 of the points first .. first + n - 1 that is in their group number g. */
+/* Computes the range at .. end - 1 of those points among first .. first + n - 1 that are in their group number g. */
 static void group_of(uint64_t first, size_t n, size_t g, uint64_t *at, uint64_t *end)
 {
     const uint64_t start = (first / GROUP + g) * GROUP;
@@ -140,8 +140,8 @@ void koksma__digital_column(const void *context, int k, uint64_t first, size_t c
     koksma__kernels()->fractions(count, v, xs);
 }
 
-/* Makes the points of group g of a digital sequence. The kernel handles aligned runs of 2^k points, so that a group
-   which begins at an unaligned index is cut into longer and longer aligned runs. */
+/* Makes the points of group g of a digital sequence. The kernel handles aligned runs of 2^k points. A group that
+   begins at an unaligned index is therefore cut into aligned runs of increasing length. */
 static koksma_status group_of_digits(void *context, size_t g)
 {
     const digital_job *j = context;
@@ -174,7 +174,7 @@ koksma_status koksma__range_fits(const char *name, const koksma_args *args, cons
 {
     const uint64_t most = (uint64_t)1 << 32;
     KOKSMA__FAIL_IF(args->first > most - out->n, KOKSMA_N,
-                    "%s: point %llu: with these parameters its points end at number 2^32 - 1", name,
+                    "%s: point %llu: with these parameters the last point has number 2^32 - 1", name,
                     (unsigned long long)(args->first + out->n - 1));
     return KOKSMA_OK;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Fills the points of patterns that compute one coordinate (a column) of a block of points at a time. The functions
-   allocate no memory, and results are equal to the last bit on any number of threads. */
+   allocate no memory, and results are bitwise equal for any number of threads. */
 #ifndef KOKSMA_PATTERNS_SHARED_COLUMNS_H
 #define KOKSMA_PATTERNS_SHARED_COLUMNS_H
 
@@ -9,7 +9,7 @@
 enum { KOKSMA__COLUMN_BLOCK = 512 };
 
 /* Computes coordinate k of points first .. first + count - 1 into xs[0] .. xs[count - 1]. `first` is a multiple of
-   KOKSMA__COLUMN_BLOCK and count is at most that; xs has room for a whole block. */
+   KOKSMA__COLUMN_BLOCK and count is at most that; xs has capacity for a whole block. */
 typedef void (*koksma__column)(const void *context, int k, uint64_t first, size_t count, double *xs);
 
 /* Computes the coordinates k .. k + some - 1 at once, some <= 8: xs[c][i] is coordinate k + c of point first + i. */
@@ -28,7 +28,7 @@ enum { KOKSMA__DIGITAL_DIM = 16 };
 koksma_status koksma__range_digital(const koksma_args *args, const uint32_t *const *directions,
                                     const uint32_t *starts, koksma_points *out);
 
-/* The exclusive or of directions[b] for all bits b set in `first`. */
+/* Returns the exclusive or of directions[b] over all bits b that are set in `first`. */
 uint32_t koksma__digital_start(const uint32_t *directions, uint64_t first);
 
 /* A koksma__column of a digital sequence in base 2 of any number of dimensions: context is an array uint32_t[dim][32],
@@ -44,14 +44,14 @@ typedef void (*koksma__rows)(const void *context, size_t first, size_t count, bo
 
 koksma_status koksma__fill_rows(const koksma_run *run, koksma_points *out, koksma__rows f, const void *context);
 
-/* Whether the set is larger than the caches, so that streaming stores should write it. */
+/* Returns whether the set is larger than the caches, so that streaming stores should write it. */
 bool koksma__is_large(const koksma_points *out);
 
 /* Stores a column as coordinate k of `count` points: out[i*dim + k] = xs[i] for i < count. */
 void koksma__store_column(size_t count, const double *xs, int dim, int k, double *out);
 
-/* Stores coordinates k .. k + some - 1 of points first .. first + count - 1; that of coordinate k + c are at
-   columns[c * KOKSMA__COLUMN_BLOCK] and after. */
+/* Stores coordinates k .. k + some - 1 of points first .. first + count - 1; the numbers of coordinate k + c begin at
+   columns[c * KOKSMA__COLUMN_BLOCK]. */
 void koksma__store_columns(size_t count, int some, const double *columns, size_t first, int k, koksma_points *out);
 
 #endif

@@ -3,15 +3,15 @@
  * The grid, the tiles and the shrinking cover of dart throwing. dart_cover.h describes the algorithm; dart_round.c
  * throws a round of darts.
  *
- * Cells are at most d / sqrt(2) wide, so that a cell holds at most one point, and only the 5 x 5 cells around a dart
- * can hold points near it. The cover begins with all cells as squares. After a round each square is cut into four
- * (one level of a quadtree with all leaves at one depth), and a quarter is dropped if all of it, up to its farthest
- * corner, is within d of one point: no dart can be kept there. The remaining quarters are the cover of the next
- * round. The cover shrinks geometrically until no square is left or squares reach the resolution of doubles: then the
- * set is maximal.
+ * Cells are at most d / sqrt(2) wide, so that a cell has at most one point, and only the 5 x 5 cells around a dart
+ * can contain points near it. The cover begins with all cells as squares. After a round each square is cut into four
+ * (one level of a quadtree with all leaves at one depth), and a quarter is dropped if all of it, including its
+ * farthest corner, is within d of one point, because no dart can be kept there. The remaining quarters are the cover
+ * of the next round. The cover shrinks geometrically until no square is left or squares reach the resolution of
+ * doubles: then the set is maximal.
  *
- * Each tile has a list of squares. Around a tile's cells there is a border of copies of its neighbours' cells, which
- * are updated between rounds, so that kernels read one contiguous array.
+ * Each tile has a list of squares. Around its cells a tile has a border with copies of its neighbours' cells, which
+ * are updated between rounds. Kernels thus read one contiguous array.
  */
 #include "patterns/shared/dart_cover.h"
 
@@ -26,12 +26,14 @@
 
 enum {
     BORDER = KOKSMA__DART_BORDER,
-    SPARE = 3 /* elements after the last row, because kernels read beyond it */
+    SPARE = 3 /* number of extra elements after the last row, because kernels read beyond it */
 };
 
 #define NONE UINT32_MAX
 
-#define FINEST ((uint64_t)1 << 30) /* squares on a side of the torus, at most; smaller free areas are ignored */
+#define FINEST                                                                                                       \
+    ((uint64_t)1 << 30) /* largest number of squares on a side of the torus; smaller free areas are ignored
+                                      */
 
 static const double far_away = 1e9;
 
@@ -48,8 +50,8 @@ static bool get_room(void **things, size_t *room, size_t count, size_t size)
 }
 
 /* Chooses cells and tiles for distance d, and the limits on squared distances between fixed-point positions. The
-   difference of two such positions is off by less than a unit in each coordinate, that of a position and the middle of
-   a square by less than half a unit; 1.42 and 0.71 are these errors times sqrt(2). */
+   difference of two such positions has an error of less than a unit in each coordinate, and the difference of a
+   position and the middle of a square one of less than half a unit. 1.42 and 0.71 are these errors times sqrt(2). */
 static void choose_grid(koksma__disks *s, double d)
 {
     s->d = d;
@@ -119,8 +121,8 @@ void koksma__disks_fini(koksma__disks *s)
     *s = (koksma__disks){0};
 }
 
-/* The tiles that hold a cell or a copy of it, along one axis, and the cell's index in each of them; where the copy is
-   in a tile's border, the index is outside the tile. */
+/* Lists, along one axis, the tiles that contain a cell or a copy of it, and the index of the cell in each of them.
+   For a copy in the border of a tile this index is outside the tile. */
 typedef struct axis {
     int count, at[2 * BORDER + 1];
     uint32_t tile[2 * BORDER + 1];
@@ -168,8 +170,8 @@ void koksma__disks_put(koksma__disks *s, const koksma__tile *t, uint32_t cell_x,
     }
 }
 
-/* The points in the 5 x 5 cells around a cell, in units of the torus: all points that can be within d of a point of the
-   cell. The corner cells count, too, because the diagonal of a cell is a little shorter than d. */
+/* Lists the points in the 5 x 5 cells around a cell, in units of the torus. These are all points that can be within d
+   of a point of the cell; the corner cells are needed because the diagonal of a cell is a little shorter than d. */
 typedef struct around {
     size_t count;
     double xs[32], ys[32];
@@ -195,13 +197,13 @@ static void look_around(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y
     }
 }
 
-/* Finds the quarters of a tile's squares that have free area, in double arithmetic: for squares so small that the
-   rounding of fixed-point positions matters. Larger squares may be kept although they have no free area, because their
+/* Finds the quarters of a tile's squares that have free area, in double arithmetic. It is used for squares so small
+   that the rounding of fixed-point positions matters. Larger squares without free area may be kept, because their
    quarters are examined later. */
 static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, size_t first, size_t end,
                              koksma__square *out)
 {
-    const double half = 0.25 / ((double)((uint32_t)1 << s->level) * s->cells); /* half of a quarter's side */
+    const double half = 0.25 / ((double)((uint32_t)1 << s->level) * s->cells); /* half of the side of a quarter */
     uint32_t cell_x = NONE, cell_y = NONE;
     size_t kept = 0;
     around points;

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Dart throwing on the 2D torus without wasted darts. The points are distributed as if uniform darts were thrown and
- * those at least d from all kept ones were kept. Darts are thrown only at a cover of the free area, made of squares
- * of equal size, so that a dart that lands in the free area is uniform there. The cover is the flat quadtree of
- * Ebeida, Mitchell, Patney, Davidson & Owens (2012): after each round of darts each square is cut into four, and
- * squares without free area are dropped.
+ * Dart throwing on the 2D torus without wasted darts. The points have the distribution of simple dart throwing: darts
+ * are uniform, and a dart is kept if it is at least d from all darts kept before. Darts are thrown only at a cover of
+ * the free area, made of squares of equal size, so that a dart that lands in the free area is uniform there. The
+ * cover is the flat quadtree of Ebeida, Mitchell, Patney, Davidson & Owens (2012): after each round of darts each
+ * square is cut into four, and squares without free area are dropped.
  *
  * A grid that fits into the cache is one tile. A larger grid is cut into tiles that fit. In each tile the darts of a
  * round arrive as a Poisson process in time; all tiles together are one Poisson process over the cover. Whether a
- * dart is kept depends only on earlier darts near it. Each tile thus decides its darts in order of time, except darts
- * near its border, which may depend on another tile, and later darts near such a dart: these wait for the end of the
- * round and are then decided in order of time. The points are therefore distributed as if the whole
- * grid were one tile, and most darts need only memory that is in the cache.
+ * dart is kept depends only on earlier darts near it. Each tile thus decides its darts in order of time. Darts near
+ * its border may depend on another tile; these darts, and later darts near them, wait until the end of the round and
+ * are then decided in order of time. The points therefore have the same distribution as with a single tile, and most
+ * darts access only memory in the cache.
  *
  * Positions are also stored as fixed-point numbers in units of 2^-12 of a cell (kernels/dart_cells.h), which decide
- * all but the closest cases; doubles decide those. Darts are drawn in batches of some hundreds. Darts too near to
- * points of earlier batches are dropped together; the rest are decided one by one. The cover may contain squares
- * without free area, because a dart there is too near to a point and is dropped; therefore only the nearest cells are
- * examined for large squares.
+ * almost all cases; only the closest ones are decided with doubles. Darts are drawn in batches of some hundreds.
+ * The darts of a batch that are too near to points of earlier batches are dropped in one pass; the others are decided
+ * one by one. The cover may contain squares without free area, because all darts in them are dropped anyway.
+ * Therefore only the nearest cells are examined for large squares.
  */
 #ifndef KOKSMA_PATTERNS_SHARED_DART_COVER_H
 #define KOKSMA_PATTERNS_SHARED_DART_COVER_H
@@ -27,7 +27,7 @@
 #include "kernels/kernels.h"
 
 typedef struct koksma__square {
-    uint32_t x, y; /* position in the whole grid, in units of the squares' size */
+    uint32_t x, y; /* position in the whole grid, in units of the side of a square */
 } koksma__square;
 
 /* A dart that waits for the end of the round. */
@@ -45,51 +45,52 @@ typedef struct koksma__tile {
 enum {
     KOKSMA__DART_WORDS = 256,
     KOKSMA__DART_BORDER = 2,
-    KOKSMA__DART_TILE = 128 /* most cells on a side of a tile */
+    KOKSMA__DART_TILE = 128 /* largest number of cells on a side of a tile */
 };
 
 typedef struct koksma__disks {
     const koksma__kernel_table *kernels;
     double d;
     size_t n, room; /* n: number of points; room: capacity of xs in points */
-    double *xs;     /* the points, x and y in turn */
-    double *times;  /* arrival times of the points of this round, used with several tiles */
-    uint32_t cells; /* cells on a side of the torus; a cell holds at most one point */
-    uint32_t tiles; /* tiles on a side of the torus */
-    size_t wide;    /* cells on a side of the largest tile */
+    double *xs;     /* the points, x and y alternating */
+    double *times;  /* arrival times of the points of this round; used only with several tiles */
+    uint32_t cells; /* number of cells on a side of the torus; a cell has at most one point */
+    uint32_t tiles; /* number of tiles on a side of the torus */
+    size_t wide;    /* number of cells on a side of the largest tile */
     size_t stride;  /* length of a row of cells: `wide`, a border of two cells on each side, and three spare ones */
-    size_t block;   /* distance from tile to tile in `places` */
+    size_t block;   /* distance in `places` from one tile to the next */
     size_t places_room, who_room;
     uint32_t *places;  /* fixed-point position of the point in each cell, by tile, with borders */
     uint32_t *who;     /* index of the point in each cell, by tile, without borders; UINT32_MAX: none */
-    int32_t low, high; /* squared fixed-point distances: below `low` is near, above `high` is not; else doubles
-                          decide */
-    int32_t cover;     /* a square whose far corner has a smaller squared distance is surely covered */
+    int32_t low, high; /* squared fixed-point distances: below `low` a point is near, above `high` it is not; between
+                          them doubles decide */
+    int32_t cover;     /* if the far corner of a square has a smaller squared distance, the square is certainly
+                       covered */
     int level;         /* squares are 2^-level cells wide */
     size_t n_squares, square_room, spare_room, first_room;
-    void *squares, *spare; /* by tile: packed words (kernels/dart_cells.h) up to KOKSMA__PACKED_LEVEL, then
+    void *squares, *spare; /* squares by tile: packed words (kernels/dart_cells.h) up to KOKSMA__PACKED_LEVEL, then
                               koksma__square */
     size_t *first;         /* index of the first square of each tile; at the end the number of squares */
     koksma__dart *waiting;
     size_t n_waiting, waiting_room;
     uint64_t seed, dart; /* the random stream of darts and the next dart's number in it */
     uint32_t words[4 * KOKSMA__DART_WORDS];
-    size_t used, drawn; /* groups of four words used and drawn */
+    size_t used, drawn; /* numbers of groups of four words that were used and drawn */
 } koksma__disks;
 
 /* Prepares an empty set for distance d in (0, 0.75]; koksma__disks_fini frees all memory of `disks`. */
 koksma_status koksma__disks_init(koksma__disks *disks, uint64_t seed, double d);
 void koksma__disks_fini(koksma__disks *disks);
 
-/* Throws darts until there are n points or no free area is left; with n = SIZE_MAX until no free area is left. Once n
-   points are reached, the grid may be incomplete and must not be used. */
+/* Throws darts until there are n points or no free area is left; with n = SIZE_MAX until no free area is left. When
+   it stops at n points, the grid may be incomplete and must not be used. */
 koksma_status koksma__disks_fill(koksma__disks *disks, size_t n, const koksma_run *run);
 
 /* Keeps the first n points and makes the cover of the free area for the smaller distance d. */
 koksma_status koksma__disks_shrink(koksma__disks *disks, size_t n, double d);
 
-/* Internal to dart_cover.c and dart_round.c. Throws a round of darts, on average `mean` at each square; stops at n
-   points. */
+/* Internal to dart_cover.c and dart_round.c. Throws a round of darts, `mean` darts at each square on average, and
+   stops at n points. */
 koksma_status koksma__darts_throw(koksma__disks *disks, double mean, size_t n, const koksma_run *run);
 
 /* Puts point number i into its cell and into the copies of the cell in borders of other tiles. */
@@ -99,7 +100,7 @@ void koksma__disks_put(koksma__disks *disks, const koksma__tile *tile, uint32_t 
 /* Cuts each square into four and keeps the quarters with free area. */
 koksma_status koksma__disks_refine(koksma__disks *disks);
 
-/* The first cell of tile number `tile` along an axis. */
+/* Returns the first cell of tile number `tile` along an axis. */
 static inline uint32_t koksma__disks_start(const koksma__disks *s, uint32_t tile)
 {
     return (uint32_t)((uint64_t)tile * s->cells / s->tiles);
@@ -119,14 +120,14 @@ static inline koksma__tile koksma__disks_tile(const koksma__disks *s, uint32_t n
     return t;
 }
 
-/* The index in `places` at which the 5 x 8 cells about a cell of a tile begin. */
+/* Returns the index in `places` at which the 5 x 8 cells around a cell of a tile begin. */
 static inline size_t koksma__disks_corner(const koksma__disks *s, uint32_t tile, uint32_t cell_x, uint32_t cell_y)
 {
     return tile * s->block + cell_y * s->stride + cell_x;
 }
 
-/* A tile's cells and squares in the form that kernels take; valid only up to KOKSMA__PACKED_LEVEL, while squares are
-   packed. */
+/* Returns the cells and squares of a tile as kernels need them; valid only up to KOKSMA__PACKED_LEVEL, while squares
+   are packed. */
 static inline koksma__dart_cells koksma__disks_cells(const koksma__disks *s, const koksma__tile *t)
 {
     const size_t first = s->first[t->number], end = s->first[t->number + 1];
@@ -137,7 +138,7 @@ static inline koksma__dart_cells koksma__disks_cells(const koksma__disks *s, con
                                 .squares = (const uint32_t *)s->squares + first};
 }
 
-/* Square number i of all lists, which has to belong to tile t. */
+/* Returns square number i of all lists, which has to belong to tile t. */
 static inline koksma__square koksma__disks_square(const koksma__disks *s, const koksma__tile *t, size_t i)
 {
     if (s->level > KOKSMA__PACKED_LEVEL) {
@@ -147,13 +148,13 @@ static inline koksma__square koksma__disks_square(const koksma__disks *s, const 
     return (koksma__square){(t->x << s->level) + (packed & 0xffff), (t->y << s->level) + (packed >> 16)};
 }
 
-/* The index in `who` of a cell of a tile. */
+/* Returns the index in `who` of a cell of a tile. */
 static inline size_t koksma__disks_own(const koksma__disks *s, uint32_t tile, uint32_t cell_x, uint32_t cell_y)
 {
     return (tile * s->wide + cell_y) * s->wide + cell_x;
 }
 
-/* The index of the point in a cell of the grid; UINT32_MAX: none. */
+/* Returns the index of the point in a cell of the grid; UINT32_MAX: none. */
 static inline uint32_t koksma__disks_who(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y)
 {
     const uint32_t tx = koksma__disks_tile_of(s, cell_x), ty = koksma__disks_tile_of(s, cell_y);

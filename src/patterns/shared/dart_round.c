@@ -21,8 +21,8 @@ typedef struct queue {
     uint32_t last[MOST_CELLS * MOST_CELLS]; /* last waiting dart in each cell whose bit in rows is set */
 } queue;
 
-/* The random words of darts that are drawn but not thrown yet, four words for each dart; draws more if there are none.
-   The first batch is small, because small sets need few darts. */
+/* Returns the random words of darts that were drawn but not thrown yet, four words for each dart. Draws more words if
+   there are none. The first batch is small, because small sets need few darts. */
 static size_t draw(koksma__disks *s, const uint32_t **words)
 {
     if (s->used == s->drawn) {
@@ -35,7 +35,8 @@ static size_t draw(koksma__disks *s, const uint32_t **words)
     return s->drawn - s->used;
 }
 
-/* Whether a point is nearer than d, in double arithmetic, for points whose fixed-point distance does not decide. */
+/* Returns whether a point is nearer than d, in double arithmetic, for points whose fixed-point distance does not
+   decide. */
 static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 {
     const koksma__tile t = koksma__disks_tile(s, d->tile);
@@ -58,7 +59,7 @@ static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
     return false;
 }
 
-/* Whether there is a point nearer to the dart than d. */
+/* Returns whether there is a point nearer to the dart than d. */
 static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
 {
     const size_t corner = koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
@@ -71,7 +72,7 @@ typedef struct target {
     koksma__tile tile;
     koksma__dart_cells cells;
     size_t first;
-    double side; /* side of a square, the torus having side 1 */
+    double side; /* side of a square if the torus has side 1 */
 } target;
 
 static target target_of(const koksma__disks *s, uint32_t number)
@@ -82,7 +83,7 @@ static target target_of(const koksma__disks *s, uint32_t number)
     return a;
 }
 
-/* Lists in `far` the numbers of the darts that are not certainly too near to a point; returns how many there are. */
+/* Lists in `far` the numbers of the darts that may be far enough from all points; returns how many there are. */
 static size_t choose_far(const koksma__disks *s, const target *a, size_t count, const uint32_t *words, uint32_t *far)
 {
     if (s->level <= KOKSMA__PACKED_LEVEL) {
@@ -94,13 +95,13 @@ static size_t choose_far(const koksma__disks *s, const target *a, size_t count, 
     return count;
 }
 
-/* A coordinate of a dart as a fixed-point number, measured from the grid's corner. */
+/* Returns a coordinate of a dart as a fixed-point number, measured from the corner of the grid. */
 static inline uint32_t place_of(uint32_t square, uint32_t word, int level)
 {
     return (uint32_t)((((uint64_t)square << 32 | word) >> (level + 31 - KOKSMA__PLACE_BITS)) + 1) >> 1;
 }
 
-/* Makes a dart in a random square of a tile. False if rounding puts it outside the unit square. */
+/* Makes a dart in a random square of a tile. Returns false if rounding puts it outside the unit square. */
 static inline bool aim(const koksma__disks *s, const target *a, const uint32_t *w, koksma__dart *d)
 {
     const koksma__tile *t = &a->tile;
@@ -143,8 +144,8 @@ static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const 
     return KOKSMA_OK;
 }
 
-/* Throws a round of darts if there is only one tile: darts come in order of time and are decided at once. From each
-   batch, darts near points of earlier batches are dropped first. */
+/* Throws a round of darts if there is only one tile: darts come in order of time and are decided at once. First the
+   darts of a batch that are near points of earlier batches are dropped. */
 static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
 {
     const target a = target_of(s, 0);
@@ -166,7 +167,8 @@ static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
     return status;
 }
 
-/* Whether the dart has to wait: cells within d of it are outside the tile, or an earlier dart near it waits. */
+/* Returns whether the dart has to wait: cells within d of it are outside the tile, or an earlier dart near it waits.
+   */
 static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, const queue *q, const koksma__dart *d)
 {
     const uint32_t x = d->cell_x, y = d->cell_y;
@@ -206,12 +208,12 @@ static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
     return KOKSMA_OK;
 }
 
-/* The current time in a Poisson process on [0, 1) with the given rate. The time multiplied by the rate is -log of a
-   product of uniform numbers; the logarithm is computed only for darts that need their time. */
+/* The current time in a Poisson process on [0, 1) with the given rate. Time multiplied by the rate is minus the
+   logarithm of a product of uniform numbers; the logarithm is computed only for darts whose time is needed. */
 typedef struct stopwatch {
     double rate, before, product;
     int factors;
-    double last; /* the process ends once `product` is at most this */
+    double last; /* the process ends when `product` is at most this number */
 } stopwatch;
 
 static bool tick(stopwatch *c, uint32_t word)
@@ -219,7 +221,7 @@ static bool tick(stopwatch *c, uint32_t word)
     if (!c->factors) {
         c->before -= koksma__log(c->product);
         c->product = 1;
-        c->factors = 16; /* each is at least 2^-33, so their product is at least exp(-366) */
+        c->factors = 16; /* each factor is at least 2^-33, so the product is at least exp(-366) */
         c->last = c->rate - c->before > 400 ? 0 : koksma__exp(c->before - c->rate);
     }
     c->factors--;
@@ -227,7 +229,8 @@ static bool tick(stopwatch *c, uint32_t word)
     return c->product > c->last;
 }
 
-/* Prefetches a tile into the cache: darts hit it in random order, so that each would wait for its cache lines. */
+/* Prefetches a tile into the cache. Darts hit it in random order, so without this each dart would wait for its cache
+   lines. */
 static void fetch(const koksma__disks *s, const target *a)
 {
     for (size_t i = 0; i < s->block; i += 16) {
@@ -286,7 +289,7 @@ static int earlier(const void *a, const void *b)
     return (d->time > e->time) - (d->time < e->time);
 }
 
-/* Drops the latest points of this round, which begin at number `before`, until n points are left. */
+/* The points of this round begin at number `before`. Drops the latest of them until n points are left. */
 static koksma_status drop_last(koksma__disks *s, size_t before, size_t n)
 {
     const size_t count = s->n - before;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Digital sequences in a prime base. A column of points is computed from one index to the next: each digit of the index
- * that changes adds a column of the matrix, so that the work of a point is that of base / (base - 1) columns. The value
- * is kept as a whole number below base^digits <= 2^53 and divided once, which gives the nearest double.
+ * Digital sequences in a prime base. Each point is computed from the previous one: for each digit of the index that
+ * changes, a column of the matrix is added. On average base / (base - 1) digits change. The value is stored as a
+ * whole number below base^digits <= 2^53 and divided once, which gives the nearest double.
  */
 #include "patterns/shared/digit_sequence.h"
 
@@ -65,8 +65,8 @@ static void begin(const job *j, const uint32_t *matrix, uint64_t index, walk *w)
     }
 }
 
-/* Goes on to the next index. A digit that wraps from b - 1 to 0 has also grown by 1 modulo b, so that its column is
-   added, too. */
+/* Advances to the next index. A digit that wraps from b - 1 to 0 also grows by 1 modulo b, so its column is added,
+   too. */
 static void step(const job *j, const uint32_t *matrix, walk *w)
 {
     for (int c = 0; c < j->digits; c++) {
@@ -107,8 +107,8 @@ koksma_status koksma__digit_sequence(const char *name, uint32_t base, int most_d
     for (; j.whole < end && j.digits < most_digits; j.digits++) {
         j.whole *= base;
     }
-    KOKSMA__FAIL_IF(j.whole < end, KOKSMA_N, "%s: point %.0f: in base %u there are only points below number %.0f",
-                    name, end - 1, base, j.whole);
+    KOKSMA__FAIL_IF(j.whole < end, KOKSMA_N, "%s: point %.0f: in base %u all points have numbers below %.0f", name,
+                    end - 1, base, j.whole);
     uint32_t few[FEW];
     const size_t entries = (size_t)out->dim * (size_t)(j.digits * j.digits);
     j.matrices = entries <= FEW ? few : malloc(entries * sizeof *j.matrices);

@@ -8,13 +8,14 @@
 /* Fills the upper triangular matrix of coordinate k: entry [r][c] < base is matrix[r * digits + c]. */
 typedef void (*koksma__digit_matrix)(uint32_t base, int k, int digits, uint32_t *matrix);
 
-/* Fills `out` with the range of points that args->first begins. With y = C a modulo base, a the digits of the index, the
-   lowest first, a coordinate is the double nearest to y_0 base^-1 + y_1 base^-2 + ...; there are most_digits digits at
-   most, and base^most_digits <= 2^53. Errors: N where an index needs more digits, MEMORY, INTERRUPTED. */
+/* Fills `out` with the range of points that begins at args->first. Let y = C a modulo base, where a are the digits of
+   the index, the lowest first. A coordinate is the double nearest to y_0 base^-1 + y_1 base^-2 + ... There are at
+   most most_digits digits, with base^most_digits <= 2^53. Errors: N where an index needs more digits, MEMORY,
+   INTERRUPTED. */
 koksma_status koksma__digit_sequence(const char *name, uint32_t base, int most_digits, koksma__digit_matrix fill,
                                      const koksma_args *args, koksma_points *out);
 
-/* As many digits of this base as 53 bits hold. */
+/* Returns the largest number of digits in this base that fit into 53 bits. */
 int koksma__digits_of_double(uint32_t base);
 
 /* Fills the powers of Pascal's matrix: entry [r][c] is C(c,r) k^(c-r). */

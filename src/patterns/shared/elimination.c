@@ -10,21 +10,21 @@
  *         (1 / (V_dim n))^(1/dim)        dim > 3, V_dim the volume of the unit ball
  *     d_min = d_max (1 - (n/m)^1.5) 0.65, the weight limit, where n of m points are kept
  *
- * Without weight limiting, two points that happen to be close have more weight than a point in a whole crowd, and the
- * last points removed are the wrong ones: for n = 1024 of 5120 points the relative radius is 0.635 without and 0.696
- * with weight limiting.
+ * Without weight limiting, two points that happen to be close have more weight than a point among many neighbours,
+ * and the last removals pick the wrong points. For n = 1024 of 5120 points the relative radius is 0.635 without and
+ * 0.696 with weight limiting.
  *
  * A heap has the heaviest point on top. When that point is removed, its contribution to its neighbours' weights is
- * subtracted. A grid of cells, about d_max / 2 wide in 3 dimensions or fewer, else d_max, holds the remaining points,
- * so that finding a point's neighbours visits a bounded number of cells: O(m log m) in few dimensions, O(m^2) where
- * d_max spans the torus. Memory: 16 dim + 44 bytes for each point. Points are renumbered cell by cell so that
- * neighbours are near in memory.
+ * subtracted. The remaining points are sorted into a grid of cells that are about d_max / 2 wide in up to 3
+ * dimensions, else d_max. The search for the neighbours of a point therefore visits a bounded number of cells. The
+ * cost is O(m log m) in few dimensions, and O(m^2) if d_max spans the torus. Memory: 16 dim + 44 bytes for each
+ * point. Points are renumbered cell by cell so that neighbours are near in memory.
  *
- * Where d_max is above 1/2, several periodic images of one point are within d_max, and each contributes to the
- * weight, as in Yuksel's implementation: from equal candidates both programs keep equal points (n = 64 in 2 to 6
- * dimensions). A ball of radius d_max contains 2^dim m/n points and images, too many above 8 dimensions: there, and
- * below 4 dimensions, where only sets of at most 11 points have such a d_max, only the nearest image contributes.
- * This changes which points are kept, but hardly how evenly they are distributed: the mean smallest distance of 64
+ * If d_max is above 1/2, several periodic images of one point are within d_max, and each contributes to the weight.
+ * Yuksel's implementation does the same: from equal candidates both programs keep the same points (tested for n = 64
+ * in 2 to 6 dimensions). A ball of radius d_max contains 2^dim m/n points and images, which is too many above 8
+ * dimensions. Below 4 dimensions only sets of at most 11 points have such a d_max. In both cases only the nearest
+ * image contributes. This changes which points remain, but hardly their evenness: the mean smallest distance of 64
  * points in 6 dimensions, over 20 sets, is 0.159 with all images and 0.155 with the nearest.
  */
 #include "patterns/shared/elimination.h"
@@ -41,7 +41,7 @@
 
 enum { GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22 };
 
-#define BETA 0.65 /* Yuksel's beta; his gamma = 1.5 is a power that needs no pow() */
+#define BETA 0.65 /* beta of the paper; its gamma = 1.5 needs no pow() */
 
 typedef struct entry {
     double weight;
@@ -50,22 +50,22 @@ typedef struct entry {
 
 typedef struct elimination {
     int dim, grid_dims;
-    size_t all, keep, count; /* numbers of points: given, to keep, in the heap */
+    size_t all, keep, count; /* numbers of points: at the beginning, at the end, and in the heap */
     double d_max, d_min;
-    bool plain;             /* distances are those of the cube, not of the torus */
+    bool plain;             /* true: distances are measured in the cube, not on the torus */
     double *scale;          /* unit of distance at each renumbered point; NULL: 1 */
-    bool all_images;        /* all images of a point contribute, not only the nearest */
+    bool all_images;        /* true: all images of a point contribute, not only the nearest */
     double *xs;             /* coordinates of the renumbered points */
-    uint32_t *origin;       /* the number that a point had when it was given */
+    uint32_t *origin;       /* the original number of a point */
     entry *heap;            /* heaviest point first */
     uint32_t *heap_place;   /* index of a point in the heap */
     uint32_t cells;         /* cells on a side */
-    size_t reach;           /* how many cells away d_max can reach */
+    size_t reach;           /* distance d_max as a number of cells */
     uint32_t *cell_start;   /* where each cell's points begin in `members` */
     uint32_t *cell_count;   /* number of points left in each cell */
     uint32_t *members;      /* the points of all cells, cell by cell */
     uint32_t *member_place; /* index of a point in `members` */
-    size_t looks;           /* distances computed since the last check of `run` */
+    size_t looks;           /* number of distances computed since the last check of `run` */
 } elimination;
 
 double koksma__elimination_radius(size_t n, int dim)
@@ -80,7 +80,7 @@ double koksma__elimination_radius(size_t n, int dim)
     if (dim == 3) {
         return 2 * cbrt(area / (4 * sqrt(2)));
     }
-    double ball = dim % 2 ? 2 : M_PI; /* volume of the unit ball, from that in two dimensions less */
+    double ball = dim % 2 ? 2 : M_PI; /* volume of the unit ball, computed from that in dim - 2 dimensions */
     for (int d = dim % 2 ? 3 : 4; d <= dim; d += 2) {
         ball *= 2 * M_PI / d;
     }
@@ -121,8 +121,8 @@ static void sink(elimination *e, size_t at)
 
 /* ---- The cells ------------------------------------------------------------------------------------------- */
 
-/* Chooses as many cells on a side as d_max allows, but no more cells than points; with units of distance, about as many
-   as points. Returns the number of cells. */
+/* Chooses as many cells on a side as d_max allows, but no more cells than points; if points have units of distance,
+   about as many cells as points. Returns the number of cells. */
 static size_t size_cells(elimination *e, bool scaled)
 {
     e->grid_dims = e->dim < GRID_DIMS ? e->dim : GRID_DIMS;
@@ -146,7 +146,7 @@ static size_t size_cells(elimination *e, bool scaled)
     return count;
 }
 
-/* Renumbers the points cell by cell; within a cell they stay in the given order. */
+/* Renumbers the points cell by cell; within a cell they keep their order. */
 static void sort_into_cells(elimination *e, const double *points, const double *scale, size_t cells)
 {
     const size_t dim = (size_t)e->dim;
@@ -187,10 +187,10 @@ static double weight_at(const elimination *e, double square)
     return t4 * t4;
 }
 
-/* The summed weight of all images of another point within d_max, by recursion over the axes. across: the difference to
-   the nearest image along each axis; square: the squared distance to the image that is chosen along the axes before k
-   and the nearest one along axis k and those after it. Along each axis images are visited from the nearest to the
-   farthest. */
+/* Returns the sum of the weights of all images of another point within d_max, by recursion over the axes. across: the
+   difference to the nearest image along each axis; square: the squared distance to the image that is chosen along the
+   axes before k and the nearest one along axis k and those after it. Along each axis images are visited from the
+   nearest to the farthest. */
 static double weight_of_images(elimination *e, const double *across, int k, double square)
 {
     if (k == e->dim) {
@@ -246,13 +246,14 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     }
 }
 
-/* How many cells away neighbours of a point can be: with units of distance, as far as its own unit reaches. */
+/* Returns how many cells away neighbours of a point can be. If points have units of distance, this depends on the
+   unit of the point. */
 static size_t reach_of(const elimination *e, uint32_t point)
 {
     return e->scale ? (size_t)fmin(ceil(e->d_max * e->scale[point] * (double)e->cells), (double)e->cells) : e->reach;
 }
 
-/* Calls weigh_cell for each cell that can hold neighbours of `point`, by recursion over the dimensions. */
+/* Calls weigh_cell for each cell that can contain neighbours of `point`, by recursion over the dimensions. */
 static void weigh_from(elimination *e, int k, size_t row, uint32_t point, bool relieve)
 {
     if (k == e->grid_dims) {
@@ -308,7 +309,7 @@ static koksma_status take_out(elimination *e, const koksma_run *run, uint32_t *o
 /* Lists the original numbers of the remaining points in ascending order. */
 static void list_kept(const elimination *e, uint32_t *order)
 {
-    uint32_t *left = e->member_place; /* reused: no longer needed for its first purpose */
+    uint32_t *left = e->member_place; /* this array is not needed any more for its first purpose and is reused */
     memset(left, 0, e->all * sizeof *left);
     for (size_t at = 0; at < e->keep; at++) {
         left[e->origin[e->heap[at].point]] = 1;
@@ -364,8 +365,8 @@ static void pick(size_t n, size_t dim, const double *from, const uint32_t *order
 }
 
 /* Orders the first `count` points progressively: elimination halves them again and again, each time with a d_max that
-   grows with the volume available to each point, and puts the points removed after those kept. d_min stays that of the
-   whole set, as in Yuksel's implementation. `spare` has room for `count` points. */
+   grows with the volume available to each point, and puts the removed points after those that remain. d_min is always
+   that of the whole set, as in Yuksel's implementation. `spare` has capacity for `count` points. */
 static koksma_status order_progressively(size_t count, int dim, double d_max, double d_min, const koksma_run *run,
                                          uint32_t *order, double *spare, double *xs)
 {

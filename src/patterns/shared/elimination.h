@@ -8,11 +8,13 @@
 
 #include "core/visibility.h"
 
-/* Twice the largest Poisson disk radius of n points in [0,1)^dim: the radius of the weight function. In dim 1, 2 and 3
-   it follows from the densest packing; above, from balls that fill the whole volume, as in the paper. */
+/* Returns the radius of the weight function, which is twice the largest Poisson disk radius of n points in [0,1)^dim.
+   In 1 to 3 dimensions it follows from the densest packing; in more, from balls that fill the whole volume, as in the
+   paper. */
 KOKSMA__LAB double koksma__elimination_radius(size_t n, int dim);
 
-/* The weight limit d_min / d_max if n of m points are kept: distances below d_min have the same weight as d_min. */
+/* Returns the weight limit d_min / d_max if n of m points remain: distances below d_min have the same weight as
+   d_min. */
 KOKSMA__LAB double koksma__elimination_limit(size_t n, size_t m);
 
 /* Removes the heaviest of `count` points, one after the other, until `keep` are left. The weight of a point is the
@@ -24,16 +26,16 @@ KOKSMA__LAB double koksma__elimination_limit(size_t n, size_t m);
 koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,
                                 const koksma_run *run, uint32_t *order);
 
-/* The same for points with units of distance, `scale`, one for each point: the distance of a pair is divided by the
-   smaller unit of the two, as in the "smaller disks" of Mitchell, Rand, Ebeida & Bajaj 2012. scale NULL: all are 1.
-   torus false: distances are those of the cube [0,1)^dim. */
+/* Does the same for points with different units of distance: `scale` has one unit for each point, and the distance of
+   a pair is divided by the smaller unit of its two points ("smaller disks", Mitchell, Rand, Ebeida & Bajaj 2012). If
+   scale is NULL, all units are 1. If torus is false, distances are measured in the cube [0,1)^dim. */
 KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points, const double *scale,
                                                    bool torus, size_t keep, double d_max, double d_min,
                                                    const koksma_run *run, uint32_t *order);
 
-/* Makes n points by elimination from factor * n uniform random points. They come in the order in which they were drawn
-   or, with `progressive`, in Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the pattern's
-   name, for errors. */
+/* Makes n points by elimination from factor * n uniform random points. They are in the order in which they were drawn
+   or, with `progressive`, in Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the name of
+   the pattern in error messages. */
 koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, int dim, size_t factor,
                                      bool progressive, const koksma_run *run, double *xs);
 

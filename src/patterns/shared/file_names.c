@@ -21,7 +21,7 @@ bool koksma__file_has(const char *path, const char *place)
     return strstr(path, place) != NULL;
 }
 
-/* The length of the placeholder at the beginning of `text`; 0 if there is none. */
+/* Returns the length of the placeholder at the beginning of `text`, or 0 if there is none. */
 static size_t place_at(const char *text, bool *is_seed)
 {
     *is_seed = !strncmp(text, place_seed, sizeof place_seed - 1);
@@ -69,7 +69,7 @@ void koksma__file_glob(const char *path, bool escape, char *out, size_t size)
     out[used] = '\0';
 }
 
-/* Reads n and seed from a path that glob found; false if the path has another form. */
+/* Reads n and seed from a path that glob found. Returns false if the path has another form. */
 static bool read_numbers(const char *path, const char *found, koksma__file_set *set)
 {
     char again[KOKSMA_MAX_SPEC];
@@ -113,10 +113,9 @@ koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_
     *sets = NULL;
     *count = 0;
     if (strstr(path, "}{")) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "file:%s: its places touch; put a character between them, as in "
-                            "my_{n}_{seed}.npy",
-                            path);
+        return koksma__fail(
+            KOKSMA_ARGUMENT,
+            "file:%s: its placeholders are adjacent; put a character between them, as in my_{n}_{seed}.npy", path);
     }
     koksma__file_glob(path, true, pattern, sizeof pattern);
     const int failed = glob(pattern, GLOB_NOSORT, NULL, &found);

@@ -8,19 +8,19 @@
 
 #include "core/visibility.h"
 
-/* Whether a pattern reads its points from a file instead of generating them. */
+/* Returns whether a pattern reads its points from a file instead of generating them. */
 static inline bool koksma__reads_points(const koksma_pattern *pattern)
 {
     return pattern->operand && pattern->whole;
 }
 
-/* Whether a path contains the placeholder `place`, "{n}" or "{seed}". */
+/* Returns whether a path contains the placeholder `place`, "{n}" or "{seed}". */
 KOKSMA__LAB bool koksma__file_has(const char *path, const char *place);
 
 /* Makes the path of the set of n points with this seed. Errors: ARGUMENT (the path is too long). */
 KOKSMA__LAB koksma_status koksma__file_name(const char *path, size_t n, uint64_t seed, char out[KOKSMA_MAX_SPEC]);
 
-/* The numbers in the name of an existing file. n is 0 if the path has no {n}, seed is 0 if it has no {seed}. */
+/* The numbers in the name of an existing file. n or seed is 0 if the path has no {n} or {seed}. */
 typedef struct koksma__file_set {
     size_t n;
     uint64_t seed;
@@ -30,7 +30,8 @@ typedef struct koksma__file_set {
    ARGUMENT (two placeholders are adjacent, so that their digits cannot be separated), MEMORY. */
 KOKSMA__LAB koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_t *count);
 
-/* The smallest seed for which a spec has a set of n points: for a family of files the smallest seed among them, else 0.
+/* Returns the smallest seed for which a spec has a set of n points: for a family of files the smallest seed in their
+ names, else 0.
  */
 KOKSMA__LAB uint64_t koksma__first_seed(const koksma_spec *spec, size_t n);
 

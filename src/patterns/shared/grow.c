@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Stochastic generation (grow.h): doubles a set level by level. New point start + i of a level goes into the other
- * half of its partner's stratum, and the digits below are new random bits. O(n) for each coordinate, without a tree
- * and without comparing points.
+ * Stochastic generation (grow.h): doubles a set level by level. New point start + i of a level is put into the half
+ * of its partner's stratum in which the partner is not; the digits below are new random bits. It takes O(n) for each
+ * coordinate, and needs no tree and no comparisons of points.
  */
 #include "patterns/shared/grow.h"
 
@@ -22,7 +22,7 @@ typedef struct growth {
     uint64_t seed;
     uint32_t purpose;
     const uint32_t *partners;
-    int dim, k, level; /* `dim` columns are made, beginning with coordinate k */
+    int dim, k, level; /* the number of columns to compute, beginning with coordinate k */
     size_t n, count;   /* total number of points; number of new points at this level */
     uint32_t *v;       /* `dim` columns of n fractions, times 2^32 */
 } growth;
@@ -91,8 +91,8 @@ static koksma_status grow_columns(growth *g, const koksma_run *run)
     return status;
 }
 
-/* Stores points first .. first + count - 1 of `out`: v holds their fractions, with `stride` words from column to
-   column. */
+/* Stores points first .. first + count - 1 of `out`. v has their fractions, with a distance of `stride` words between
+   columns. */
 static void store(const growth *g, const uint32_t *v, size_t stride, koksma_points *out, size_t first, size_t count)
 {
     const koksma__kernel_table *kernels = koksma__kernels();
@@ -135,16 +135,16 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
 
 /* ---- Ranges ---------------------------------------------------------------------------------------------- */
 
-/* Makes points from args->first on, in aligned blocks of g->n points, a power of two. Finding a partner is an exclusive
-   or of the index, which maps such blocks to blocks. Block 0 is made by grow_columns. */
+/* Computes the points that begin at args->first, in aligned blocks of g->n points, a power of two. The index of a
+   partner is an exclusive or, which maps aligned blocks to aligned blocks. grow_columns computes block 0. */
 typedef struct range {
-    const growth *g; /* its n and v describe block 0 */
+    const growth *g; /* its members n and v describe block 0 */
     uint64_t first;
     koksma_points *out;
 } range;
 
-/* Makes column c of the points block .. block + n - 1. A point takes its upper bits from its partner, which takes its
-   upper bits from its own partner, and so on down to block 0; this chain is followed for the whole block at once. */
+/* Computes column c of the points block .. block + n - 1. A point takes its upper bits from its partner, which takes
+   its upper bits from its own partner, and so on down to block 0; this chain is followed for the whole block at once. */
 static void grow_far(const growth *g, int c, uint32_t block, uint32_t *v)
 {
     const uint32_t *partners = g->partners + 32 * (g->k + c), inside = (uint32_t)g->n - 1;

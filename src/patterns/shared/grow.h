@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Stochastic generation (Helmer, Christensen & Kensler 2021): a digital sequence in base 2 with exact Owen (nested
- * uniform) scrambling, in O(1) for each coordinate of a point. Point 2^l + i goes to a random position in the empty
- * half of the stratum of width 2^-l that holds an earlier point, i ^ partner. The low bits of coordinate k of point p
- * come from word p % 4 of koksma__random(seed, purpose, p / 4, k).
+ * uniform) scrambling, in O(1) for each coordinate of a point. Point 2^l + i is put at a random position in a stratum
+ * of width 2^-l, in the half that does not contain the earlier point number i ^ partner. The low bits of coordinate k
+ * of point p come from word p % 4 of koksma__random(seed, purpose, p / 4, k).
  */
 #ifndef KOKSMA_PATTERNS_SHARED_GROW_H
 #define KOKSMA_PATTERNS_SHARED_GROW_H
@@ -12,7 +12,7 @@
 
 #include "core/visibility.h"
 
-/* Fills `out` with the first points; partners[32 k + l] is the partner for coordinate k < dim and level l. */
+/* Fills `out` with the first points; partners[32 k + l] is the partner of level l for coordinate k < dim. */
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                            koksma_points *out);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Digital sequences scrambled by an Owen hash, for blocks of points. Results are equal to the last bit to those of
+/* Digital sequences scrambled by an Owen hash, for blocks of points. Results are bitwise equal to those of
    koksma_sobol_2d and similar functions of koksma/sampler.h. */
 #ifndef KOKSMA_PATTERNS_SHARED_HASH_OWEN_H
 #define KOKSMA_PATTERNS_SHARED_HASH_OWEN_H
@@ -9,8 +9,8 @@
 /* Computes index[i], the index of the point at position first + i in the random order for this seed. */
 void koksma__hash_owen_order(uint64_t seed, size_t first, size_t count, uint32_t *index);
 
-/* Scrambles coordinate k of `count` points: v[i] holds it with bits reversed and is overwritten; xs[i] becomes the
-   scrambled coordinate. */
+/* Scrambles coordinate k of `count` points. v[i] has the coordinate with its bits reversed and is overwritten; xs[i]
+   receives the scrambled coordinate. */
 void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v, double *xs);
 
 /* Reverses the bits of the 32 direction numbers, because the hash takes words with bits reversed. */

@@ -14,9 +14,9 @@ koksma_status koksma__range_lattice(const koksma_args *args, const uint64_t *z, 
 
 /* The searches minimise the mean over i of the product over k of 1 + gamma 2 pi^2 B_2({i z_k / n}), with B_2(x) =
    x^2 - x + 1/6 and gamma = 3/(8 pi^2): 1 plus the worst-case error P_2 with equal weights for all coordinates, and
-   1 plus the square of l2-wraparound divided by (4/3)^dim. The sums leave out the term of i = 0, because it is equal
-   for all multipliers and grows as 1.125^dim, so that digits of the other terms would be lost; they also leave out i
-   > n/2, because the terms of i and n - i are equal. */
+   1 plus the square of l2-wraparound divided by (4/3)^dim. The sums leave out the term of i = 0, which is equal for
+   all multipliers: it grows as 1.125^dim, so that digits of the other terms would be lost. They also leave out i >
+   n/2, because the terms of i and n - i are equal. */
 enum { KOKSMA__LATTICE_FEW = 64 };
 
 typedef struct koksma__lattice_search {
@@ -24,7 +24,8 @@ typedef struct koksma__lattice_search {
     const koksma_run *run;
     koksma__unit_sums *sums; /* NULL until they are needed */
     double *product;         /* n numbers: elements 1 .. n/2 are the products of the coordinates so far */
-    double *values;          /* n/2 + 1 numbers: what each multiplier would add to the sum, up to rounding */
+    double *values;          /* n/2 + 1 numbers: the amount that each multiplier would add to the sum, up to rounding
+                             */
     double few[2 * KOKSMA__LATTICE_FEW], kernel[KOKSMA__LATTICE_FEW]; /* for small n: memory of `product` and
                                                                          `values`; B_2(i / n) */
 } koksma__lattice_search;
@@ -33,32 +34,33 @@ typedef struct koksma__lattice_search {
 koksma_status koksma__lattice_open(koksma__lattice_search *search, size_t n, const koksma_run *run);
 void koksma__lattice_close(koksma__lattice_search *search);
 
-/* koksma__lattice_start resets the search to no coordinates. koksma__lattice_extend appends a coordinate with the
-   multiplier z and returns what it adds to the sum, in a unit that is the same for all z. */
+/* koksma__lattice_start restarts the search without coordinates. koksma__lattice_extend appends a coordinate with the
+   multiplier z and returns the amount that this adds to the sum, in a unit that is the same for all z. */
 void koksma__lattice_start(koksma__lattice_search *search);
 double koksma__lattice_extend(koksma__lattice_search *search, uint64_t z);
 
-/* Appends a coordinate where only projections of up to `order` coordinates have a weight: the factor of a further
-   coordinate is then the sum of the elementary symmetric polynomials of degree 0 to order - 1 of the terms so far.
-   `sums` are (n/2 + 1) * order numbers; those of i begin at i * order and are at first the product of
-   koksma__lattice_start in degree 0, and 0 in the other degrees. */
+/* Appends a coordinate if only projections of up to `order` coordinates have a weight. The factor of the next
+   coordinate is then the sum of the elementary symmetric polynomials of degree 0 to order - 1 of all earlier terms.
+   `sums` are (n/2 + 1) * order numbers; those of point i begin at i * order. Initially they are the product of
+   koksma__lattice_start in degree 0, and 0 in all other degrees. */
 void koksma__lattice_extend_orders(koksma__lattice_search *search, uint64_t z, int order, double *sums);
 
-/* Computes into search->values what each z would add to the sum; the value is infinite if z has a divisor in common
-   with n. Because of rounding, any z whose value is at most *window above the least may be the best. For few points all
-   finite values are 0. */
+/* Computes in search->values the amount that each z would add to the sum; the value is infinite if z has a divisor in
+   common with n. Because of rounding, any z whose value is at most *window above the least may be the best. For few
+   points all finite values are 0. */
 koksma_status koksma__lattice_value(koksma__lattice_search *search, double *window);
 
 /* Sets search->values to infinity for each z that has a divisor in common with n, else to 0. */
 void koksma__lattice_units(koksma__lattice_search *search);
 
-/* The last candidate z. Candidates end at n/2, because n - z is the mirror image of z. For even n the smallest unit
-   modulo n above n/2 is a candidate, too: it mirrors one below, but its sum has different rounding errors, which decide
-   for n = 12 and a few others below 30. Leaving it out would change the points for these n. */
+/* Returns the last candidate z. Candidates end at n/2, because n - z is the mirror image of z. For even n the
+   smallest unit modulo n above n/2 is a candidate, too. It is the mirror image of a candidate below, but its sum has
+   different rounding errors, which decide for n = 12 and a few other n below 30. Without it the points for these n
+   would change. */
 uint64_t koksma__lattice_last(size_t n);
 
-/* Finds the z that adds least to the sum: candidates within the window of the least value are compared by their sums in
-   order of i; of equal ones the smallest is taken. */
+/* Finds the z that adds least to the sum: candidates within the window above the least value are compared by sums in
+   order of i; among equal sums the smallest z is taken. */
 koksma_status koksma__lattice_best(koksma__lattice_search *search, uint64_t *best);
 
 /* Finds the best z_1 for z_0 = 1. It does not depend on the weights, because in two dimensions these scale the sums of

@@ -8,7 +8,7 @@
 
 typedef struct koksma__number_lines {
     char name[KOKSMA_MAX_SPEC + 16]; /* "pattern:PATH", for error messages */
-    char kind[16]; /* word of a first line "# word"; "soboljk" for Joe & Kuo's header "d s a m_i"; else "" */
+    char kind[16]; /* the word of a first line "# word"; "soboljk" after Joe & Kuo's header "d s a m_i"; else "" */
     char *text, *at;
     size_t number; /* number of the line read last, from 1 */
 } koksma__number_lines;
@@ -18,7 +18,7 @@ koksma_status koksma__number_lines_open(const char *pattern, const char *path, k
 void koksma__number_lines_close(koksma__number_lines *lines);
 
 /* Reads the next line that has numbers; *count is 0 at the end of the file. Text after a # is a comment. Errors:
-   MALFORMED (more than `most` numbers, or anything else than whole numbers below 2^64). */
+   MALFORMED (more than `most` numbers, or text that is not a whole number below 2^64). */
 koksma_status koksma__number_lines_next(koksma__number_lines *lines, size_t most, uint64_t *numbers, size_t *count);
 
 /* Reads the next line that has numbers; it must have `needed` of them. Error messages call them `what`. */

@@ -6,9 +6,9 @@
  * other b - 1 digits, and the digits below are uniform. Coordinates are multiples of b^-M, where b^M is the largest
  * power of b up to 2^53; in base 2 multiples of 2^-32.
  *
- * All columns except the first are stored in the memory of the output points: each block of points holds its
- * coordinates column after column, until the columns are transposed into rows. Before a number is computed, its
- * memory holds two random words.
+ * All columns except the first are stored in the memory of the output points: each block of points contains its
+ * coordinates column by column, until the columns are transposed into rows. Before a number is computed, its memory
+ * contains two random words.
  */
 #include "patterns/shared/owen_digits.h"
 
@@ -41,13 +41,14 @@ typedef struct column {
     uint16_t *order, *picked;
 } column;
 
-/* The number of points in the block that begins at point `start`. */
+/* Returns the number of points in the block that begins at point `start`. */
 static size_t block_of(const job *j, size_t start)
 {
     return j->out->n - start < j->block ? j->out->n - start : j->block;
 }
 
-/* The address of number i of column k; *left becomes how many numbers from there on are contiguous. */
+/* Returns the address of number i of column k. *left receives the number of contiguous numbers from this address on.
+   */
 static double *find(const job *j, int k, size_t i, size_t *left)
 {
     const size_t within = i & (j->block - 1), start = i - within, count = block_of(j, start);
@@ -61,7 +62,7 @@ static double *number(const column *c, size_t i)
     return find(c->job, c->k, i, &left);
 }
 
-/* floor(x) for x >= 0; the library function floor is a call without SSE 4.1. */
+/* Returns floor(x) for x >= 0. Without SSE 4.1 the library function floor would be a function call. */
 static inline double whole_part(double x)
 {
     return (double)(int64_t)x;
@@ -102,7 +103,7 @@ static void place_relatives(const column *c, size_t r, size_t step, double width
 }
 
 /* Computes, in small bases, the relatives of points first .. end - 1, which all have the same number of relatives;
-   takes as many points at a time as are contiguous and have contiguous relatives. Base 3 is drawn differently: the
+   handles at a time as many points as are contiguous and have contiguous relatives. Base 3 is drawn differently: the
    other two digits come in cyclic order or in the opposite order. */
 static void place_alike(const column *c, uint32_t relatives, size_t first, size_t end, size_t step, double width)
 {
@@ -135,7 +136,7 @@ static void place_level(const column *c, size_t step, double width)
     }
 }
 
-/* The largest power of the base that is at most 2^53. */
+/* Returns the largest power of the base that is at most 2^53. */
 static double whole_of(uint32_t base)
 {
     double whole = base;
@@ -163,8 +164,8 @@ static void place_all(const column *c)
     }
 }
 
-/* Draws two random words for each number of column k. Words come in fours, for two numbers; a last single number uses
-   half of them. */
+/* Draws two random words for each number of column k. Words are drawn four at a time, for two numbers; a last single
+   number uses only two of them. */
 static void draw(const job *j, int k)
 {
     const koksma__kernel_table *kernels = koksma__kernels();

@@ -3,8 +3,8 @@
  * Owen's nested uniform scrambling (1995) of point sets that combine the coordinate i/n with digital sequences.
  *
  * With n = 2^m, i/n is the radical inverse of i with its m binary digits reversed: the coordinate is the scrambled
- * van der Corput sequence, made by stochastic generation (shared/grow.h), in bit-reversed order. It draws its random
- * words with another purpose than the other coordinates, so that they are independent.
+ * van der Corput sequence, made by stochastic generation (shared/grow.h), in bit-reversed order. Its random words
+ * have a different purpose from those of the other coordinates, so that they are independent.
  */
 #include "patterns/shared/owen_hammersley.h"
 
@@ -22,7 +22,8 @@
 
 static koksma_status fill_net(uint64_t seed, const koksma_run *run, int m, uint32_t *v, koksma_points *out)
 {
-    static const uint32_t partners[32] = {0}; /* of van der Corput's sequence, whose matrix is the identity */
+    static const uint32_t partners[32] = {0}; /* partners of van der Corput's sequence, whose matrix is the identity
+                                                 */
     const koksma_status status = koksma__grow_column(seed, KOKSMA__PURPOSE_POINT, partners, run, out->n, v);
     for (size_t i = 0; i < out->n && !status; i++) {
         const uint32_t mirrored = m ? koksma_mirror((uint32_t)i) >> (32 - m) : 0;

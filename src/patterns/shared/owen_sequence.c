@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Owen's nested uniform scrambling of a digital sequence in base b, by stochastic generation (Helmer, Christensen &
- * Kensler 2021). If each coordinate is a (0,1)-sequence, each of its strata of width b^-l holds one of the first b^l
- * points, r, and, for each d with 0 < d < b, one of the points d b^l .. (d + 1) b^l - 1, called d b^l + r'. Digit l
- * of r is read off its value; its relatives d b^l + r' take the other b - 1 digits, drawn without replacement, and
- * the digits below are uniform. The groups of relatives of level l share no point, and every number is computed once:
- * O(n) for each coordinate.
+ * Kensler 2021). If each coordinate is a (0,1)-sequence, each of its strata of width b^-l contains one of the first
+ * b^l points, called r, and for each d with 0 < d < b one of the points d b^l .. (d + 1) b^l - 1, called d b^l + r'.
+ * Digit l of r is known from its value. Its relatives d b^l + r' get the other b - 1 digits, drawn without
+ * replacement, and uniform digits below. The groups of relatives of level l are disjoint, and every number is
+ * computed once: O(n) for each coordinate.
  *
  * r' is r plus d times a vector, digit by digit modulo b, without carries. Tables of about sqrt(b^l) entries for each
  * d give the sums for the lower and the upper half of the digits of r.
@@ -37,23 +37,23 @@ typedef struct job {
 /* The tables of one level: relative d of r = y * size[0] + x is point low[x * base + d] + high[y * base + d]. */
 typedef struct level {
     size_t step, size[2];
-    double width; /* width of a stratum of the next level, in units of b^-M */
+    double width; /* width of the strata of the next level, in units of b^-M */
     size_t *low, *high;
 } level;
 
 typedef struct column {
     const job *job;
-    double *v; /* the column; a number is its random bits until it is computed */
+    double *v; /* the column; before a number is computed, its memory has its random bits */
     uint16_t *order, *picked;
 } column;
 
-/* floor(x) for 0 <= x < 2^53; the library function floor is a call without SSE 4.1. */
+/* Returns floor(x) for 0 <= x < 2^53. Without SSE 4.1 the library function floor would be a function call. */
 static inline double whole_part(double x)
 {
     return (double)(int64_t)x;
 }
 
-/* The upper 64 bits of the 128-bit product. */
+/* Returns the upper 64 bits of the 128-bit product. */
 static inline uint64_t upper_half(uint64_t a, uint64_t b)
 {
     const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
@@ -61,7 +61,7 @@ static inline uint64_t upper_half(uint64_t a, uint64_t b)
     return ah * bh + (middle >> 32) + (other >> 32);
 }
 
-/* Makes of 64 random bits a choice below `count`, which is returned, and a whole number below `width`. */
+/* Turns 64 random bits into a choice below `count`, which is returned, and a whole number below `width`. */
 static inline uint32_t choose(const double *bits, uint32_t count, double width, double *below)
 {
     uint32_t word[2];
@@ -72,7 +72,8 @@ static inline uint32_t choose(const double *bits, uint32_t count, double width, 
     return (uint32_t)(product >> 32);
 }
 
-/* The digit of v whose place value is `width`; *prefix becomes the number formed by the digits above, times base. */
+/* Returns the digit of v whose place value is `width`. *prefix receives the number formed by the higher digits, times
+   base. */
 static inline uint32_t digit_of(double v, double width, uint32_t base, double *prefix)
 {
     const double upper = whole_part(v / width);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The largest smallest distance d that n points can have, or an upper bound of it:
+ * Computes the largest d such that n points can all be at least d apart, or an upper bound of it:
  *   square, n <= 30: the proven optima (Schaer 1965, Peikert 1991, Nurmela & Ostergard 1999, Markot & Csendes 2005);
  *   square, larger n: Oler 1961: n <= (2/sqrt 3) / d^2 + 2/d + 1;
  *   torus, 2D: the hexagonal packing: d <= sqrt(2 / (sqrt 3 n)) (Fejes Toth 1940);
- *   other dimensions: the volume of n disjoint balls of radius d/2 is at most that of the cube, which is grown by d/2
- *     on each side unless it is the torus.
+ *   other dimensions: the volume of n disjoint balls of radius d/2 is at most that of the cube, which is enlarged by
+ *   d/2 on each side unless it is the torus.
  */
 #include "patterns/shared/packing.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Radical inverses of consecutive indices: a table holds the mirrored low digits; the higher digits add a number that
- * changes only once per length of the table. Only the final division rounds, so that each value is the double nearest
- * to its exact fraction.
+ * changes only once per length of the table. Only the final division rounds, so each value is the double nearest to
+ * its exact fraction.
  */
 #include "patterns/shared/radical.h"
 
@@ -17,7 +17,8 @@ static uint32_t digit_of(const koksma__radical *r, int j, uint32_t a)
     return r->digit ? r->digit(r->context, r->base, j, a) : a;
 }
 
-/* With mapped digits, the digits of indices below MAPPED form the exact numerator, and the higher digits the tail. */
+/* If digits are mapped, the digits of indices below MAPPED form the exact numerator, and the higher digits form the
+   tail. */
 #define MAPPED 0x1p28
 
 /* Chooses the numbers of digits and the size of the table for indices below n. With mapped digits, the position at
@@ -45,8 +46,8 @@ static void measure(koksma__radical *r, uint32_t base, uint64_t n, bool mapped)
     }
 }
 
-/* The fraction in [0,1) that the digits of `rest`, those above the numerator's digits, and the infinitely many leading
-   zeros after them add to the numerator if digits are mapped. */
+/* Returns the tail if digits are mapped: the fraction in [0,1) that the digits of `rest` (those above the numerator)
+   and the infinitely many leading zeros add to the numerator. */
 static double tail_of(const koksma__radical *r, uint64_t rest)
 {
     double place = 1, tail = 0;
@@ -54,8 +55,8 @@ static double tail_of(const koksma__radical *r, uint64_t rest)
         place /= r->base;
         tail += place * digit_of(r, j, (uint32_t)(rest % r->base));
     }
-    /* Rounded to a grid on which the sum of numerator and tail is exact, and kept below 1, so that values are below
-       1. */
+    /* The tail is rounded to a grid on which the sum of numerator and tail is exact, and it is kept below 1, so that
+       values are below 1. */
     const double grid = exp2(floor(52 - log2(r->whole)));
     return fmin(floor(tail * grid + 0.5), grid - 1) / grid;
 }
@@ -63,7 +64,7 @@ static double tail_of(const koksma__radical *r, uint64_t rest)
 /* Computes table[a]: the mirrored low digits of a, as a whole number, times high_scale. */
 static void fill_table(koksma__radical *r)
 {
-    double top = r->high_scale; /* the value of digit 0's position */
+    double top = r->high_scale; /* the value of the position of digit 0 */
     for (int j = 1; j < r->low_digits; j++) {
         top *= r->base;
     }

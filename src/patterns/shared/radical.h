@@ -11,26 +11,28 @@
 
 enum { KOKSMA__RADICAL_TABLE = 1024 };
 
-/* Maps the digit a at position j of i (0: the least significant) to another digit. Where a koksma__digit is NULL,
-   digits are not mapped. */
+/* Maps the digit a at position j of i (0: the least significant) to another digit. If a koksma__digit is NULL, digits
+   are not mapped. */
 typedef uint32_t (*koksma__digit)(const void *context, uint32_t base, int j, uint32_t a);
 
-/* One coordinate. The table gives the mirrored low `low_digits` digits; the others are added. */
+/* One coordinate. The table has the mirrored low digits, `low_digits` of them; the contribution of the others is
+   added. */
 typedef struct koksma__radical {
     uint32_t base;
-    int digits, low_digits; /* number of digits of the numerator; of the table's indices */
+    int digits, low_digits; /* number of digits of the numerator; number of digits of the table's indices */
     uint32_t size;          /* size of the table: base^low_digits, or n if that is less */
     double high_scale;      /* base^(digits - low_digits) */
     double whole;           /* base^digits */
-    double tail;            /* what mapping the infinitely many leading zeros adds to the numerator, in [0,1) */
+    double tail;            /* the amount, in [0,1), that the mapped infinitely many leading zeros add to the
+                            numerator */
     koksma__digit digit;
     const void *context;
     double *table;
 } koksma__radical;
 
 /* Coordinates of radical inverses. koksma__radicals_init prepares them for the first `count` prime bases and indices
-   below n. It fails with KOKSMA_N where numerators would not be exact: if n is above the largest power of a base up
-   to 2^53 or, with mapped digits, above 2^53 / base. All memory is one block, which koksma__radicals_fini frees. */
+   below n. It fails with KOKSMA_N if numerators would not be exact: if n is above the largest power of a base up to
+   2^53 or, with mapped digits, above 2^53 / base. All memory is one block, which koksma__radicals_fini frees. */
 typedef struct koksma__radicals {
     koksma__radical few[8];
     double room[4 * KOKSMA__RADICAL_TABLE];
@@ -45,7 +47,7 @@ void koksma__radicals_fini(koksma__radicals *r);
 /* Computes out[i], i < count, the radical inverse of first + i. */
 void koksma__radical_column(const koksma__radical *r, uint64_t first, size_t count, double *out);
 
-/* The k-th prime, counted from 0: koksma__prime(0) = 2. k < KOKSMA_MAX_DIM. */
+/* Returns the k-th prime, counted from 0: koksma__prime(0) = 2. k < KOKSMA_MAX_DIM. */
 uint32_t koksma__prime(int k);
 
 #endif

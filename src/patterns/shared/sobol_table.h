@@ -11,7 +11,7 @@ enum { KOKSMA__SOBOL_DIM = 1111 };
 /* The sets of direction numbers: Joe & Kuo's, Bratley & Fox's, and our own of tools/make_sobol_groups.c. */
 enum { KOKSMA__JOE_KUO, KOKSMA__BRATLEY_FOX, KOKSMA__GROUPS, KOKSMA__SOBOL_SETS };
 
-/* The number of dimensions of a set. */
+/* Returns the number of dimensions of a set of direction numbers. */
 KOKSMA__LAB int koksma__sobol_dim(int set);
 
 /* Returns the generator matrix of dimension k, counted from 0: word b is column b, whose first row is the highest bit.

@@ -2,16 +2,16 @@
 /*
  * Sums of Gaussian forces on the torus in 3 to 6 dimensions. Two methods, by the standard deviation s:
  *
- *   s <= 1/10  only the nearest image of a point can be within the cut-off 5 s. Cells 5 s / 2 wide hold the points, and
- *              5^dim cells are visited; where fewer than 5 cells fit along an axis, there is one cell.
- *   s > 1/10   all images act. Their sum is a product over the axes, of the periodic Gaussian
+ *   s <= 1/10  only the nearest image of a point can be within the cut-off 5 s. Points are sorted into cells 5 s / 2
+ *   wide, and 5^dim cells are visited; if fewer than 5 cells fit along an axis, there is only one cell. s > 1/10 all
+ *   images act. Their sum is a product over the axes, of the periodic Gaussian
  *                  g(t) = sum over m of exp(-(t + m)^2 / (2 s^2)),
- *              so that the force along axis k is -s^2 g'(t_k) product over j != k of g(t_j), without a cut-off. Cubic
- *              Hermite pieces, 1,024 from 0 to 1/2, replace g; the error of the derivative is below 1e-7 of the
- *              largest.
+ *              so that the force along axis k is -s^2 g'(t_k) product over j != k of g(t_j), without a cut-off. 1,024
+ *              cubic Hermite pieces from 0 to 1/2 replace g; the error of the derivative is below 1e-7 of its
+ *              maximum.
  *
- * Sums run in the order of the sorted points, whatever the number of threads. Time of all n forces: n^2 with one cell
- * or the table, else in proportion to n.
+ * Sums run in the order of the sorted points for any number of threads. Computing all n forces takes O(n^2) with one
+ * cell or with the table, else O(n).
  */
 #include "patterns/shared/space_forces.h"
 
@@ -25,7 +25,7 @@
 
 enum { PIECES = 1024 };
 
-/* The periodic Gaussian and its derivative. */
+/* Computes the periodic Gaussian and its derivative. */
 static void periodic(double t, double s, double out[2])
 {
     const int images = (int)ceil(9 * s) + 1;
@@ -96,7 +96,7 @@ void koksma__space_forces_sort(koksma__space_forces *f, const double *xs)
         sum += f->start[c];
         f->start[c] = (uint32_t)sum;
     }
-    for (size_t i = f->n; i-- > 0;) { /* backwards, so that points of a cell keep their order */
+    for (size_t i = f->n; i-- > 0;) { /* the loop runs backwards, so that points of a cell keep their order */
         const uint32_t at = --f->start[koksma__cell_index(xs + i * dim, f->dim, f->side)];
         memcpy(f->sorted + at * dim, xs + i * dim, dim * sizeof *xs);
         f->order[at] = (uint32_t)i;
@@ -115,7 +115,7 @@ static void add_cell(const koksma__space_forces *f, size_t cell, const double *x
             t[k] = koksma__torus_difference(y[k], x[k]);
             square += t[k] * t[k];
         }
-        if (square < cut2) { /* the point itself adds 0 */
+        if (square < cut2) { /* the point itself contributes 0 */
             const double w = koksma__exp(scale * square);
             for (size_t k = 0; k < dim; k++) {
                 force[k] += t[k] * w;

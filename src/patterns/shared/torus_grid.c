@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A grid of square cells over the torus, each with a linked list of its points, so that adding a point takes O(1).
- * The search for the nearest point visits rings of cells from the inside outwards until no further ring can hold a
- * nearer point: O(1) if points are evenly distributed. Where all points are known in advance,
+ * The search for the nearest point visits rings of cells from the inside outwards until no further ring can contain a
+ * nearer point: O(1) if points are evenly distributed. If all points are known in advance,
  * measures/shared/torus_cells.c or patterns/shared/torus_rows.c sort them into cells at once.
  */
 #include "patterns/shared/torus_grid.h"
@@ -50,8 +50,8 @@ void koksma__torus_grid_add(koksma__torus_grid *g, uint32_t point)
     *list = point;
 }
 
-/* The smaller of `best` and the squared distance from (x, y) to the nearest point of a cell. The cell's numbers may be
-   outside the grid by up to one period. */
+/* Returns the smaller of `best` and the squared distance from (x, y) to the nearest point of a cell. The indices of
+   the cell may be outside the grid by up to one period. */
 static double nearest_in(const koksma__torus_grid *g, long cell_x, long cell_y, double x, double y, double best)
 {
     const long cells = (long)g->cells;
@@ -70,8 +70,8 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double 
     const long cx = koksma__cell_along(x, g->cells), cy = koksma__cell_along(y, g->cells), most = (long)g->cells / 2;
     double best = 1;
     for (long ring = 0; ring <= most && best > enough; ring++) {
-        const double gap = (double)(ring - 1) / g->cells; /* points of this ring and those outside are at least this
-                                                             far */
+        const double gap = (double)(ring - 1) / g->cells; /* points of this ring, and of all outer rings, are at least
+                                                             this far away */
         if (ring > 1 && gap * gap >= best) {
             break;
         }
@@ -87,7 +87,7 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double 
     return best;
 }
 
-/* The numbers of `count` consecutive cells along one axis, from `first` on, which wrap around the torus. */
+/* A span: `count` consecutive cells along one axis, beginning with cell `first` and wrapping around the torus. */
 typedef struct span {
     long first, count;
 } span;
@@ -98,7 +98,7 @@ static span span_about(const koksma__torus_grid *g, double x, long reach)
     return (span){first < 0 ? first + cells : first, 2 * reach + 1 < cells ? 2 * reach + 1 : cells};
 }
 
-/* The number of cell i of a span. */
+/* Returns the index of cell i of a span. */
 static inline long around(const koksma__torus_grid *g, const span *s, long i)
 {
     const long cell = s->first + i;

@@ -9,9 +9,9 @@
 
 typedef struct koksma__torus_grid {
     uint32_t cells;   /* cells on a side */
-    uint32_t *head;   /* for each cell the point added last, or KOKSMA__NO_POINT */
-    uint32_t *next;   /* for each point the one added to its cell before, or KOKSMA__NO_POINT */
-    const double *xs; /* x and y of each point in turn; not owned */
+    uint32_t *head;   /* the point that was added last to each cell, or KOKSMA__NO_POINT */
+    uint32_t *next;   /* for each point, the point that was added before it to the same cell, or KOKSMA__NO_POINT */
+    const double *xs; /* x and y of each point; the caller owns this array */
 } koksma__torus_grid;
 
 #define KOKSMA__NO_POINT UINT32_MAX
@@ -23,11 +23,12 @@ void koksma__torus_grid_fini(koksma__torus_grid *grid);
 void koksma__torus_grid_clear(koksma__torus_grid *grid);
 void koksma__torus_grid_add(koksma__torus_grid *grid, uint32_t point);
 
-/* The squared distance from (x, y) to the nearest point in the grid, or 1 if there is none; once it is at most
-   `enough`, any value at most `enough` may be returned. */
+/* Returns the squared distance from (x, y) to the nearest point in the grid, or 1 if the grid is empty. If the
+   distance is at most `enough`, the function may return any value up to `enough`. */
 double koksma__torus_grid_nearest(const koksma__torus_grid *grid, double x, double y, double enough);
 
-/* Whether a point in the grid is closer than d to (x, y), on the torus or, with torus = false, in the square. */
+/* Returns whether a point in the grid is closer than d to (x, y), on the torus or, with torus = false, in the square.
+   */
 bool koksma__torus_grid_near(const koksma__torus_grid *grid, double x, double y, double d, bool torus);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Sorts points of the torus into square cells, row by row, by counting sort, in O(n); repeated sorts use the same
- * memory. In each row of cells the points near a position are one run of consecutive points, or two where the row
- * wraps around the torus; kernels sum over these runs without looking at cells.
+ * memory. In each row of cells the points near a position are one run of consecutive points, or two runs if the row
+ * wraps around the torus. Kernels sum over these runs and need not know the cells.
  */
 #include "patterns/shared/torus_rows.h"
 
@@ -63,7 +63,7 @@ void koksma__torus_rows_sort(koksma__torus_rows *r, size_t n, const double *poin
     r->start[cells] = (uint32_t)n;
 }
 
-/* How many rows above and below the row of a point its neighbours within the radius can be. */
+/* Returns how many rows above and below the row of a point can contain its neighbours within the radius. */
 static long reach_of(const koksma__torus_rows *r, double radius)
 {
     return (long)ceil(radius * r->cells);
@@ -75,7 +75,7 @@ size_t koksma__torus_rows_most(const koksma__torus_rows *r, double radius)
     return 2 * (count < r->cells ? count : r->cells);
 }
 
-/* Adds the runs of cells `first` to `last` of a row; column numbers may be outside the grid by up to one period, and no
+/* Adds the runs of cells `first` to `last` of a row; column indices may be outside the grid by up to one period. No
    cell is added twice. Returns the number of runs. */
 static size_t add_row(const koksma__torus_rows *r, long row, long first, long last, koksma__run_of_points *runs)
 {
@@ -106,7 +106,7 @@ size_t koksma__torus_rows_near(const koksma__torus_rows *r, double x, double y, 
     for (long v = own - reach; v < own - reach + count; v++) {
         const double gap = (v < own ? (double)(own - v - 1) + inside : v > own ? (double)(v - own) - inside : 0);
         const double height = gap / (double)cells, left = radius * radius - height * height;
-        if (count == cells) { /* all rows are visited, each also for its periodic image, so that it is taken whole */
+        if (count == cells) { /* every row, with its periodic images, is within the radius, so whole rows are added */
             n += add_row(r, (v + cells) % cells, 0, cells - 1, runs + n);
         } else if (left > -1e-12) {
             const double half = sqrt(fmax(left, 0)) + 1e-9;

@@ -7,9 +7,9 @@
 #include <koksma/koksma.h>
 
 typedef struct koksma__torus_rows {
-    uint32_t cells;  /* cells on a side, with about one point in each cell */
+    uint32_t cells;  /* number of cells on a side; a cell has about one point */
     uint32_t *start; /* index of each cell's first sorted point, row by row; cells^2 + 1 numbers */
-    uint32_t *order; /* for each sorted point its number before sorting */
+    uint32_t *order; /* the original number of each sorted point */
     double *xs, *ys; /* the sorted points, followed by eight elements that kernels may read */
 } koksma__torus_rows;
 
@@ -24,7 +24,7 @@ void koksma__torus_rows_fini(koksma__torus_rows *rows);
 /* Sorts n points, each a pair of coordinates in [0, 1). */
 void koksma__torus_rows_sort(koksma__torus_rows *rows, size_t n, const double *points);
 
-/* The largest number of runs that koksma__torus_rows_near can return for a radius of at most 1/2. */
+/* Returns the largest number of runs that koksma__torus_rows_near can return for a radius of at most 1/2. */
 size_t koksma__torus_rows_most(const koksma__torus_rows *rows, double radius);
 
 /* Finds runs that contain all points within the radius of (x, y), and some points further away; no point is in two

@@ -2,9 +2,9 @@
 /*
  * Generators of the group of units modulo m. Modulo a power of an odd prime p the units are the powers of a primitive
  * root g of p with g^(p-1) not 1 modulo p^2 (if it is 1, then g + p is taken). Modulo 2^e the units are +-5^x. For a
- * product of such prime powers q, the generator for each q is the one that is 1 modulo the other factors (Chinese
- * remainder theorem). If 4 divides m, identifying u and -u removes the axis of the signs modulo 2^e; else it halves
- * the longest axis. Source: any book on number theory, such as Hardy & Wright's.
+ * product of such prime powers q, the generator for each q is chosen such that it is 1 modulo the other factors
+ * (Chinese remainder theorem). If 4 divides m, identifying u and -u removes the axis of the signs modulo 2^e; else it
+ * halves the longest axis. Source: textbooks on number theory, such as Hardy & Wright.
  */
 #include "patterns/shared/unit_group.h"
 
@@ -50,7 +50,7 @@ static uint64_t primitive_root(uint64_t p, bool squared)
     return squared && power(root, p - 1, p * p) == 1 ? root + p : root;
 }
 
-/* The number modulo m that is g modulo q and 1 modulo m / q; q is a power of p. */
+/* Returns the number below m that is g modulo q and 1 modulo m / q, where q is a power of the prime p. */
 static uint64_t lift(uint64_t g, uint64_t p, uint64_t q, uint64_t m)
 {
     const uint64_t others = m / q, inverse = power(others, q / p * (p - 1) - 1, q);

@@ -7,18 +7,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { KOKSMA__MAX_PRIMES = 10 }; /* numbers below 2^32 have at most 9 different primes */
+enum { KOKSMA__MAX_PRIMES = 10 }; /* numbers below 2^32 have at most 9 different prime factors */
 
 typedef struct koksma__unit_axis {
     size_t length;
     uint64_t generator;
-    bool turns; /* whether generator^(order / 2) is -1 modulo its prime power */
+    bool turns; /* true: generator^(order / 2) is -1 modulo its prime power */
 } koksma__unit_axis;
 
 /* Finds generators g_k such that each unit u modulo m, or its negative -u, has one representation as a product of
-   powers g_k^(x_k), 0 <= x_k < length_k. The first axis is the longest. *cut: the first axis has half its order as
-   length, because its power g_0^length_0 equals, up to the sign, the product of the other axes' elements of half
-   their orders. Returns the number of axes. 2 < m < 2^32. */
+   powers g_k^(x_k), 0 <= x_k < length_k. The first axis is the longest. *cut receives whether the length of the first
+   axis is half its order. This is so if g_0^length_0 equals, up to the sign, the product of elements of the other
+   axes, each to the power of half its order. Returns the number of axes. 2 < m < 2^32. */
 int koksma__unit_axes(uint64_t m, koksma__unit_axis axes[KOKSMA__MAX_PRIMES], bool *cut);
 
 /* Lists the primes that divide n in ascending order; returns how many there are. 0 < n < 2^32. */

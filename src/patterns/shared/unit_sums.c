@@ -3,24 +3,25 @@
  * The sums over i of product[i] B_2({i z / n}) for all z that are units modulo n, in O(n log n) steps, for any n:
  * the fast component-by-component construction of Nuyens & Cools 2006 (primes) and 2006a (other n).
  *
- * The i with gcd(i, n) = n/m are r n/m, where r is a unit modulo m: they make a block for each divisor m > 1 of n. In
- * a block the sum depends only on z modulo m, and is a correlation over the group of units modulo m, where u and -u
- * are identified because B_2(x) = B_2(1 - x). Fourier transforms run along all of the group's axes except the first;
- * each line along the first axis is then correlated with a precomputed kernel. A line whose length is a power of two
- * is correlated cyclically; others are padded with zeros. Where the first axis is cut (unit_group.h), the kernel
- * continues with the sign that the line's character has at the product of the other axes' elements of half their
- * orders. In small blocks the sums are a product with a matrix.
+ * The i with gcd(i, n) = n/m are r n/m, where r is a unit modulo m: they form one block for each divisor m > 1 of n.
+ * In a block the sum depends only on z modulo m, and is a correlation over the group of units modulo m, where u and
+ * -u are identified because B_2(x) = B_2(1 - x). Fourier transforms are done along all axes of the group except the
+ * first. Each line along the first axis is then correlated with a precomputed kernel. A line whose length is a power
+ * of two is correlated cyclically; others are padded with zeros. If the first axis is cut (unit_group.h), the kernel
+ * continues with a sign: the value of the line's character at the product of the other axes' elements of half their
+ * orders. For small blocks the sums are computed as a product with a matrix.
  *
  * Then the sums of the blocks are added over the divisors of n, prime by prime: value[i] += value[p i mod n], because
  * the sum of z in the block of m/p is stored at p i.
  *
- * Each block's mean weight is subtracted from its weights: this changes the sums of all z equally and removes most of
- * the rounding error. The rounding error is assumed to be below 256 (1 + log2 m) u |weights| |kernel| / sqrt(count)
- * in 2-norms, u = 2^-53, plus 64 u times the product of the norms before the subtraction / sqrt(count): 20 to 1,200
- * times the errors measured (65 <= n <= 2^21). The bound is divided by sqrt(count) because errors of a transform
- * spread evenly over its numbers; the bound that Brent, Percival & Zimmermann 2007 prove, without this division, is
- * 10,000 times the errors measured at 2^20 and would leave thousands of z undecided at 2^24. Sums in a fixed order
- * decide among the few z that this bound leaves undecided, so that no bit of a lattice depends on a transform.
+ * The mean of the weights of each block is subtracted from them. This changes the sums of all z equally and removes
+ * most of the rounding error. The rounding error is assumed to be below 256 (1 + log2 m) u |weights| |kernel| /
+ * sqrt(count) in 2-norms, u = 2^-53, plus 64 u times the product of the norms before the subtraction / sqrt(count):
+ * 20 to 1,200 times the errors measured (65 <= n <= 2^21). The bound is divided by sqrt(count) because errors of a
+ * transform spread evenly over its numbers; the bound that Brent, Percival & Zimmermann 2007 prove, without this
+ * division, is 10,000 times the errors measured at 2^20 and would leave thousands of z undecided at 2^24. For the few
+ * z that this bound leaves undecided, sums in a fixed order decide, so that no bit of a lattice depends on a
+ * transform.
  */
 #include "patterns/shared/unit_sums.h"
 
@@ -40,11 +41,11 @@ enum { MATRIX = 32 };
 typedef struct block {
     uint64_t m;
     size_t count;   /* number of units modulo m, up to the sign */
-    uint32_t *at;   /* the i of each unit, at most n/2; the exponent of the first axis changes fastest */
+    uint32_t *at;   /* the index i of each unit, at most n/2; the exponent of the first axis changes fastest */
     double norm;    /* 2-norm of the kernel */
     double *matrix; /* count x count, for small blocks; NULL for others, which use the members below */
     koksma__unit_axis axes[KOKSMA__MAX_PRIMES];
-    koksma__dft chirps[KOKSMA__MAX_PRIMES]; /* transforms along the axes from 1 on */
+    koksma__dft chirps[KOKSMA__MAX_PRIMES]; /* transforms along all axes except axis 0 */
     int n_axes;
     bool cut;
     size_t lines, padded;          /* number of lines, count / length of the first axis; length of the lines'
@@ -68,7 +69,7 @@ static double bernoulli(double x)
     return x * (x - 1) + 1.0 / 6;
 }
 
-/* The number of units modulo m up to the sign: phi(m)/2, at least 1. */
+/* Returns the number of units modulo m up to the sign: phi(m)/2, at least 1. */
 static size_t count_units(const koksma__unit_sums *s, uint64_t m)
 {
     uint64_t count = m;
@@ -122,7 +123,8 @@ static koksma_status make_room(koksma__unit_sums *s)
         }
     }
     longest = padded > longest ? padded : longest;
-    const size_t line = longest > 64 ? longest : 64; /* short transforms, computed by the definition, use up to 64 */
+    const size_t line = longest > 64 ? longest : 64; /* transforms that are computed by the definition use up to 64
+                                                        numbers */
     const size_t bytes = 2 * (line + several) * sizeof *s->line_re;
     s->line_re = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(s->line_re, bytes);
@@ -162,8 +164,8 @@ static void list_units(const koksma__unit_sums *s, block *b)
     }
 }
 
-/* Transforms forward along all axes except the first. With re and im exchanged it transforms backward, up to a
-   factor. */
+/* Does the forward transforms along all axes except the first. If re and im are exchanged, it computes the inverse
+   transform up to a factor. */
 static void transform_axes(koksma__unit_sums *s, const block *b, double *re, double *im)
 {
     size_t stride = b->axes[0].length;
@@ -179,8 +181,8 @@ static void transform_axes(koksma__unit_sums *s, const block *b, double *re, dou
     }
 }
 
-/* The sign with which a line's kernel continues where the first axis is cut: the line's character at the product of the
-   elements of half order of those axes with `turns` set. */
+/* Returns the sign with which the kernel of a line continues if the first axis is cut: the value of the line's
+   character at the product of the elements of half order of those axes that have `turns` set. */
 static double sign_of(const block *b, size_t line)
 {
     size_t turns = 0;
@@ -290,7 +292,8 @@ static void correlate_lines(koksma__unit_sums *s, const block *b, double *re, do
         memset(line_re + length, 0, (padded - length) * sizeof *re);
         memset(line_im + length, 0, (padded - length) * sizeof *re);
         koksma__fourier_forward(&s->fourier, padded, line_re, line_im);
-        for (size_t j = 0; j < padded; j++) { /* kernel times the conjugate of the line: a correlation */
+        for (size_t j = 0; j < padded; j++) { /* multiply the kernel by the conjugate of the line, which gives a
+                                                 correlation */
             const double x = line_re[j] * kernel_re[j] + line_im[j] * kernel_im[j];
             line_im[j] = line_re[j] * kernel_im[j] - line_im[j] * kernel_re[j];
             line_re[j] = x;
@@ -339,8 +342,8 @@ static double find_block(koksma__unit_sums *s, const block *b, const double *pro
            (256 * (1 + log2((double)b->m)) * sqrt(square) + 64 * sqrt(whole));
 }
 
-/* Adds the sums of the blocks over the divisors of n: one prime after the other, first those i that are divisible by
-   its highest power. */
+/* Adds the sums of the blocks over the divisors of n, one prime after the other. For each prime, the i that are
+   divisible by its highest power come first. */
 static void add_up(const koksma__unit_sums *s, double *values)
 {
     const size_t n = s->n;

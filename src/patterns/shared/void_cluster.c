@@ -2,16 +2,16 @@
 /*
  * Void and cluster (Ulichney 1993): the energy of a pixel is the sum of Gaussians (standard deviation 1.5 pixels, on
  * the torus, cut off at 9 pixels along each axis) about the pixels that are set. A tenth of the pixels is set at
- * random; then the pixel in the tightest cluster is moved to the largest void until that changes nothing. Removing
+ * random; then the pixel in the tightest cluster is moved to the largest void, until this changes nothing. Removing
  * the pixel in the tightest cluster again and again gives the ranks of these pixels; filling the largest void again
- * and again gives the other ranks. On the torus, filling the largest void is the same as removing the tightest
- * cluster of unset pixels.
+ * and again gives the other ranks. On the torus the largest void of the set pixels is the tightest cluster of the
+ * unset pixels.
  *
- * A change of one pixel changes the energies of the at most 19 x 19 pixels about it. The largest void and the
- * tightest cluster are the roots of two pyramids: a node of level 1 has the best of 2 x 2 pixels, a node of level l +
- * 1 the best of 2 x 2 nodes of level l. A change updates 100 nodes of level 1, 36 of level 2, and so on, a bounded
- * number for each level, so that a mask takes O(size^2 log(size)) time. Energies are sums of doubles in a fixed
- * order, and ties go to the pixel with the lowest index: the ranks do not depend on the instruction set.
+ * A change of one pixel changes the energies of up to 19 x 19 pixels around it. The largest void and the tightest
+ * cluster are the roots of two pyramids: a node of level 1 has the best of 2 x 2 pixels, a node of level l + 1 the
+ * best of 2 x 2 nodes of level l. A change updates 100 nodes of level 1, 36 of level 2, and so on, a bounded number
+ * for each level, so that a mask takes O(size^2 log(size)) time. Energies are sums of doubles in a fixed order, and
+ * ties go to the pixel with the lowest index: the ranks do not depend on the instruction set.
  */
 #include <koksma/mask.h>
 
@@ -24,11 +24,11 @@
 #include "core/random.h"
 #include "core/status.h"
 
-enum { REACH = 9, LEVELS = 12 }; /* six standard deviations; 2^LEVELS >= KOKSMA_MASK_MAX */
+enum { REACH = 9, LEVELS = 12 }; /* REACH is six standard deviations; 2^LEVELS >= KOKSMA_MASK_MAX */
 enum { VOIDS, CLUSTERS };
 
 typedef struct best {
-    double merit; /* CLUSTERS: the pixel's energy; VOIDS: minus its energy; -INFINITY if there is no pixel */
+    double merit; /* the energy of the pixel (CLUSTERS) or minus its energy (VOIDS); -INFINITY if there is no pixel */
     size_t at;
 } best;
 
@@ -37,7 +37,8 @@ typedef struct mask {
     size_t n;
     double *energy;
     bool *set;
-    best *pyramids[2][LEVELS + 1]; /* VOIDS: of unset pixels; CLUSTERS: of set pixels; level 0 is `energy` */
+    best *pyramids[2][LEVELS + 1]; /* pyramids of unset pixels (VOIDS) and set pixels (CLUSTERS); level 0 is `energy`
+                                      */
     bool maintained[2];
     double gauss[2 * REACH + 1][2 * REACH + 1];
 } mask;
@@ -90,7 +91,7 @@ static void renew(mask *m, const int x[2], const int y[2])
     }
 }
 
-/* Cuts the range from .. to of a ring of `size` pixels into one part, or two where it wraps around. */
+/* Cuts the range from .. to of a ring of `size` pixels into one part, or into two parts if it wraps around. */
 static int unwrap(int from, int to, int size, int parts[2][2])
 {
     if (from >= 0 && to < size) {
@@ -107,7 +108,7 @@ static int unwrap(int from, int to, int size, int parts[2][2])
 
 static void change(mask *m, size_t at, bool on)
 {
-    /* On a small torus each pixel is visited once, at its shortest distance. */
+    /* On a small torus each pixel is visited only once, at its shortest distance. */
     const int size = m->size, after = size / 2 < REACH ? size / 2 : REACH;
     const int before = (size - 1) / 2 < REACH ? (size - 1) / 2 : REACH;
     const int x = (int)(at % (size_t)size), y = (int)(at / (size_t)size);
@@ -126,7 +127,7 @@ static void change(mask *m, size_t at, bool on)
     }
 }
 
-/* Makes later changes update the pyramid of one kind only. */
+/* After this call changes update only the pyramid of one kind. */
 static void maintain_only(mask *m, int kind)
 {
     const int all[2] = {0, m->size - 1};
@@ -168,7 +169,8 @@ static koksma_status begin(mask *m, uint64_t seed, const koksma_run *run, size_t
     return KOKSMA_OK;
 }
 
-/* Computes the ranks of the first `count` pixels by removing them one by one, and sets them again. */
+/* Computes the ranks of the first `count` pixels by removing them one by one. Afterwards it sets these pixels again.
+   */
 static void rank_first(mask *m, size_t count, uint32_t *ranks)
 {
     for (size_t i = 0; i < m->n; i++) {

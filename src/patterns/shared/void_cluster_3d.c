@@ -5,9 +5,9 @@
  * are those of void_cluster.c: a tenth of the voxels is set at random, clusters are moved to voids, these voxels are
  * ranked by removing the tightest cluster, and the others by filling the largest void.
  *
- * The largest void and the tightest cluster are found by a tournament over all voxels: node i of a binary tree holds
- * the better voxel of nodes 2 i and 2 i + 1. A change of a voxel updates the paths above the at most 9^3 voxels about
- * it. Ties go to the voxel with the lowest index.
+ * The largest void and the tightest cluster are found by a tournament over all voxels: node i of a binary tree has
+ * the better voxel of nodes 2 i and 2 i + 1. A change of a voxel updates the paths above up to 9^3 voxels around it.
+ * Ties go to the voxel with the lowest index.
  */
 #include <koksma/mask.h>
 
@@ -25,12 +25,14 @@ typedef struct volume {
     int sides[3]; /* along x, y, time */
     uint32_t n, leaves;
     double *energy;
-    uint32_t *winner; /* best voxel of each node, n if none; the leaves are nodes leaves .. 2 leaves - 1 */
+    uint32_t *winner; /* best voxel of each node, or n if there is none; the leaves are nodes leaves .. 2 leaves - 1
+                         */
     bool *set, clusters;
     double gauss[SPAN];
 } volume;
 
-/* The better of two voxels: the one with more energy if clusters are searched, with less if voids are. */
+/* Returns the better of two voxels: the one with more energy when clusters are searched, with less when voids are
+   searched. */
 static uint32_t better(const volume *v, uint32_t a, uint32_t b)
 {
     if (a == v->n || b == v->n) {
@@ -45,8 +47,8 @@ static void renew_leaf(volume *v, uint32_t at)
     v->winner[v->leaves + at] = v->set[at] == v->clusters ? at : v->n;
 }
 
-/* Renews all nodes above `count` leaves, level by level: neighbours in a row share most of their path, so that each level
-   has about half the nodes of the level below. Overwrites `nodes`, the numbers of the leaves. */
+/* Updates all nodes above `count` leaves, level by level. Neighbours in a row share most of their paths, so each
+   level has about half the nodes of the level below. `nodes` has the numbers of the leaves and is overwritten. */
 static void renew_above(volume *v, uint32_t *nodes, int count)
 {
     while (nodes[0] > 1) {
@@ -128,8 +130,8 @@ static koksma_status begin(volume *v, uint64_t seed, const koksma_run *run, uint
             placed++;
         }
     }
-    /* Searching for voids and clusters in turn would rebuild the whole tree each time: a scan finds the void
-       instead. */
+    /* Alternating searches for voids and clusters would rebuild the whole tree each time, so a scan over all voxels
+       finds the void instead. */
     for (uint32_t step = 0; step < 4 * *count; step++) {
         const uint32_t cluster = look_for(v, true);
         change(v, cluster, false);
