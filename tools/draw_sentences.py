@@ -14,10 +14,11 @@ import sys
 
 
 def paragraphs(text):
-    """Comments, and adjacent string literals, each as one paragraph."""
+    """The paragraphs of comments, the rows of tables in them, and adjacent string literals."""
     for comment in re.findall(r"/\*(.*?)\*/", text, re.S):
         for part in re.split(r"\n\s*\*?\s*\n", re.sub(r"^\s*\*(?=\s)", "", comment, flags=re.M)):
-            yield part
+            # A row of a table is a name and, two blanks later, its meaning; a row begins a paragraph.
+            yield from re.split(r"\n(?=\s{3,}\S+(?: \S+)?\s{2,}\S)|\n(?=\s*(?:Errors|Source|Cost|Limits|Formula):)", part)
     bare = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
     for strings in re.findall(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', bare):
         literal = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', strings))
