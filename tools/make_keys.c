@@ -267,7 +267,7 @@ int main(int argc, char **argv)
     make_functions();
     make_gauss();
     for (uint32_t m = 0; m < TABLES; m++) {
-        double least = INFINITY;
+        double least = HUGE_VAL;
         make_covariances(m);
         for (int start = 0; start < STARTS; start++) {
             const double found = anneal(tried, m, proposals);
