@@ -3,27 +3,28 @@
  * Prints the tables of docs/findings/ranking-keys.md: errors of koksma/keys.h and of z-sampler on integrands that took no
  * part in the design of the keys, in units of those of independently scrambled pixels. A program of its own:
  *
- *     cc -O3 -std=gnu11 -Iinclude tools/keys_held_out.c -lm -o /tmp/keys_held_out && /tmp/keys_held_out [plain|spectrum]
+ *     cc -O3 -ffast-math -march=native -std=gnu11 -Iinclude tools/keys_held_out.c -lm -o /tmp/keys_held_out
+ *     /tmp/keys_held_out plain|blue|prefix [samples a pixel ...]
  *
  * Seven families of DRAWS integrands on the unit square, drawn once: Heaviside steps of random direction through a random
  * point (Heitz & others 2019) and the six families of Genz (1984) with random u and with a scaled to his difficulties in
- * two dimensions. Integrals are exact (closed forms; for steps the area of the clipped square). Each of TILES seeds gives
- * an image of 64 x 64 pixels; the mean square over tiles has a standard error from the tiles' spread.
+ * two dimensions. Integrals are exact (closed forms; for steps the area of the clipped square). Each seed gives an image
+ * of 64 x 64 pixels, and a mean square of its errors for each integrand. All intervals come from the spread of these
+ * from image to image, because the pixels of one image depend on each other. `prefix` is `blue` with the keys for 64
+ * samples a pixel.
  */
 #include <koksma/keys.h>
 
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { SIZE = 64, PIXELS = SIZE * SIZE, DRAWS = 16, FAMILIES = 7, ALL = FAMILIES * DRAWS, TILES = 8, KINDS = 3 };
+enum { SIZE = 64, PIXELS = SIZE * SIZE, DRAWS = 16, FAMILIES = 7, ALL = FAMILIES * DRAWS, KINDS = 3, MOST = 128 };
 enum { KEYS, Z_SAMPLER, INDEPENDENT };
 enum { STEP, OSCILLATORY, PRODUCT_PEAK, CORNER_PEAK, GAUSSIAN, CONTINUOUS, DISCONTINUOUS };
 
-static const char *const names[FAMILIES] = {
-    "step",          "genz-oscillatory", "genz-product-peak", "genz-corner-peak",
-    "genz-gaussian", "genz-continuous",  "genz-discontinuous"};
 static const double difficulty[FAMILIES] = {0, 9, 7.25, 1.85, 7.03, 20.4, 4.3};
 static const double pi = 3.141592653589793;
 
@@ -34,24 +35,37 @@ typedef struct integrand {
 
 static integrand all[ALL];
 
-static double value(const integrand *f, double x, double y)
+/* Adds the values at n points, s to a pixel, to the sums of the pixels. One loop a family, for compilers that vectorise. */
+static void add_values(const integrand *f, int n, int s, const double *xs, const double *ys, double *sums)
 {
-    const double dx = x - f->u[0], dy = y - f->u[1], a = f->a[0], b = f->a[1];
+    static double values[PIXELS * MOST];
+    const double u = f->u[0], v = f->u[1], a = f->a[0], b = f->a[1];
     switch (f->family) {
+#define EACH(expression)                                                                                             \
+    for (int i = 0; i < n; i++) {                                                                                    \
+        const double x = xs[i], y = ys[i], dx = x - u, dy = y - v;                                                   \
+        (void)x, (void)y, (void)dx, (void)dy;                                                                        \
+        values[i] = (expression);                                                                                    \
+    }                                                                                                                \
+    break
     case STEP:
-        return a * dx + b * dy < 0;
+        EACH(a * dx + b * dy < 0 ? 1.0 : 0.0);
     case OSCILLATORY:
-        return cos(2 * pi * f->u[0] + a * x + b * y);
+        EACH(cos(2 * pi * u + a * x + b * y));
     case PRODUCT_PEAK:
-        return 1 / ((1 / (a * a) + dx * dx) * (1 / (b * b) + dy * dy));
+        EACH(1 / ((1 / (a * a) + dx * dx) * (1 / (b * b) + dy * dy)));
     case CORNER_PEAK:
-        return pow(1 + a * x + b * y, -3);
+        EACH(1 / ((1 + a * x + b * y) * (1 + a * x + b * y) * (1 + a * x + b * y)));
     case GAUSSIAN:
-        return exp(-a * a * dx * dx - b * b * dy * dy);
+        EACH(exp(-a * a * dx * dx - b * b * dy * dy));
     case CONTINUOUS:
-        return exp(-a * fabs(dx) - b * fabs(dy));
+        EACH(exp(-a * fabs(dx) - b * fabs(dy)));
     default:
-        return dx > 0 || dy > 0 ? 0 : exp(a * x + b * y);
+        EACH(dx > 0 || dy > 0 ? 0 : exp(a * x + b * y));
+    }
+#undef EACH
+    for (int i = 0; i < n; i++) {
+        sums[i / s] += values[i];
     }
 }
 
@@ -131,18 +145,17 @@ static void make_integrands(void)
 }
 
 static double errors[ALL][PIXELS];
+static uint32_t planned; /* the number of samples that the keys are for, if it is above the number drawn */
 
-static void make_errors(int kind, uint64_t seed, uint32_t spp, uint32_t pair)
+static void make_errors(int kind, uint64_t seed, uint32_t spp)
 {
+    static double xs[PIXELS * MOST], ys[PIXELS * MOST];
     for (uint32_t p = 0; p < PIXELS; p++) {
         const uint32_t x = p % SIZE, y = p / SIZE;
-        const koksma_keys keys = koksma_keys_of(seed, x, y, pair, spp);
+        const koksma_keys keys = koksma_keys_of(seed, x, y, 0, planned > spp ? planned : spp);
         const koksma_domain image = {seed};
         const koksma_domain domain = kind == Z_SAMPLER ? image : koksma_domain_of_pixel(seed, x, y);
         const uint32_t first = kind == Z_SAMPLER ? koksma_z_rank(image, x, y, 6) * spp : 0;
-        for (int i = 0; i < ALL; i++) {
-            errors[i][p] = -all[i].mean;
-        }
         for (uint32_t s = 0; s < spp; s++) {
             double xy[2];
             if (kind == KEYS) {
@@ -150,9 +163,15 @@ static void make_errors(int kind, uint64_t seed, uint32_t spp, uint32_t pair)
             } else {
                 koksma_sobol_2d(domain, first + s, xy);
             }
-            for (int i = 0; i < ALL; i++) {
-                errors[i][p] += value(&all[i], xy[0], xy[1]) / spp;
-            }
+            xs[p * spp + s] = xy[0];
+            ys[p * spp + s] = xy[1];
+        }
+    }
+    memset(errors, 0, sizeof errors);
+    for (int i = 0; i < ALL; i++) {
+        add_values(&all[i], (int)(PIXELS * spp), (int)spp, xs, ys, errors[i]);
+        for (int p = 0; p < PIXELS; p++) {
+            errors[i][p] = errors[i][p] / spp - all[i].mean;
         }
     }
 }
@@ -166,79 +185,109 @@ static double mean_square(const double *e)
     return sum;
 }
 
-/* Prints a mean of ratios as a ratio of RMS errors, with a star where it is above 1 by two standard errors. */
-static void print_ratio(double ratio, double variance)
+/* ---- Plain errors ------------------------------------------------------------------------------------------ */
+
+enum { IMAGES = 64 };
+
+static double squares[KINDS][IMAGES][ALL]; /* the mean square of an image */
+
+/* The mean over integrands first .. end - 1 of the ratios of mean squares to those of independent pixels, and its
+   standard error. Integrands of one image share its points, so the images are the independent units. */
+static double ratio_of(int kind, int first, int end, double *error)
 {
-    printf(" %.3f ± %.3f%s |", sqrt(ratio), sqrt(variance) / (2 * sqrt(ratio)),
-           ratio > 1 + 2 * sqrt(variance) ? " *" : "");
+    double ratio = 0, variance = 0, deviation[KINDS][IMAGES] = {{0}};
+    for (int i = first; i < end; i++) {
+        double mean[KINDS] = {0};
+        for (int k = kind; k < KINDS; k += INDEPENDENT - kind) {
+            for (int t = 0; t < IMAGES; t++) {
+                mean[k] += squares[k][t][i] / IMAGES;
+            }
+        }
+        const double one = mean[kind] / mean[INDEPENDENT];
+        ratio += one / (end - first);
+        for (int k = kind; k < KINDS; k += INDEPENDENT - kind) {
+            for (int t = 0; t < IMAGES; t++) {
+                deviation[k][t] += one * (squares[k][t][i] / mean[k] - 1) / (end - first);
+            }
+        }
+    }
+    for (int k = kind; k < KINDS; k += INDEPENDENT - kind) {
+        for (int t = 0; t < IMAGES; t++) {
+            variance += deviation[k][t] * deviation[k][t] / IMAGES / (IMAGES - 1);
+        }
+    }
+    *error = sqrt(variance);
+    return ratio;
 }
 
-static void print_row(uint32_t spp, int kind, double sums[KINDS][ALL], double squares[KINDS][ALL])
+/* The standard deviation of an image's root mean square error, in units of its mean: mean over the integrands. */
+static double spread_of(int kind)
 {
-    double worst = 0, total = 0, total_variance = 0;
-    int at = 0, above = 0;
+    double sum = 0;
+    for (int i = 0; i < ALL; i++) {
+        double mean = 0, square = 0;
+        for (int t = 0; t < IMAGES; t++) {
+            mean += sqrt(squares[kind][t][i]) / IMAGES;
+            square += squares[kind][t][i] / IMAGES;
+        }
+        sum += sqrt(fmax(square / (mean * mean) - 1, 0)) / ALL;
+    }
+    return sum;
+}
+
+/* Prints ratios of RMS errors, with a star where one is above 1 by two standard errors. */
+static void print_ratio(int kind, int first, int end)
+{
+    double error;
+    const double ratio = ratio_of(kind, first, end, &error);
+    printf(" %.3f ± %.3f%s |", sqrt(ratio), error / (2 * sqrt(ratio)), ratio > 1 + 2 * error ? " *" : "");
+}
+
+static void print_row(uint32_t spp, int kind)
+{
+    double largest = 0;
+    int above = 0, below = 0, far = 0;
     printf("| %u | %s |", spp, kind == KEYS ? "`ranking-keys`" : "`z-sampler`");
     for (int f = 0; f < FAMILIES; f++) {
-        double ratio = 0, variance = 0;
-        for (int i = f * DRAWS; i < (f + 1) * DRAWS; i++) {
-            const double one = sums[kind][i] / sums[INDEPENDENT][i];
-            double own = 0;
-            for (int k = kind; k < KINDS; k += INDEPENDENT - kind) {
-                const double relative = squares[k][i] / (sums[k][i] * sums[k][i]) - 1;
-                own += one * one * fmax(relative, 0) / (TILES - 1);
-            }
-            ratio += one / DRAWS;
-            variance += own / DRAWS / DRAWS;
-            above += one > 1 + 2 * sqrt(own);
-            if (one > worst) {
-                worst = one;
-                at = i;
-            }
-        }
-        print_ratio(ratio, variance);
-        total += ratio / FAMILIES;
-        total_variance += variance / FAMILIES / FAMILIES;
+        print_ratio(kind, f * DRAWS, (f + 1) * DRAWS);
     }
-    print_ratio(total, total_variance);
-    printf(" %.2f (%s), %d of %d |\n", sqrt(worst), names[at / DRAWS], above, ALL);
+    print_ratio(kind, 0, ALL);
+    for (int i = 0; i < ALL; i++) {
+        double error;
+        const double ratio = ratio_of(kind, i, i + 1, &error);
+        above += ratio > 1 + 2 * error;
+        below += ratio < 1 - 2 * error;
+        far += ratio > 1 + 3 * error;
+        largest = fmax(largest, ratio);
+    }
+    printf(" %.2f; %d, %d; %d | %.3f (independent %.3f) |\n", sqrt(largest), above, below, far, spread_of(kind),
+           spread_of(INDEPENDENT));
 }
 
-/* Sums: the mean over tiles of the mean squares; squares: that of their squares. */
-static void plain(const uint32_t *spps, int n)
+static void plain(uint32_t spp)
 {
-    static double sums[KINDS][ALL], squares[KINDS][ALL];
-    printf("| samples | pattern |");
-    for (int f = 0; f < FAMILIES; f++) {
-        printf(" %s |", names[f]);
-    }
-    printf(" all | worst one, and how many are worse |\n");
-    for (int t = 0; t < n; t++) {
-        memset(sums, 0, sizeof sums);
-        memset(squares, 0, sizeof squares);
-        for (int kind = 0; kind < KINDS; kind++) {
-            for (uint64_t tile = 0; tile < TILES; tile++) {
-                make_errors(kind, 100 + tile, spps[t], 0);
-                for (int i = 0; i < ALL; i++) {
-                    const double square = mean_square(errors[i]);
-                    sums[kind][i] += square / TILES;
-                    squares[kind][i] += square * square / TILES;
-                }
+    for (int kind = 0; kind < KINDS; kind++) {
+        for (int t = 0; t < IMAGES; t++) {
+            make_errors(kind, 100 + (uint64_t)t, spp);
+            for (int i = 0; i < ALL; i++) {
+                squares[kind][t][i] = mean_square(errors[i]);
             }
         }
-        for (int kind = 0; kind < INDEPENDENT; kind++) {
-            print_row(spps[t], kind, sums, squares);
-        }
-        fflush(stdout);
+    }
+    for (int kind = 0; kind < INDEPENDENT; kind++) {
+        print_row(spp, kind);
     }
 }
 
 /* ---- Spectra ----------------------------------------------------------------------------------------------- */
 
-/* The power at |k| < SIZE / 4, and at the frequencies above, with k = 0 in the first. */
-static void power(const double *e, double *low, double *high)
+/* The mean power at frequencies |k| < SIZE / 4 with k = 0, and at those above, and the mean square after a blur by a
+   Gaussian of standard deviation 1.5 pixels. */
+static void power(const double *e, double out[3])
 {
     static double complex table[SIZE], rows[SIZE][SIZE];
     double sums[2] = {0, 0}, count[2] = {0, 0};
+    out[2] = 0;
     for (int k = 0; k < SIZE; k++) {
         table[k] = cexp(-2 * pi * I * k / SIZE);
     }
@@ -258,59 +307,81 @@ static void power(const double *e, double *low, double *high)
             for (int y = 0; y < SIZE; y++) {
                 sum += rows[y][k] * table[l * y % SIZE];
             }
-            sums[part] += creal(sum * conj(sum)) / PIXELS;
+            const double square = creal(sum * conj(sum)) / PIXELS;
+            sums[part] += square;
             count[part] += 1;
+            out[2] += square / PIXELS * exp(-4 * pi * pi * 1.5 * 1.5 * (u * u + v * v) / PIXELS);
         }
     }
-    *low = sums[0] / count[0];
-    *high = sums[1] / count[1];
+    out[0] = sums[0] / count[0];
+    out[1] = sums[1] / count[1];
 }
 
-/* Mean power of a family below and above a quarter of the sampling rate, in units of the mean square error of independent
-   pixels, whose spectrum is flat. */
-static void spectrum(const uint32_t *spps, int n)
+/* The share of white noise that the blur lets pass. */
+static double passed(void)
 {
-    enum { EVERY = 4, SOME = 3 };
-    static double square[ALL], low[KINDS][FAMILIES], high[KINDS][FAMILIES];
-    for (int t = 0; t < n; t++) {
-        memset(low, 0, sizeof low);
-        memset(high, 0, sizeof high);
-        memset(square, 0, sizeof square);
-        for (int kind = INDEPENDENT; kind >= 0; kind--) {
-            for (uint64_t tile = 0; tile < SOME; tile++) {
-                make_errors(kind, 100 + tile, spps[t], 0);
-                for (int i = 0; i < ALL && kind == INDEPENDENT; i++) {
+    static double delta[PIXELS];
+    double out[3];
+    delta[0] = 1;
+    power(delta, out);
+    return out[2] * PIXELS;
+}
+
+/* Mean power of a family below and above a quarter of the sampling rate in units of the mean square error of
+   independent pixels, whose spectrum is flat; and the RMS error after the blur in units of theirs. */
+static void blue(uint32_t spp)
+{
+    enum { EVERY = 4, SOME = 16 };
+    static double square[ALL];
+    const double white = passed();
+    memset(square, 0, sizeof square);
+    for (int kind = INDEPENDENT; kind >= 0; kind--) {
+        double sums[FAMILIES][3] = {{0}}, all_low = 0, all_blurred = 0, largest = 0, lows[ALL] = {0};
+        for (int t = 0; t < SOME; t++) {
+            make_errors(kind, 100 + (uint64_t)t, spp);
+            for (int i = 0; i < ALL; i++) {
+                double out[3];
+                if (kind == INDEPENDENT) {
                     square[i] += mean_square(errors[i]) / SOME;
-                }
-                for (int i = 0; i < ALL && kind != INDEPENDENT; i += EVERY) {
-                    double below, above;
-                    power(errors[i], &below, &above);
-                    low[kind][i / DRAWS] += below / square[i] * EVERY / DRAWS / SOME;
-                    high[kind][i / DRAWS] += above / square[i] * EVERY / DRAWS / SOME;
+                } else if (i % EVERY == 0) {
+                    power(errors[i], out);
+                    for (int c = 0; c < 3; c++) {
+                        sums[i / DRAWS][c] += out[c] / square[i] * EVERY / DRAWS / SOME;
+                    }
+                    lows[i] += out[0] / square[i] / SOME;
+                    all_low += out[0] / square[i] * EVERY / ALL / SOME;
+                    all_blurred += out[2] / square[i] / white * EVERY / ALL / SOME;
                 }
             }
         }
-        for (int kind = 0; kind < INDEPENDENT; kind++) {
-            printf("| %u | %s |", spps[t], kind == KEYS ? "`ranking-keys`" : "`z-sampler`");
+        for (int i = 0; i < ALL; i++) {
+            largest = fmax(largest, lows[i]);
+        }
+        if (kind != INDEPENDENT) {
+            printf("| %u | %s |", spp, kind == KEYS ? "`ranking-keys`" : "`z-sampler`");
             for (int f = 0; f < FAMILIES; f++) {
-                printf(" %.2f, %.2f |", low[kind][f], high[kind][f]);
+                printf(" %.2f, %.2f, %.2f |", sums[f][0], sums[f][1], sqrt(sums[f][2] / white));
             }
-            printf("\n");
+            printf(" %.3f, %.3f; %.2f |\n", all_low, sqrt(all_blurred), largest);
         }
-        fflush(stdout);
     }
 }
 
 int main(int argc, char **argv)
 {
-    static const uint32_t plains[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 100};
-    static const uint32_t spectra[] = {1, 2, 3, 4, 6, 8, 12, 16, 32, 64};
+    static const char *const usual[] = {"1",  "2",  "3",  "4",  "5",  "6",  "7",  "8",  "9",
+                                        "12", "16", "20", "24", "32", "48", "64", "100"};
+    const int named = argc > 2, n = named ? argc - 2 : (int)(sizeof usual / sizeof *usual);
     make_integrands();
-    if (argc < 2 || !strcmp(argv[1], "plain")) {
-        plain(plains, sizeof plains / sizeof *plains);
-    }
-    if (argc < 2 || !strcmp(argv[1], "spectrum")) {
-        spectrum(spectra, sizeof spectra / sizeof *spectra);
+    for (int i = 0; i < n; i++) {
+        const int spp = atoi(named ? argv[2 + i] : usual[i]);
+        if (argc < 2 || spp < 1 || spp > MOST) {
+            fprintf(stderr, "usage: keys_held_out plain|blue|prefix [samples a pixel, 1 to %d ...]\n", MOST);
+            return 2;
+        }
+        planned = strcmp(argv[1], "prefix") ? 0 : 64;
+        (strcmp(argv[1], "plain") ? blue : plain)((uint32_t)spp);
+        fflush(stdout);
     }
     return 0;
 }

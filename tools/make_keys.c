@@ -1,23 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Makes include/koksma/keys.def: the ranking and scrambling keys of koksma/keys.h, by simulated annealing after Heitz
- * & others (2019). A program of its own, run by hand, some minutes; the same bits on every machine:
+ * Makes include/koksma/keys.def: the keys of koksma/keys.h, by simulated annealing. A program of its own, run by hand:
  *
  *     cc -O3 -std=c11 -ffp-contract=off -Iinclude tools/make_keys.c -lm -o /tmp/make_keys
  *     /tmp/make_keys > /tmp/keys.def && mv /tmp/keys.def include/koksma/
  *
- * For each table of TARGETS samples a pixel:
- * 1. The shared sequence: of CANDIDATES Owen scramblings that for which the keys below give the smallest mean square
- *    errors of smooth functions (four exponentials, twelve random waves), in units of those of independent scramblings: the
- *    largest such ratio, up to the target, or up to 256 samples in the last table, is made small. Heaviside steps have
- *    about the same error in all.
- * 2. Scrambling keys: 4,096 points of Sobol' in three dimensions, so that each value comes equally often: 8 digits of x, 8
- *    of y, and 256 pairings of strata. Pixels swap theirs so as to make E small: e_t(p) is the error of pixel p for step t,
- *    one of STEPS Heaviside functions whose edges pass through random points, in random directions or (every other one)
- *    along an axis,
- *        E = sum over t, p, q of e_t(p) e_t(q) exp(-|p - q|^2 / (2 s^2)),   s = 1.5 pixels, on the torus:
- *    the power of the errors at the frequencies that this Gaussian lets pass.
- * 3. Ranking keys, from the most significant bit on: which half of the samples so far comes first, again by E.
+ * Pixel p of a cell takes the samples sequence(key(p) XOR i), i < n, of one Owen-scrambled (0,2)-sequence. Owen scrambling
+ * makes the covariance of the errors of two pixels, in the mean over scramblings, a function of key(p) XOR key(q) alone.
+ * For each table of 2^m samples:
+ * 1. Covariances: SCRAMBLINGS sequences, FUNCTIONS training integrands (half of them Heaviside steps of random direction
+ *    through a random point, half smooth), n = 1, 2, 4 ... 2^m and 3, 6, 12 ... The errors e(k) of all 2^(10+m) keys k
+ *    have the autocorrelation g(d) = mean over k of e(k) e(k XOR d), which a Walsh-Hadamard transform gives. The table g
+ *    that follows is the mean over integrands, each in units of its g(0), and the weighted sum over n.
+ * 2. Annealing of E = sum over p, q of g(key(p) XOR key(q)) exp(-|p - q|^2 / (2 s^2)), s = 1.8 pixels: the expected power of
+ *    the errors at the frequencies that this Gaussian lets pass. It starts at a Z-curve (Ahmed & Wonka 2020). A proposal
+ *    swaps the blocks of two pixels or changes the ranking bits of one. Other cells are independent, so only the pairs
+ *    within a cell count. Of STARTS runs the one with the smallest E is kept.
  */
 #include <koksma/keys.h>
 
@@ -26,10 +24,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIZE = KOKSMA_KEYS_SIZE, PIXELS = SIZE * SIZE, STEPS = 128, REACH = 5, CANDIDATES = 30000, TABLES = 3 };
-enum { LANES = 16 };
-
-static const uint32_t targets[TABLES] = {1, 4, 16};
+enum { SIZE = KOKSMA_KEYS_SIZE, PIXELS = SIZE * SIZE, BLOCK_BITS = 10, TABLES = KOKSMA_KEYS_TABLES };
+enum { FUNCTIONS = 64, STEPS = FUNCTIONS / 2, SCRAMBLINGS = 64, STARTS = 2 };
+enum { KEYS = 1 << (BLOCK_BITS + TABLES - 1) };
 
 static uint64_t counter;
 
@@ -42,341 +39,252 @@ static uint32_t draw(void)
 
 static double uniform(void)
 {
-    return draw() / 4294967296.0;
+    return (draw() + 0.5) / 4294967296.0;
 }
 
-/* ---- Steps ------------------------------------------------------------------------------------------------- */
+/* ---- Training integrands ----------------------------------------------------------------------------------- */
 
-static double edges[STEPS][3], means[STEPS]; /* the step is 1 where edges[0] x + edges[1] y < edges[2] */
+typedef struct integrand {
+    int kind;
+    double a, b, c, mean;
+} integrand;
 
-static void make_steps(void)
+static integrand functions[FUNCTIONS];
+
+/* A step, a wave, an exponential or a Gaussian. */
+static double value(const integrand *f, double x, double y)
 {
-    for (int t = 0; t < STEPS; t++) {
-        const double random = uniform(), angle = 1.5707963267948966 * (t % 2 ? 4 * random : t / 2 % 4);
-        const double x = uniform(), y = uniform();
-        edges[t][0] = cos(angle);
-        edges[t][1] = sin(angle);
-        edges[t][2] = edges[t][0] * x + edges[t][1] * y;
-        int inside = 0;
-        for (int i = 0; i < 512 * 512; i++) {
-            inside += edges[t][0] * (i % 512 + 0.5) + edges[t][1] * (i / 512 + 0.5) < 512 * edges[t][2];
+    const double u = x - f->a, v = y - f->b;
+    switch (f->kind) {
+    case 0:
+        return f->a * x + f->b * y < f->c;
+    case 1:
+        return cos(f->a * x + f->b * y + f->c);
+    case 2:
+        return exp(f->a * x + f->b * y);
+    default:
+        return exp(-f->c * (u * u + v * v));
+    }
+}
+
+/* A quarter of the steps is parallel to an axis. */
+static void make_functions(void)
+{
+    enum { SIDE = 1024 };
+    const double pi = 3.141592653589793;
+    for (int t = 0; t < FUNCTIONS; t++) {
+        integrand *f = &functions[t];
+        const double u = uniform(), v = uniform(), w = uniform();
+        f->kind = t < STEPS ? 0 : 1 + t % 3;
+        if (f->kind == 0) {
+            const double angle = pi / 2 * (t % 4 ? 4 * w : t / 4 % 4);
+            *f = (integrand){0, cos(angle), sin(angle), cos(angle) * u + sin(angle) * v, 0};
+        } else if (f->kind == 1) {
+            *f = (integrand){1, 2 * pi * u, 2 * pi * (2 * v - 1), 2 * pi * w, 0};
+        } else if (f->kind == 2) {
+            *f = (integrand){2, 4 * u - 2, 4 * v - 2, 0, 0};
+        } else {
+            *f = (integrand){3, u, v, 2 + 20 * w * w, 0};
         }
-        means[t] = inside / 262144.0;
-    }
-}
-
-/* ---- Points of a key --------------------------------------------------------------------------------------- */
-
-static uint32_t log2_of(uint32_t target)
-{
-    return target == 1 ? 0 : 1 + log2_of(target / 2);
-}
-
-static koksma_keys keys_of(uint64_t sequence, uint32_t word, uint32_t target, uint32_t salt)
-{
-    koksma_keys keys;
-    memset(&keys, 0, sizeof keys);
-    koksma__keys_of_word(word, log2_of(target), &keys);
-    for (int k = 0; k < 2; k++) {
-        keys.sequence[k] = koksma_seed_of(sequence, (uint32_t)k);
-        keys.below[k] = koksma_seed_of(salt, (uint32_t)k);
-    }
-    return keys;
-}
-
-/* The errors of all steps at samples first .. first + count - 1 of the sequence, first a multiple of count. */
-static void errors_of(const koksma_keys *keys, uint32_t first, uint32_t count, float *errors)
-{
-    int inside[STEPS] = {0};
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t w[2];
-        koksma__keyed(keys, first + i, w);
-        const double x = koksma_fraction(w[0]), y = koksma_fraction(w[1]);
-        for (int t = 0; t < STEPS; t++) {
-            inside[t] += edges[t][0] * x + edges[t][1] * y < edges[t][2];
-        }
-    }
-    for (int t = 0; t < STEPS; t++) {
-        errors[t] = (float)(inside[t] / (double)count - means[t]);
-    }
-}
-
-/* ---- The shared sequence ----------------------------------------------------------------------------------- */
-
-enum { SMOOTH = 16, SIZES = 12 };
-
-static const uint32_t sizes[SIZES] = {1, 2, 3, 4, 6, 8, 12, 16, 32, 64, 128, 256};
-static double waves[SMOOTH][3], exact[SMOOTH];
-
-/* exp(x), exp(y), exp(x + y), exp(x - y), and cos(a x + b y + c), a and b to 2 pi. */
-static double smooth(int f, double x, double y)
-{
-    return f < 4 ? exp((f != 1) * x + (f == 3 ? -y : (f > 0) * y))
-                 : cos(waves[f][0] * x + waves[f][1] * y + waves[f][2]);
-}
-
-static void make_smooth(void)
-{
-    enum { SIDE = 256 };
-    for (int f = 0; f < SMOOTH; f++) {
-        waves[f][0] = 6.283185307179586 * uniform();
-        waves[f][1] = 6.283185307179586 * (2 * uniform() - 1);
-        waves[f][2] = 6.283185307179586 * uniform();
         for (int i = 0; i < SIDE * SIDE; i++) {
-            exact[f] += smooth(f, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE) / (SIDE * SIDE);
+            f->mean += value(f, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE) / (SIDE * SIDE);
         }
     }
 }
 
-static void smooth_errors(const koksma_keys *keys, uint32_t first, uint32_t count, double *squares)
+/* ---- Covariances ------------------------------------------------------------------------------------------- */
+
+static void walsh_hadamard(double *a, uint32_t n)
 {
-    double sums[SMOOTH] = {0};
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t w[2];
-        koksma__keyed(keys, first + i, w);
-        for (int f = 0; f < SMOOTH; f++) {
-            sums[f] += smooth(f, koksma_fraction(w[0]), koksma_fraction(w[1]));
-        }
-    }
-    for (int f = 0; f < SMOOTH; f++) {
-        const double error = sums[f] / count - exact[f];
-        squares[f] += error * error;
-    }
-}
-
-/* The largest mean square error over functions and sizes, in units of those of independent scramblings. */
-static double badness(uint64_t sequence, const uint32_t *words, uint32_t target, double reference[SIZES][SMOOTH],
-                      double bound)
-{
-    enum { SAMPLED = 128 };
-    double worst = 0;
-    for (int n = 0; n < SIZES && (sizes[n] <= target || target == 16) && worst < bound; n++) {
-        const uint32_t count = sizes[n];
-        double squares[SMOOTH] = {0};
-        for (uint32_t s = 0; s < SAMPLED; s++) {
-            const koksma_keys keys =
-                keys_of(sequence, words[(s * 1367 + 11) % PIXELS], count > target ? count : target, s);
-            const uint32_t blocks = target > count && !(count & (count - 1)) ? target / count : 1;
-            smooth_errors(&keys, s % blocks * count, count, squares);
-        }
-        for (int f = 0; f < SMOOTH; f++) {
-            worst = fmax(worst, squares[f] / SAMPLED / reference[n][f]);
-        }
-    }
-    return worst;
-}
-
-static uint64_t choose_sequence(const uint32_t *words, uint32_t target)
-{
-    enum { SCRAMBLINGS = 3000 };
-    double reference[SIZES][SMOOTH] = {{0}}, least = INFINITY;
-    uint64_t chosen = 0;
-    for (int n = 0; n < SIZES; n++) {
-        for (uint32_t s = 0; s < SCRAMBLINGS; s++) {
-            const koksma_keys keys = keys_of(1000000 + s, 0, 1, s);
-            smooth_errors(&keys, 0, sizes[n], reference[n]);
-        }
-        for (int f = 0; f < SMOOTH; f++) {
-            reference[n][f] /= SCRAMBLINGS;
-        }
-    }
-    for (uint64_t sequence = 1; sequence <= CANDIDATES; sequence++) {
-        const double bad = badness(sequence, words, target, reference, least);
-        if (bad < least) {
-            least = bad;
-            chosen = sequence;
-        }
-    }
-    fprintf(stderr, "target %u: sequence %d, at most %.3f times the mean square errors\n", target, (int)chosen,
-            least);
-    return chosen;
-}
-
-/* ---- Annealing --------------------------------------------------------------------------------------------- */
-
-static float errors[PIXELS][STEPS], others[PIXELS][STEPS], field[PIXELS][STEPS];
-static float gauss[2 * REACH + 1][2 * REACH + 1];
-
-static float weight(int p, int q)
-{
-    int x = abs(p % SIZE - q % SIZE), y = abs(p / SIZE - q / SIZE);
-    x = x < SIZE - x ? x : SIZE - x;
-    y = y < SIZE - y ? y : SIZE - y;
-    return x <= REACH && y <= REACH ? gauss[y + REACH][x + REACH] : 0;
-}
-
-/* Adds a change of the error at a pixel to the field, the errors about each pixel weighted by the Gaussian. */
-static void spread(int p, const float *change)
-{
-    for (int v = -REACH; v <= REACH; v++) {
-        for (int u = -REACH; u <= REACH; u++) {
-            float *at = field[(p / SIZE + v + SIZE) % SIZE * SIZE + (p % SIZE + u + SIZE) % SIZE];
-            const float w = gauss[v + REACH][u + REACH];
-            for (int t = 0; t < STEPS; t++) {
-                at[t] += w * change[t];
+    for (uint32_t h = 1; h < n; h *= 2) {
+        for (uint32_t i = 0; i < n; i += 2 * h) {
+            for (uint32_t j = i; j < i + h; j++) {
+                const double u = a[j], v = a[j + h];
+                a[j] = u + v;
+                a[j + h] = u - v;
             }
         }
     }
 }
 
-static void begin_field(void)
+/* Spectra of the errors of one integrand with 2^j samples, and with 3 2^j; keys that differ in the last j bits have equal
+   errors. */
+static double power[2][TABLES][KEYS];
+
+/* Adds the powers of the errors whose block means are in `blocks`: blocks[j][b] for the keys b 2^j .. (b + 1) 2^j - 1. */
+static void add_powers(uint32_t m, double blocks[TABLES][KEYS])
 {
-    memset(field, 0, sizeof field);
-    for (int p = 0; p < PIXELS; p++) {
-        spread(p, errors[p]);
+    static double e[KEYS];
+    for (uint32_t j = 0; j <= m; j++) {
+        const uint32_t n = 1u << (BLOCK_BITS + m - j);
+        for (int three = 0; three < (j + 2 <= m ? 2 : 1); three++) {
+            for (uint32_t b = 0; b < n; b++) {
+                e[b] = three ? (4 * blocks[j + 2][b >> 2] - blocks[j][b ^ 3]) / 3 : blocks[j][b];
+            }
+            walsh_hadamard(e, n);
+            for (uint32_t b = 0; b < n; b++) {
+                power[three][j][b] += e[b] * e[b];
+            }
+        }
     }
 }
 
-static double energy(void)
+static void add_scrambling(const integrand *f, uint32_t m, uint64_t seed)
 {
+    static double blocks[TABLES][KEYS];
+    const uint32_t keys = 1u << (BLOCK_BITS + m);
+    const koksma_keys sequence = {{koksma_seed_of(seed, 0), koksma_seed_of(seed, 1)}, koksma_seed_of(seed, 2), 0, 0};
+    for (uint32_t i = 0; i < keys; i++) {
+        double xy[2];
+        koksma_keys_2d(&sequence, i, xy);
+        blocks[0][i] = value(f, xy[0], xy[1]) - f->mean;
+    }
+    for (uint32_t j = 1; j <= m; j++) {
+        for (uint32_t b = 0; b < keys >> j; b++) {
+            blocks[j][b] = (blocks[j - 1][2 * b] + blocks[j - 1][2 * b + 1]) / 2;
+        }
+    }
+    add_powers(m, blocks);
+}
+
+static float g[KEYS];
+
+/* Weights: 1 for 2^m samples, 0.02 for each smaller power of two and for each three quarters of a power of two. */
+static void make_covariances(uint32_t m)
+{
+    memset(g, 0, sizeof g);
+    for (int t = 0; t < FUNCTIONS; t++) {
+        memset(power, 0, sizeof power);
+        for (uint64_t s = 0; s < SCRAMBLINGS; s++) {
+            add_scrambling(&functions[t], m, 1000 * (m + 1) + s);
+        }
+        for (uint32_t j = 0; j <= m; j++) {
+            for (int three = 0; three < (j + 2 <= m ? 2 : 1); three++) {
+                const double weight = three || j < m ? 0.02 : 1;
+                double *a = power[three][j];
+                walsh_hadamard(a, 1u << (BLOCK_BITS + m - j));
+                for (uint32_t d = 0; d < 1u << (BLOCK_BITS + m); d++) {
+                    g[d] += (float)(weight * a[d >> j] / a[0] / FUNCTIONS);
+                }
+            }
+        }
+    }
+}
+
+/* ---- Annealing --------------------------------------------------------------------------------------------- */
+
+enum { REACH = 7 };
+
+static float gauss[2 * REACH + 1][2 * REACH + 1];
+
+static void make_gauss(void)
+{
+    for (int v = -REACH; v <= REACH; v++) {
+        for (int u = -REACH; u <= REACH; u++) {
+            gauss[v + REACH][u + REACH] = u || v ? (float)exp(-(u * u + v * v) / (2 * 1.8 * 1.8)) : 0;
+        }
+    }
+}
+
+/* The terms of E of a pixel with a key and all other pixels but one. */
+static double pull(const uint16_t *keys, int p, uint32_t key, int except)
+{
+    const int x = p % SIZE, y = p / SIZE;
+    const int left = x > REACH ? x - REACH : 0, right = x + REACH < SIZE ? x + REACH : SIZE - 1;
+    const int top = y > REACH ? y - REACH : 0, bottom = y + REACH < SIZE ? y + REACH : SIZE - 1;
     double sum = 0;
-    for (int p = 0; p < PIXELS; p++) {
-        for (int t = 0; t < STEPS; t++) {
-            sum += (double)errors[p][t] * field[p][t];
+    for (int v = top; v <= bottom; v++) {
+        const float *weights = &gauss[v - y + REACH][left - x + REACH];
+        const uint16_t *row = keys + v * SIZE + left;
+        for (int u = 0; u <= right - left; u++) {
+            sum += (double)(weights[u] * g[row[u] ^ key]);
+        }
+    }
+    if (except >= 0) {
+        const int u = except % SIZE - x, v = except / SIZE - y;
+        if (abs(u) <= REACH && abs(v) <= REACH) {
+            sum -= (double)(gauss[v + REACH][u + REACH] * g[keys[except] ^ key]);
         }
     }
     return sum;
 }
 
-/* 2 d.(S + self d), d = to - from, S = field at p less that at q, in a fixed order of additions. */
-static double gain(const float *from, const float *to, const float *at_p, const float *at_q, float self)
+static double energy(const uint16_t *keys)
 {
-    float sums[LANES] = {0}, total = 0;
-    for (int t = 0; t < STEPS; t += LANES) {
-        for (int l = 0; l < LANES; l++) {
-            const float d = to[t + l] - from[t + l], s = at_q ? at_p[t + l] - at_q[t + l] : at_p[t + l];
-            sums[l] += d * (2 * s + self * d);
-        }
+    double sum = 0;
+    for (int p = 0; p < PIXELS; p++) {
+        sum += pull(keys, p, keys[p], -1) / PIXELS;
     }
-    for (int l = 0; l < LANES; l++) {
-        total += sums[l];
-    }
-    return total;
+    return sum;
 }
 
-static void exchange(float *a, float *b)
+static int accepted(double loss, double temperature)
 {
-    for (int t = 0; t < STEPS; t++) {
-        const float kept = a[t];
-        a[t] = b[t];
-        b[t] = kept;
+    return loss <= 0 || (loss < 20 * temperature && uniform() < exp(-loss / temperature));
+}
+
+/* Swaps the blocks of two pixels, which keep their ranking bits, or flips ranking bits of a pixel. */
+static void propose(uint16_t *keys, uint32_t m, double temperature)
+{
+    const uint32_t word = draw(), ranks = (1u << m) - 1;
+    const int p = (int)(word % PIXELS), q = (int)(word / PIXELS % PIXELS);
+    if (word >> 31 && m) {
+        const uint32_t key = keys[p] ^ (1u << (word >> 10) % m);
+        if (accepted(pull(keys, p, key, -1) - pull(keys, p, keys[p], -1), temperature)) {
+            keys[p] = (uint16_t)key;
+        }
+    } else if (p != q) {
+        const uint32_t flip = (keys[p] ^ keys[q]) & (word >> 30 & 1 ? ~ranks : ~0u);
+        const uint32_t at_p = keys[p] ^ flip, at_q = keys[q] ^ flip;
+        const double loss =
+            pull(keys, p, at_p, q) + pull(keys, q, at_q, p) - pull(keys, p, keys[p], q) - pull(keys, q, keys[q], p);
+        if (accepted(loss, temperature)) {
+            keys[p] = (uint16_t)at_p;
+            keys[q] = (uint16_t)at_q;
+        }
     }
 }
 
-static void difference(const float *a, const float *b, float *out)
+static double anneal(uint16_t *keys, uint32_t m, long proposals)
 {
-    for (int t = 0; t < STEPS; t++) {
-        out[t] = a[t] - b[t];
-    }
-}
-
-/* Swaps keys of two pixels (words), or takes the other half at one pixel (bits). The temperature falls from the mean of
-   the first losses by a factor of 2000. */
-static void anneal(uint32_t *words, unsigned char *bits, long proposals)
-{
-    double temperature = 0;
-    float change[STEPS];
-    begin_field();
-    const double before = energy();
-    for (long i = -1000; i < proposals; i++) {
-        const int p = (int)(draw() % PIXELS);
-        const int q = words ? (int)(draw() % PIXELS) : -1;
-        if (p == q) {
-            continue;
-        }
-        const double loss = words ? gain(errors[p], errors[q], field[p], field[q], 2 * (1 - weight(p, q)))
-                                  : gain(errors[p], others[p], field[p], NULL, 1);
-        if (i < 0) {
-            temperature += fabs(loss) / 1000 / 2;
-            continue;
-        }
-        const double now = temperature * pow(1.0 / 2000, (double)i / (double)proposals);
-        if (loss > 0 && (loss > 20 * now || uniform() >= exp(-loss / now))) {
-            continue;
-        }
-        float *instead = words ? errors[q] : others[p];
-        difference(instead, errors[p], change);
-        spread(p, change);
-        if (words) {
-            for (int t = 0; t < STEPS; t++) {
-                change[t] = -change[t];
-            }
-            spread(q, change);
-            const uint32_t kept = words[p];
-            words[p] = words[q];
-            words[q] = kept;
-        } else {
-            bits[p] ^= 1;
-        }
-        exchange(errors[p], instead);
-        if (i % (1 << 20) == 0) {
-            begin_field(); /* against the growth of rounding errors */
-        }
-    }
-    begin_field();
-    fprintf(stderr, "  energy %.4g to %.4g\n", before, energy());
-}
-
-/* ---- Tables ------------------------------------------------------------------------------------------------ */
-
-static void make_table(uint32_t target, long proposals, uint64_t *sequence, uint32_t *words)
-{
-    const koksma_domain domain = {0x6b657973u + target};
     for (uint32_t p = 0; p < PIXELS; p++) {
-        double xs[3];
-        koksma_sobol_3d(domain, p, xs);
-        words[p] = (uint32_t)(xs[0] * 256) | (uint32_t)(xs[1] * 256) << KOKSMA_KEYS_DIGITS |
-                   (uint32_t)(xs[2] * 256) << 2 * KOKSMA_KEYS_DIGITS;
-    }
-    *sequence = choose_sequence(words, target);
-    for (int p = 0; p < PIXELS; p++) {
-        const koksma_keys keys = keys_of(*sequence, words[p], target, (uint32_t)p);
-        errors_of(&keys, 0, target, errors[p]);
-    }
-    anneal(words, NULL, proposals);
-    uint32_t first[PIXELS] = {0};
-    for (uint32_t count = target / 2; count >= 1; count /= 2) {
-        unsigned char bits[PIXELS];
-        for (uint32_t p = 0; p < PIXELS; p++) {
-            const koksma_keys keys = keys_of(*sequence, words[p], target, p);
-            bits[p] = draw() & 1;
-            errors_of(&keys, first[p] + (bits[p] ? count : 0), count, errors[p]);
-            errors_of(&keys, first[p] + (bits[p] ? 0 : count), count, others[p]);
+        uint32_t z = 0;
+        for (uint32_t b = 0; b < BLOCK_BITS / 2; b++) {
+            z |= (p >> b & 1) << 2 * b | (p >> (BLOCK_BITS / 2 + b) & 1) << (2 * b + 1);
         }
-        anneal(NULL, bits, proposals / 4);
-        for (int p = 0; p < PIXELS; p++) {
-            first[p] += bits[p] ? count : 0;
-        }
+        keys[p] = (uint16_t)(z << m | (draw() & ((1u << m) - 1)));
     }
-    for (int p = 0; p < PIXELS; p++) {
-        words[p] |= first[p] << 3 * KOKSMA_KEYS_DIGITS;
+    for (long i = 0; i < proposals; i++) {
+        propose(keys, m, 0.1 * pow(0.005, (double)i / (double)proposals));
     }
+    return energy(keys);
 }
 
 int main(int argc, char **argv)
 {
-    static uint32_t words[TABLES][PIXELS];
-    uint64_t sequences[TABLES];
-    const long proposals = argc > 1 ? atol(argv[1]) : 6000000;
-    make_steps();
-    make_smooth();
-    for (int v = -REACH; v <= REACH; v++) {
-        for (int u = -REACH; u <= REACH; u++) {
-            gauss[v + REACH][u + REACH] = (float)exp(-(u * u + v * v) / (2 * 1.5 * 1.5));
+    static uint16_t keys[TABLES][PIXELS], tried[PIXELS];
+    const long proposals = argc > 1 ? atol(argv[1]) : 12000000;
+    make_functions();
+    make_gauss();
+    for (uint32_t m = 0; m < TABLES; m++) {
+        double least = HUGE_VAL;
+        make_covariances(m);
+        for (int start = 0; start < STARTS; start++) {
+            const double found = anneal(tried, m, proposals);
+            fprintf(stderr, "%u samples: energy %.4f\n", 1u << m, found);
+            if (found < least) {
+                least = found;
+                memcpy(keys[m], tried, sizeof tried);
+            }
         }
-    }
-    for (int table = 0; table < TABLES; table++) {
-        make_table(targets[table], proposals, &sequences[table], words[table]);
     }
     printf("/* SPDX-License-Identifier: Apache-2.0 */\n"
-           "/* The tables of koksma/keys.h, for 1, 4 and 16 samples a pixel: the sequence, then a word a pixel.\n"
-           "   Made by tools/make_keys.c. */\n");
-    for (int table = 0; table < TABLES; table++) {
-        printf("{%d", (int)sequences[table]);
+           "/* The keys of koksma/keys.h, for 1, 2, 4 ... 64 samples a pixel. Made by tools/make_keys.c. */\n");
+    for (int m = 0; m < TABLES; m++) {
         for (int p = 0; p < PIXELS; p++) {
-            printf("%s0x%x", p % 12 ? ", " : ",\n", words[table][p]);
+            printf("%s%d", p % 20 ? ", " : p ? ",\n" : "{", keys[m][p]);
         }
-        printf(table < TABLES - 1 ? "},\n" : "}\n");
+        printf(m < TABLES - 1 ? "},\n" : "}\n");
     }
     return 0;
 }

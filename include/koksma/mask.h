@@ -7,8 +7,8 @@
  *     koksma_mask_2d           gives each pixel a scrambled (0,2)-sequence that three void-and-cluster masks
  *                              select; a single mask can serve as a threshold image
  *     koksma_mask_void_and_cluster_3d   computes a void-and-cluster mask in space and time
- *     koksma_keys_2d           (koksma/keys.h) tables optimised for 1, 4 and 16 samples per pixel; with 1 sample
- *                              the points form a mask of two-component vectors
+ *     koksma_keys_2d           (koksma/keys.h) blocks of one sequence for 32 x 32 pixels, in an order optimised for
+ *                              1, 2, 4 ... 64 samples per pixel
  *     koksma_z_rank            (koksma/sampler.h) gives pixel (x, y) the samples rank * spp .. rank * spp + spp - 1
  *                              of one sequence (Ahmed & Wonka 2020)
  *

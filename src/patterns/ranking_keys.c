@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * ranking-keys: the points of all pixels of a square image, pixel after pixel. Each pixel has its own variant of one
- * Owen-scrambled (0,2)-sequence; ranking and scrambling keys, optimised so that the errors of neighbouring pixels
- * cancel, select the variant.
+ * ranking-keys: the points of all pixels of a square image, pixel after pixel. The pixels of a cell of 32 x 32 share one
+ * Owen-scrambled (0,2)-sequence; the key of a pixel, optimised so that the errors of neighbouring pixels cancel, selects
+ * its block of the sequence and the order in it.
  *
  *     point s of pixel (x, y), pair of dimensions k = koksma_keys_2d(koksma_keys_of(seed, x, y, k, spp), s)
  *
- * n = width^2 spp; koksma/keys.h documents how the keys are applied. For spp = 2^m the points of a pixel are a
- * (0,m,2)-net in base 2 in each pair of dimensions. Source: Heitz & others 2019; the random flips of the bits below
- * the strata, and the key that pairs strata, are new in this project.
+ * n = width^2 spp; koksma/keys.h documents how the keys are applied. The points of one pixel have the distribution of
+ * Owen-scrambled Sobol' points; for spp = 2^m they are a (0,m,2)-net in base 2 in each pair of dimensions. Sources:
+ * Heitz & others 2019 (ranking keys), Ahmed & Wonka 2020 (blocks of one sequence); the optimised permutation of the
+ * blocks is new in this project.
  */
 #include <koksma/keys.h>
 
@@ -29,7 +30,7 @@ static koksma_status fill_block(void *context, size_t block)
     const filling *f = context;
     const size_t end = (block + 1) * BLOCK < f->out->n ? (block + 1) * BLOCK : f->out->n;
     for (int k = 0; k < f->out->dim; k += 2) {
-        koksma_keys keys = {.rank = 0};
+        koksma_keys keys = {.key = 0};
         for (size_t i = block * BLOCK; i < end; i++) {
             const size_t pixel = i / f->spp, s = i % f->spp;
             double xy[2], *x = f->out->xs + i * (size_t)f->out->dim + (size_t)k;
@@ -64,11 +65,12 @@ static const koksma_param params[] = {
 
 const koksma_pattern koksma__pattern_ranking_keys = {
     .name = "ranking-keys",
-    .title = "one (0,2)-sequence, varied from pixel to pixel by keys that make errors blue",
-    .cite = "heitz2019keys laine2011 burley2020",
+    .title = "blocks of one (0,2)-sequence for each cell of pixels, in an order that makes errors blue",
+    .cite = "heitz2019keys ahmed2020 laine2011 burley2020",
     .min_dim = 1,
-    .max_dim = 2 * KOKSMA_KEYS_PAIRS,
+    .max_dim = 128,
     .claims = 0,
     .params = params,
+    .revision = 1,
     .generate = generate,
 };
