@@ -35,17 +35,31 @@ typedef struct interlacing {
     const koksma_args *args;
     koksma_points *out;
     int order;
+    uint64_t spread[256];
 } interlacing;
 
-/* Returns the number that interlaces the binary digits of `order` numbers y. */
-static double interlace(const double *y, int order)
+/* Stores for each byte its bits with `order` - 1 zeros between each two. */
+static void make_spread(int order, uint64_t spread[256])
 {
-    uint64_t words[MOST_ORDER], x = 0;
-    for (int r = 0; r < order; r++) {
-        words[r] = (uint64_t)(y[r] * 0x1p53);
+    for (int byte = 0; byte < 256; byte++) {
+        spread[byte] = 0;
+        for (int bit = 0; bit < 8; bit++) {
+            spread[byte] |= (uint64_t)(byte >> bit & 1) << (order * bit);
+        }
     }
-    for (int digit = 0; digit < DIGITS; digit++) {
-        x = x << 1 | (words[digit % order] >> (DIGITS - 1 - digit / order) & 1);
+}
+
+/* The number whose binary digits are those of `order` numbers y, taken in turn, byte by byte of each: digit j of byte k
+   of y_r is digit order (8 k + j) + r. */
+static double interlace(const double *y, int order, const uint64_t *spread)
+{
+    uint64_t x = 0;
+    for (int r = 0; r < order; r++) {
+        uint64_t word = (uint64_t)(y[r] * 0x1p53) << 11;
+        for (int shift = DIGITS - 1 - r - 7 * order; shift > -8 * order; shift -= 8 * order, word <<= 8) {
+            const uint64_t bits = spread[word >> 56];
+            x |= shift >= 0 ? bits << shift : bits >> -shift;
+        }
     }
     return (double)x * 0x1p-53;
 }
@@ -61,7 +75,7 @@ static koksma_status make_block(void *context, size_t block)
     KOKSMA__TRY(koksma_points_init(&base, count, j->out->dim * j->order));
     const koksma_status status = koksma__pattern_sobol.generate(j->seed, &args, &base);
     for (size_t i = 0; !status && i < count * (size_t)j->out->dim; i++) {
-        j->out->xs[first * (size_t)j->out->dim + i] = interlace(base.xs + i * (size_t)j->order, j->order);
+        j->out->xs[first * (size_t)j->out->dim + i] = interlace(base.xs + i * (size_t)j->order, j->order, j->spread);
     }
     koksma_points_fini(&base);
     return status;
@@ -69,11 +83,12 @@ static koksma_status make_block(void *context, size_t block)
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    interlacing j = {seed, args, out, (int)args->params[0]};
+    interlacing j = {seed, args, out, (int)args->params[0], {0}};
     KOKSMA__FAIL_IF(out->dim * j.order > KOKSMA__SOBOL_DIM, KOKSMA_DIM,
                     "interlaced-sobol: order=%d needs %d coordinates of Sobol' for each coordinate: dim can be at "
                     "most %d, not %d",
                     j.order, j.order, KOKSMA__SOBOL_DIM / j.order, out->dim);
+    make_spread(j.order, j.spread);
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, make_block, &j);
 }
 

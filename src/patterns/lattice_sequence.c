@@ -12,6 +12,8 @@
  * those of lattice-rank1. For 2^m points, m = 4 to 12, l2-wraparound is at most 1.4 times that of lattice-rank1 in 2
  * to 10 dimensions (tests/patterns/test_lattices.c).
  */
+#include <koksma/sampler.h>
+
 #include "core/status.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
@@ -26,11 +28,7 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
 {
     (void)context;
     for (size_t i = 0; i < count; i++) {
-        uint32_t mirrored = 0;
-        for (uint64_t rest = first + i, place = UINT32_C(1) << 31; rest; rest >>= 1, place >>= 1) {
-            mirrored |= rest & 1 ? (uint32_t)place : 0;
-        }
-        xs[i] = (double)(mirrored * z[k]) * 0x1p-32;
+        xs[i] = (double)(koksma_mirror((uint32_t)(first + i)) * z[k]) * 0x1p-32;
     }
 }
 

@@ -148,6 +148,12 @@ static void maximal_sets_keep_a_given_distance(void **state)
     koksma_points_fini(&p);
 }
 
+/* exp(2 pi i t) */
+static double complex wave(double t)
+{
+    return CMPLX(cos(2 * M_PI * t), sin(2 * M_PI * t));
+}
+
 /* n times the mean of |F - E F|^2 over frequencies |a|, |b| <= 3, F the mean of exp(2 pi i (a x + b y)) over the points
    and E F that over the density: 1 - |E F|^2 on average for independent points. */
 static double deviation(const koksma_points *p, const float *values)
@@ -157,13 +163,13 @@ static double deviation(const koksma_points *p, const float *values)
         for (int b = -3; b <= 3; b++) {
             double complex found = 0, wanted = 0;
             for (size_t i = 0; i < p->n; i++) {
-                found += cexp(2 * M_PI * I * (a * p->xs[2 * i] + b * p->xs[2 * i + 1])) / (double)p->n;
+                found += wave(a * p->xs[2 * i] + b * p->xs[2 * i + 1]) / (double)p->n;
             }
             for (int pixel = 0; pixel < SIDE * SIDE; pixel++) {
                 const double x = (pixel % SIDE + 0.5) / SIDE, y = ((double)(pixel / SIDE) + 0.5) / SIDE;
                 const double u = M_PI * a / SIDE, v = M_PI * b / SIDE;
                 const double box = (a ? sin(u) / u : 1) * (b ? sin(v) / v : 1);
-                wanted += (double)values[pixel] / sum_of(values) * box * cexp(2 * M_PI * I * (a * x + b * y));
+                wanted += (double)values[pixel] / sum_of(values) * box * wave(a * x + b * y);
             }
             sum += (double)p->n * pow(cabs(found - wanted), 2) / 48;
         }
