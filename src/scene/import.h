@@ -106,10 +106,6 @@ void koksma__import_radiance(koksma__import *im, double rgb[3]);
    2002). */
 void koksma__import_black_body(double kelvin, double rgb[3]);
 
-/* The colour of a spectrum of n pairs of wavelength in nm and value, which rise in wavelength: of a light if `emits`,
-   else of a surface, which is white where all values are 1. */
-void koksma__import_spectrum(const double *pairs, size_t n, bool emits, double rgb[3]);
-
 /* The reflectance along the normal of a metal with this name ("Au", "Cu", ...); false if the name is unknown. */
 bool koksma__import_metal(const char *name, double rgb[3]);
 

@@ -5,9 +5,9 @@
  * as XYZ becomes linear sRGB (IEC 61966-2-1). A reflectance is lit by D65 (CIE 15, table of 10 nm), and each channel
  * divided by that of the white surface; an emission is not, and has luminance 1 if the spectrum is 1 everywhere.
  */
-#include <math.h>
+#include "scene/import_spectra.h"
 
-#include "scene/import.h"
+#include <math.h>
 
 enum { FIRST = 360, LAST = 780, STEP = 5 };
 

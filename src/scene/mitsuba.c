@@ -18,6 +18,7 @@
 #include "render/fields.h"
 #include "render/lights/lights.h"
 #include "scene/import_shapes.h"
+#include "scene/import_spectra.h"
 #include "scene/xml.h"
 
 enum { MOST_NESTED = 16, MOST_SAMPLES = 1024 };

@@ -14,6 +14,7 @@
 #include "core/capacity.h"
 #include "meshes/mesh_loop.h"
 #include "scene/import_shapes.h"
+#include "scene/import_spectra.h"
 
 enum { MOST_DIVIDED = 1 << 21 }; /* triangles that a scene gets by subdivision */
 

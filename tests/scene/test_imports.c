@@ -4,6 +4,7 @@
  * picture: depths and normals of every pixel agree, and the mean light within its errors. Every kind of material, shape
  * and light of tables here loads, and what is likened says so with its line. Malformed and hostile texts are refused by
  * one line with the place.
+ * Long because both formats share the scenes and the table of texts.
  */
 #include <stdio.h>
 #include <unistd.h>
@@ -11,7 +12,7 @@
 #include <sys/stat.h>
 
 #include "rendering.h"
-#include "scene/import.h"
+#include "scene/import_spectra.h"
 
 static char folder[64];
 
