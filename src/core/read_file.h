@@ -28,7 +28,7 @@ koksma_status koksma__file_open(const char *path, koksma__file_kind kind, koksma
 void koksma__file_close(FILE *stream);
 
 /* Return the size limit of a kind in bytes, and the error for a longer file: MALFORMED. */
-uint64_t koksma__file_most(koksma__file_kind kind);
+KOKSMA__LAB uint64_t koksma__file_most(koksma__file_kind kind);
 koksma_status koksma__file_too_long(const char *name, koksma__file_kind kind);
 
 enum { KOKSMA__FILE_START = 512 };

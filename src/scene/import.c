@@ -221,6 +221,20 @@ bool koksma__import_metal(const char *name, double rgb[3])
 
 /* ---- Materials -------------------------------------------------------------------------------------------- */
 
+/* Turns an image upside down. */
+static void swap_rows(koksma_image *image)
+{
+    const size_t row = (size_t)image->width * (size_t)image->channels, height = (size_t)image->height;
+    for (size_t y = 0; y < height / 2; y++) {
+        float *a = image->pixels + y * row, *b = image->pixels + (height - 1 - y) * row;
+        for (size_t i = 0; i < row; i++) {
+            const float kept = a[i];
+            a[i] = b[i];
+            b[i] = kept;
+        }
+    }
+}
+
 static koksma_status read_image(koksma__import *im, koksma__text_place place, const char *path, koksma_image **out)
 {
     koksma_image *image = calloc(1, sizeof *image);
@@ -248,6 +262,9 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     m->checker = from->is_checker;
     m->period = from->period;
     KOKSMA__TRY(*from->image ? read_image(im, place, from->image, &m->image) : KOKSMA_OK);
+    if (m->image && im->rows_down) {
+        swap_rows(m->image);
+    }
     if (m->image) {
         koksma__material_mean(m);
     }

@@ -19,7 +19,7 @@ typedef struct koksma__text_place {
 typedef struct koksma__import {
     koksma_scene *scene;
     const char *path;                  /* path of the scene's own file */
-    bool rows_down;                    /* texture coordinate 0 is an image's upper edge */
+    bool rows_down;                    /* images lie upside down: texture coordinate 0 is their upper edge */
     bool smooths;                      /* meshes of files without normals get smooth ones */
     size_t n_files;                    /* number of texts that were read */
     char folders[8][KOKSMA__MAX_PATH]; /* where files are sought that are not beside the scene */

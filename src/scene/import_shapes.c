@@ -79,7 +79,7 @@ static koksma_status remember(koksma__import *im, const struct koksma__known_mes
     return KOKSMA_OK;
 }
 
-/* Inverts the second texture coordinate, so that rows of images go downwards. */
+/* Inverts the second texture coordinate. */
 static void turn_rows(koksma__mesh *mesh)
 {
     for (size_t i = 0; mesh->uvs && i < mesh->n_vertices; i++) {
@@ -87,12 +87,13 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
-/* Reads the mesh and changes what the other renderer takes differently: rows of images, and normals. */
+/* Reads the mesh and changes what the other renderer takes differently: Mitsuba turns the texture coordinates of OBJ upside
+   down, and makes normals. */
 static koksma_status read_mesh(const koksma__import *im, const struct koksma__known_mesh *which, koksma__mesh *mesh)
 {
     KOKSMA__TRY(koksma__mesh_read_part(which->path, KOKSMA__BY_FILE, which->part, mesh));
     const char *dot = strrchr(which->path, '.');
-    if (im->rows_down && dot && strcmp(dot, ".obj") != 0) {
+    if (im->rows_down && dot && !strcmp(dot, ".obj")) {
         turn_rows(mesh);
     }
     if (!which->with_normals) {
@@ -225,6 +226,22 @@ static koksma_status make_form(koksma__form form, koksma__mesh *out)
     return KOKSMA_OK;
 }
 
+/* Sets Mitsuba's texture coordinates of a basic shape, which are those of form_point but for these: angles of a sphere from
+   its +z, radius and angle of a disk, and each side of a cube as Mitsuba turns it. */
+static void set_mitsubas_uv(koksma__form form, const float p[3], const float n[3], float uv[2])
+{
+    const float x = p[0], y = p[1], z = p[2], angle = uv[0];
+    if (form == KOKSMA__FORM_SPHERE) {
+        uv[1] = 1 - uv[1];
+    } else if (form == KOKSMA__FORM_DISK) {
+        uv[0] = 1 - uv[1];
+        uv[1] = angle;
+    } else if (form == KOKSMA__FORM_CUBE) {
+        uv[0] = (1 + (n[0] != 0 ? y : n[1] != 0 ? n[1] > 0 ? -x : z : n[2] > 0 ? y : -y)) / 2;
+        uv[1] = (1 + (n[0] != 0 ? n[0] > 0 ? -z : z : n[1] > 0 ? -z : x)) / 2;
+    }
+}
+
 static koksma_status find_form(koksma__import *im, koksma__text_place place, koksma__form form, int *out)
 {
     koksma__mesh mesh = {0};
@@ -239,13 +256,8 @@ static koksma_status find_form(koksma__import *im, koksma__text_place place, kok
         koksma__mesh_fini(&mesh);
         return status;
     }
-    if (im->rows_down) {
-        turn_rows(&mesh);
-    }
-    for (size_t i = 0; im->rows_down && form == KOKSMA__FORM_DISK && i < mesh.n_vertices; i++) {
-        float *uv = mesh.uvs + 2 * i, angle = uv[0]; /* Mitsuba's are the radius and the angle */
-        uv[0] = uv[1];
-        uv[1] = 1 - angle;
+    for (size_t i = 0; im->rows_down && i < mesh.n_vertices; i++) {
+        set_mitsubas_uv(form, mesh.vertices + 3 * i, mesh.normals + 3 * i, mesh.uvs + 2 * i);
     }
     KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, out));
     return remember(im, &(struct koksma__known_mesh){NULL, -1, form, true, *out});

@@ -154,7 +154,8 @@ def gzipped(bench):
     done = bench.run("scene", "check", "b.ply.gz")
     bench.checks.check(done and done.code == 3 and f"b.ply.gz: it stands for more than {1 << 30} bytes".encode() in done.err,
                        f"a .ply.gz that stands for too much: {done and done.err}")
-    bench.checks.check(done and done.mib < 1024 + files.OTHER, f"a .ply.gz that stands for too much: {done and done.mib:.0f} MiB")
+    # while a block grows by half, the old one may still be there: sanitizers always copy
+    bench.checks.check(done and done.mib < 2 * 1024 + files.OTHER, f"a .ply.gz that stands for too much: {done and done.mib:.0f} MiB")
 
 
 def included(bench):

@@ -7,10 +7,12 @@ Exit code 77: Mitsuba is not installed. KOKSMA_MITSUBA_PICTURES: pictures of eac
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 try:
     import mitsuba as mi
@@ -106,6 +108,47 @@ class Agreement(unittest.TestCase):
         path = self.path("scene.xml")
         pathlib.Path(path).write_text(text, encoding="utf-8")
         self.agree(mi.load_file(path), path, **more)
+
+    def test_serialized_meshes(self):
+        """Two meshes of one file in both versions: a rectangle with normals and texture coordinates, under a checkerboard, and a
+        bare octahedron. It is flat: of smooth normals we lose what they reflect below the surface."""
+        corners = [(-1, 0, 0), (1, 0, 0), (1, 2, 0), (-1, 2, 0)]
+        texels = [(0, 0), (2, 0), (2, 1), (0, 1)]
+        tips = [(1, 0, 0), (-1, 0, 0), (0, 1.5, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+        sides = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+
+        def stream(version, flags, arrays, triangles):
+            single = flags & 0x1000
+            data = struct.pack("<I", flags) + (b"mesh\0" if version == 4 else b"")
+            data += struct.pack("<QQ", len(arrays[0]), len(triangles))
+            data += b"".join(struct.pack("<f" if single else "<d", x) for array in arrays for row in array for x in row)
+            data += b"".join(struct.pack("<3I", *triangle) for triangle in triangles)
+            return struct.pack("<HH", 0x041C, version) + zlib.compress(data)
+        for version in (3, 4):
+            first = stream(version, 0x1003, [corners, [(0, 0, 1)] * 4, texels], [(0, 1, 2), (0, 2, 3)])
+            second = stream(version, 0x2000, [tips], sides)
+            ends = struct.pack("<2I" if version == 3 else "<2Q", 0, len(first)) + struct.pack("<I", 2)
+            pathlib.Path(self.path("two.serialized")).write_bytes(first + second + ends)
+            named = '<string name="filename" value="two.serialized"/>'
+            checks = f'<texture type="checkerboard" name="reflectance">{rgb("color0", "0.7, 0.3, 0.2")}{rgb("color1", 0.2)}</texture>'
+            self.of_text(scene(
+                f'<shape type="serialized">{named}<transform name="to_world">{move(z=-1)}</transform>'
+                f'<bsdf type="twosided"><bsdf type="diffuse">{checks}</bsdf></bsdf></shape>'
+                f'<shape type="serialized">{named}<integer name="shape_index" value="1"/>'
+                f'<boolean name="face_normals" value="true"/><transform name="to_world">'
+                f'<scale value="0.5"/>{move(y=.8)}</transform>{diffuse("0.5, 0.6, 0.7")}</shape>'
+                f'<emitter type="constant">{rgb("radiance", 0.6)}</emitter>', depth=3), depth=1)
+
+    def test_checkerboards(self):
+        """Texture coordinates of a cube's six sides and of a rectangle: the phase of their squares."""
+        checks = (f'<bsdf type="twosided"><bsdf type="diffuse"><texture type="checkerboard" name="reflectance">'
+                  f'{rgb("color0", "0.8, 0.4, 0.1")}{rgb("color1", 0.1)}<transform name="to_uv"><scale x="1.5" y="1.5"/></transform>'
+                  '</texture></bsdf></bsdf>')
+        for angle in (35, 215):
+            self.of_text(scene(
+                f'<shape type="cube"><transform name="to_world"><scale value="0.6"/>{turn("y", angle)}{turn("x", angle)}{move(y=1)}'
+                f'</transform>{checks}</shape>' + rectangle(checks, '<scale value="1.5"/>', move(y=1, z=-1.5))
+                + f'<emitter type="constant">{rgb("radiance", 0.6)}</emitter>', depth=2), depth=0)
 
     def test_mitsubas_cornell_box(self):
         """Its light has a white surface, which reflects 1 % of the picture."""

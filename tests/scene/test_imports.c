@@ -4,6 +4,7 @@
  * picture: depths and normals of every pixel agree, and the mean light within its errors. Every kind of material, shape
  * and light of tables here loads, and what is likened says so with its line. Malformed and hostile texts are refused by
  * one line with the place.
+ * Long because both formats share the scenes and the table of texts.
  */
 #include <stdio.h>
 #include <unistd.h>
@@ -385,6 +386,35 @@ static void spectra_have_their_colours(void **state)
     assert_near(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 1, 1e-3);
 }
 
+/* Mitsuba's texture coordinates, as its ray_intersect gives them: of a sphere the angle about z and that from +z, of a disk the
+   radius and the angle, as fractions. */
+static void round_shapes_have_mitsubas_coordinates(void **state)
+{
+    static const char *const shapes[] = {"sphere", "disk"};
+    (void)state;
+    for (int i = 0; i < 2 && reads_xml() && koksma_mesh_tracer(); i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><emitter type=\"constant\"/><shape type=\"%s\">"
+            "<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"checkerboard\"/></bsdf></shape></scene>",
+            shapes[i]);
+        koksma_scene *scene = opened("uv.xml", text);
+        assert_int_equal(scene->n_meshes, 1);
+        const koksma__mesh *m = &scene->meshes[0];
+        for (size_t v = 0; v < m->n_vertices; v++) {
+            const double x = (double)m->vertices[3 * v], y = (double)m->vertices[3 * v + 1];
+            const double z = (double)m->vertices[3 * v + 2], u0 = (double)m->uvs[2 * v],
+                         v0 = (double)m->uvs[2 * v + 1];
+            const double radius = hypot(x, y), angle = i ? v0 : u0;
+            assert_near(x, radius * cos(2 * M_PI * angle), 1e-6);
+            assert_near(y, radius * sin(2 * M_PI * angle), 1e-6);
+            assert_near(i ? u0 : cos(M_PI * v0), i ? radius : z, 1e-6);
+        }
+        koksma_scene_close(scene);
+    }
+}
+
 /* ---- What is known, and what is said of the rest ----------------------------------------------------------------- */
 
 #define PBRT "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" Film \"rgb\" " SIZE " WorldBegin\n"
@@ -666,6 +696,7 @@ int main(void)
         cmocka_unit_test(spots_light_a_circle),
         cmocka_unit_test(the_screen_window_sets_the_angle),
         cmocka_unit_test(alpha_zero_hides_a_shape_but_not_its_light),
+        cmocka_unit_test(round_shapes_have_mitsubas_coordinates),
         cmocka_unit_test(spectra_have_their_colours),
         cmocka_unit_test(a_luminous_room_is_a_geometric_series),
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
