@@ -193,7 +193,7 @@ class Site:
             f"<!DOCTYPE html>\n<html lang='en' data-up='{up}'><head><meta charset='utf-8'><title>{html.escape(title)}{': ' if kind else ''}{kind} - Koksma</title>"
             f"<meta name='viewport' content='width=device-width, initial-scale=1'><link rel='stylesheet' href='{up}style.css'></head><body>\n"
             f"<header><nav aria-label='Parts of the site'>{links}</nav><form id='search' role='search' hidden><input type='search' "
-            f"aria-label='Search all pages' placeholder='Search' autocomplete='off'><ul id='found' aria-live='polite' hidden></ul></form></header>\n"
+            f"aria-label='Search all pages' placeholder='Search ( / )' autocomplete='off'><ul id='found' aria-live='polite' hidden></ul></form></header>\n"
             f"<main><h1>{html.escape(title)}</h1><p>{what}</p>\n{contents(headings)}{body}\n"
             f"<footer>Made by <code>make docs</code> from the tables, the source, the documents and the program.</footer></main>"
             f"<script src='{up}search.js'></script></body></html>\n", encoding="utf-8")

@@ -50,6 +50,24 @@ const contrasts = () => {
     const at = decodeURI(page.url()).replace(`file://${site}/`, "");
     if (!at.startsWith(wanted)) problems.push(`the search for "${query}" leads to ${at}, not ${wanted}`);
   }
+  // The key / goes to the search from anywhere; one wrong letter is answered with the word, which Enter then searches for. A
+  // name with a space for its hyphen is the name.
+  for (const [query, wanted] of [["sobl", "sobol"], ["jitterd", "jittered"]]) {
+    await page.goto("file://" + path.join(site, "index.html"));
+    await page.keyboard.press("/");
+    await page.keyboard.type(query);
+    await page.waitForSelector("#found li");
+    if (!(await page.locator("#found").textContent()).includes(`did you mean ${wanted}?`)) problems.push(`the search for ${query} does not suggest ${wanted}`);
+    else {
+      await page.keyboard.press("Enter");
+      if (await page.locator("#search input").inputValue() !== wanted || !await page.locator("#found a").count()) problems.push(`the suggestion ${wanted} is not searched for`);
+    }
+  }
+  await page.goto("file://" + path.join(site, "index.html"));
+  await page.keyboard.press("/");
+  await page.keyboard.type("min distance");
+  await page.waitForSelector("#found a");
+  if (!(await page.locator("#found a").first().getAttribute("href")).endsWith("measures/min-distance.html")) problems.push("the search for min distance does not begin with its page");
   // The pictures of a scene are side by side: two in a row of 400 px, all five in one of 1280. A scene whose files are in a
   // Debian package that is not installed has that as the reason in place of each picture.
   await page.goto("file://" + path.join(site, "gallery/index.html"));

@@ -179,6 +179,35 @@ static void an_interruption_stops_every_thread(void **state)
     koksma_scene_close(scene);
 }
 
+static bool count_looks(void *context, double fraction)
+{
+    (void)fraction;
+    ++*(size_t *)context;
+    return true;
+}
+
+/* A pattern may take long for each of its sets without asking keep_going, and the sets of a row are drawn together. The
+   renderer asks between sets: here, where it would else ask once for the image, 8 times or more. */
+static void keep_going_is_asked_between_sets(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image;
+    size_t looks = 0;
+    const koksma_run run = {.threads = 1, .keep_going = count_looks, .context = &looks};
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&options, scene);
+    options.width = 64;
+    options.height = 2;
+    options.spp = 1;
+    assert_ok(koksma_pattern_spec("progressive-elimination:length=4", &options.pattern));
+    assert_ok(koksma_render(scene, &options, &run, &image));
+    assert_true(looks >= 8);
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+}
+
 static void errors_are_said(void **state)
 {
     (void)state;
@@ -229,6 +258,7 @@ int main(void)
         cmocka_unit_test(light_is_its_form_factor),
         cmocka_unit_test(shadows_take_light),
         cmocka_unit_test(an_interruption_stops_every_thread),
+        cmocka_unit_test(keep_going_is_asked_between_sets),
         cmocka_unit_test(errors_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -34,7 +34,8 @@
       if (!here) return 0;
       sum += here;
     }
-    const name = `${title} ${heading}`, whole = (heading || title).toLowerCase() === query.join(" ").toLowerCase();
+    const name = `${title} ${heading}`, letters = text => text.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, " ").trim();
+    const whole = letters(heading || title) === letters(query.join(" ")); // "min distance" is min-distance
     return sum + (heading ? 0 : 0.5) + (words.every(word => word.test(name)) ? 10 : 0) + (whole ? 20 : 0);
   }
 
@@ -53,12 +54,38 @@
     return part;
   }
 
+  // Whether one letter put in, left out or replaced, or two swapped, makes the name of the word.
+  function near(word, name) {
+    let from = 0, a = word.length, b = name.length;
+    if (Math.abs(a - b) > 1) return false;
+    while (from < a && word[from] === name[from]) from++;
+    while (a > from && b > from && word[a - 1] === name[b - 1]) { a--; b--; }
+    return a - from <= 1 && b - from <= 1 || a - from === 2 && b - from === 2 && word[from] === name[from + 1] && word[from + 1] === name[from];
+  }
+
+  // The query with the nearest word of a title for each that is in no page, or null.
+  function meant(query) {
+    const names = [...new Set(sections.flatMap(([, title, heading]) => `${title} ${heading}`.toLowerCase().split(/[^\p{L}\p{N}_-]+/u)))];
+    const nearest = query.map(word => sections.some(([, title, heading, text]) => begins(word).test(`${title} ${heading} ${text}`)) ? word
+      : names.find(name => name.length > 2 && near(word.toLowerCase(), name)));
+    return nearest.every(Boolean) && nearest.join(" ") !== query.join(" ") ? nearest.join(" ") : null;
+  }
+
+  function suggest(query) {
+    const other = meant(query);
+    say(`Nothing has ${query.join(" ")}${other ? "; did you mean " : "."}`);
+    if (!other) return;
+    const button = Object.assign(document.createElement("button"), { type: "button", textContent: other });
+    button.onclick = () => { input.value = other; input.focus(); show(); };
+    list.firstChild.append(button, "?");
+  }
+
   function show() {
     const query = input.value.trim().split(/\s+/).filter(Boolean), words = query.map(begins);
     list.hidden = !words.length;
     if (!words.length) return;
     const found = sections.map(section => [score(section, words, query), section]).filter(([points]) => points > 0).sort((a, b) => b[0] - a[0]);
-    if (!found.length) return void say(`Nothing has ${query.join(" ")}.`);
+    if (!found.length) return void suggest(query);
     list.replaceChildren(...found.slice(0, 12).map(([, [address, title, heading, text]]) => {
       const item = document.createElement("li"), link = document.createElement("a");
       link.href = up + address;
@@ -72,18 +99,24 @@
   input.addEventListener("input", () => { load(); show(); });
   document.getElementById("search").addEventListener("submit", event => {
     event.preventDefault();
-    list.querySelector("a")?.click();
+    list.querySelector("a, button")?.click();
   });
   document.getElementById("search").addEventListener("keydown", event => {
     if (event.key === "Escape") {
       list.hidden = true;
       input.focus();
     }
-    const links = [...list.querySelectorAll("a")], at = links.indexOf(document.activeElement);
+    const links = [...list.querySelectorAll("a, button")], at = links.indexOf(document.activeElement);
     const next = { ArrowDown: at + 1, ArrowUp: at - 1 }[event.key];
     if (next === undefined || list.hidden) return;
     (links[next] || input).focus();
     event.preventDefault();
+  });
+  document.addEventListener("keydown", event => { // from anywhere on the page
+    if (event.key !== "/" || event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, textarea, select")) return;
+    event.preventDefault();
+    input.focus();
+    input.select();
   });
   document.addEventListener("click", event => { if (!event.target.closest("#search")) list.hidden = true; });
   document.querySelector("#search").hidden = false;

@@ -14,6 +14,7 @@
 
 #include "api/generate.h"
 #include "core/modifiers.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -59,6 +60,19 @@ static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, 
     return koksma_generate(spec, seed, run, &points);
 }
 
+enum { SETS_A_LOOK = 16 };
+
+/* generate for a pixel. Asks keep_going between sets: a set of a slow pattern takes ten milliseconds without asking,
+   and the sets of all pixels that are drawn together would take minutes. */
+static koksma_status generate_next(const koksma_spec *spec, uint64_t seed, size_t n, int dim,
+                                   koksma__sample_scratch *room, double *xs)
+{
+    if (++room->sets % SETS_A_LOOK == 0 && !koksma__keep_going(room->run, 0)) {
+        return koksma__fail_interrupted();
+    }
+    return generate(spec, seed, n, dim, room->run, xs);
+}
+
 /* Expands numbers to pairs (x, 0) in place, from the last one on. */
 static void widen(double *xs, size_t n)
 {
@@ -98,8 +112,8 @@ static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pi
     if (*kept != key) {
         *kept = 0;
         const koksma_status status =
-            generate(&options->groups[place->group].pattern, koksma__random_seed(options->seed, pixel, set_key), n,
-                     place->dim, room->run, set);
+            generate_next(&options->groups[place->group].pattern, koksma__random_seed(options->seed, pixel, set_key),
+                          n, place->dim, room, set);
         if (status) {
             return status;
         }
@@ -121,8 +135,8 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
     if (samples->places[u].group >= 0) {
         status = take_from_group(sampler, pixel, use, room);
     } else {
-        status = generate(koksma__use_spec(options, use), koksma__random_seed(options->seed, pixel, use), n, dims,
-                          room->run, room->xs);
+        status = generate_next(koksma__use_spec(options, use), koksma__random_seed(options->seed, pixel, use), n,
+                               dims, room, room->xs);
         if (!status && dims == 1) {
             widen(room->xs, n);
         }
@@ -242,8 +256,8 @@ static koksma_status draw_native(const koksma__sampler *sampler, uint64_t pixel,
     if (room->kept_keys[slot] != pixel + 1) {
         room->kept_keys[slot] = 0;
         const koksma_status status =
-            generate(&samples->options->pattern, koksma__random_seed(samples->options->seed, pixel, 0), n,
-                     sampler->kept_dim, room->run, set);
+            generate_next(&samples->options->pattern, koksma__random_seed(samples->options->seed, pixel, 0), n,
+                          sampler->kept_dim, room, set);
         if (status) {
             return status;
         }

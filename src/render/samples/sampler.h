@@ -32,6 +32,7 @@ typedef struct koksma__sample_scratch {
     double *kept;
     uint64_t *kept_keys;   /* the key of the set in each slot; 0: none */
     const koksma_run *run; /* the run of the sampler, or one that is never cancelled */
+    size_t sets;           /* how many sets were made one by one */
 } koksma__sample_scratch;
 
 typedef struct koksma__sampler {
