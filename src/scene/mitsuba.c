@@ -310,7 +310,7 @@ typedef struct bsdf_kind {
     int kind;           /* kind of the replacement; -1: light passes through */
     const char *colour; /* name of the BSDF's parameter for the diffuse albedo or the reflectance */
     double otherwise, alpha;
-    const char *instead; /* NULL, or the replacement's name in a warning */
+    const char *instead; /* the replacement's name in a warning, or NULL for no warning */
 } bsdf_kind;
 
 static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5, 0, NULL},

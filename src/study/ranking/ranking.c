@@ -8,7 +8,7 @@
  *        best of all is decided;
  *     3. the first contest again, until every pair of patterns is decided.
  * A time limit may end the ranking at any point; the rows then report what is known. Every decision is a function of
- * the options alone (ranking_contest.c describes the treatment of patterns too slow for the time limit,
+ * the options only (ranking_contest.c describes the treatment of patterns too slow for the time limit,
  * ranking_decisions.c the statistics): the speed of the machine affects how many decisions are taken, never their
  * outcome.
  *
