@@ -19,9 +19,9 @@
 
 /* ---- Readers -------------------------------------------------------------------------------- */
 
-/* The reader for an ending of a file's name. The hash of a model's scene is the sum of the hashes of its files, with
-   the model's own hash counted `times` times: stored studies find their scenes by this hash, and earlier versions
-   read the file that many times. */
+/* A reader, and the ending of the file names for which it is used. The hash of a model's scene is the sum of the
+   hashes of its files, with the model's own hash counted `times` times: stored studies find their scenes by this
+   hash, and earlier versions read the file that many times. */
 typedef struct reader {
     const char *ending;
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);

@@ -4,7 +4,7 @@
  * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
  * shape first refers to it. Media, volumes, motion and .serialized meshes are not read; integrators and samplers
  * are ignored, because the program's own options choose them.
- * The file is long so that all of Mitsuba's names are in one place.
+ * The file is long because all of Mitsuba's names are in one place.
  */
 #include "scene/mitsuba.h"
 
