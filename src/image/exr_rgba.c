@@ -69,7 +69,7 @@ static bool is_channel_list(const unsigned char *value, size_t size)
 
 /* Whether a value's stated size is that of its type. For these types the C++ library reads the type's size and
    ignores the stated one, so that it would look for the next attribute at another place than a reader that uses the
-   stated sizes. For all other types it uses the stated size. */
+   stated sizes. For all other types the C++ library uses the stated size. */
 static bool value_fits(const char *type, const unsigned char *value, size_t size)
 {
     static const struct {

@@ -23,7 +23,7 @@ typedef struct graph {
     koksma__gltf *g;
     field lights;
     size_t n_lights;
-    double (*matrices)[12]; /* world matrices of the nodes shown */
+    double (*matrices)[12]; /* world matrices of the nodes that are shown */
     bool *shown;            /* whether the node is in the scene */
 } graph;
 

@@ -72,7 +72,7 @@ typedef struct koksma__mesh_file {
     long part;     /* the index of the only mesh to read, for formats with several numbered meshes; -1: all */
     uint64_t hash; /* sum of the hashes of all files read, each as many times as stored studies count it */
     koksma__list meshes, materials, placements, lights;
-    size_t n_vertices, n_triangles; /* totals of all meshes */
+    size_t n_vertices, n_triangles; /* numbers of vertices and of triangles in all meshes together */
     double yfov_rad, camera[12];    /* the camera; yfov_rad 0: there is none */
     koksma__unread unread;
     koksma__list owned; /* blocks of memory that hold textures' bytes */
@@ -118,8 +118,8 @@ void koksma__fan_finish(koksma__list *indices, koksma__mesh *mesh);
 bool koksma__is_file(const char *path);
 
 /* Finds the file beside the model that a model names: by the exact name, or with %20 and other escapes decoded (names
-   in glTF are URIs: RFC 3986, section 2.1), or with \ replaced by / (OBJ files from Windows). Returns false if there
-   is no such file. */
+   in glTF are URIs, see RFC 3986, section 2.1), or with \ replaced by / (OBJ files from Windows). Returns false if
+   there is no such file. */
 bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MAX_PATH]);
 
 #endif

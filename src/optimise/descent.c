@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * L-BFGS (Nocedal 1980; Nocedal & Wright 2006, algorithm 7.4) with a backtracking line search. For functions on the
- * torus, coordinates are reduced modulo 1 after each step; for other functions each is projected to its interval,
+ * L-BFGS (Nocedal 1980, and Nocedal & Wright 2006, algorithm 7.4) with a backtracking line search. For functions on
+ * the torus, coordinates are reduced modulo 1 after each step; for other functions each is projected to its interval,
  * which is [0,1] or has length 1/n.
  *
  * Half of the descents start from the best set, with some points replaced by random ones or all moved a little; the

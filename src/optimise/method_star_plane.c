@@ -14,8 +14,8 @@
  * any start by raising X or lowering Y where a constraint is violated, one node after the other (Bellman & Ford with
  * a queue). A violated cycle is found by following the causes of changes; it becomes satisfiable at the F for which
  * the product of its terms (count - F) equals the product of its terms (count + F): F is raised to this value, and
- * the search for violations goes on. When no constraint is violated, F is the least value for the permutation p, and
- * the cycle to which F was raised last is called critical.
+ * the search for violations continues. When no constraint is violated, F is the least value for the permutation p,
+ * and the cycle to which F was raised last is called critical.
  *
  * A walk starts from the permutation of the points (i, {i a + s}), where a has small partial quotients and s is
  * random, or, in a share of the searches (width_of), from the best set. The least F that a walk has met is its

@@ -2,7 +2,7 @@
 /*
  * Pictures of subdivided squares, as in figures 5.35 and 5.36 of Shirley 1991: boxes filled with the greys of their
  * values, dots at the samples, and over these the splits: a black mark where a split was needless, a circle where it
- * was needed. Circles are drawn last, so that a needed split inside a needless one stays visible.
+ * was needed. Circles are drawn last, so that a needed split inside a needless one remains visible.
  */
 #include <math.h>
 
@@ -15,7 +15,7 @@ static const koksma__colour line = {0.2, 0.35, 0.75, 1}, dot = {0.85, 0.25, 0.1,
 
 enum { MARGIN = 6, CAPTION = 18 };
 
-/* The darkest grey of a sample's value, so that black marks stay visible on it. */
+/* The darkest grey of a sample's value; black marks remain visible on it. */
 #define MARKED_GREY 0.45
 
 typedef struct square {

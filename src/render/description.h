@@ -65,9 +65,9 @@ typedef struct koksma__material {
     char name[64];
     const struct koksma__bsdf *bsdf;
     bool checker;
-    double albedo[2][3]; /* of the diffuse part */
+    double albedo[2][3]; /* albedo of the diffuse part */
     double period, phase[2], angle_rad;
-    double values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
+    double values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
     /* the albedo as an image over the surface's coordinates, instead of `albedo`; or NULL */
     koksma_image *image;
     koksma__mapping mapping; /* how image is mapped to a mesh */
@@ -100,10 +100,10 @@ typedef struct koksma__light {
     const struct koksma__light_kind *kind;
     double centre[3], axis_u[3], axis_v[3], normal[3];
     double half[2]; /* half the lengths of the sides; half[0] is the radius of a disk or sphere */
-    double power;   /* for rectangles and disks */
+    double power;   /* set for rectangles and disks */
     /* for a point light the intensity, for parallel light the irradiance of a surface that faces the light */
     double radiance[3];
-    double values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
+    double values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
     bool visible;                      /* camera rays see the light; a flat light or sphere then also has a shape */
     double angle_rad;                  /* rotation of the environment's image about y */
     int placement;                     /* of a mesh */

@@ -318,8 +318,9 @@ void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, siz
     pthread_mutex_unlock(&film->lock);
 }
 
-/* Divides the sums by the weights. After an interruption some tasks are missing: a pixel that was not rendered then
-   has only small contributions from the tails of its neighbours' filters, and is set to 0. */
+/* Divides each pixel's weighted sums by the sum of its weights. After an interruption some tasks are missing: a pixel
+   that was not rendered then has only small contributions from the tails of its neighbours' filters, and is set to
+   0. */
 static void finish_splats(const koksma__frame *frame, koksma__film *film, bool whole, float *weights)
 {
     const size_t pixels = (size_t)frame->options->width * (size_t)frame->options->height;

@@ -52,7 +52,7 @@ double koksma_filter_leakage(const koksma_filter *filter)
 {
     KOKSMA__REQUIRE_OR(NAN, filter);
     const sums s = integrate(filter, 0);
-    /* the integral of f^2 over both halves of the line divided by the square of that of f: 2 square / (2 f)^2 */
+    /* integral f^2 / (integral f)^2, where both halves of the line count: 2 square / (2 f)^2 */
     const double all = s.square / (2 * s.f * s.f);
     double passed = 0;
     for (int i = 0; i < BANDS; i++) {

@@ -89,7 +89,7 @@ typedef struct koksma__pipeline {
                            koksma__values *values);
 } koksma__pipeline;
 
-/* Computes all data that the pixels share; koksma__frame_close must be called, also after a failure. Errors:
+/* Computes all data that the pixels share; the caller must call koksma__frame_close even after a failure. Errors:
    ARGUMENT, the pattern's, MEMORY, INTERRUPTED. */
 koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_options *options,
                                  const koksma_run *run, koksma__frame *out);
@@ -127,8 +127,8 @@ typedef struct koksma__task_scratch {
     koksma__values values;
 } koksma__task_scratch;
 
-/* Allocates for groups of `capacity` samples; all_layers: with albedo, normal and depth. The caller must call fini
-   even after a failure. Errors: MEMORY. */
+/* Allocates memory for groups of `capacity` samples; if all_layers, also for albedo, normal and depth. The caller
+   must call fini even after a failure. Errors: MEMORY. */
 koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
                                         bool all_layers, koksma__task_scratch *scratch);
 void koksma__task_scratch_fini(koksma__task_scratch *scratch);

@@ -6,12 +6,12 @@
  *
  *     L(o, d) = T(end) L(end)   +   integral of T(s) b (integral of p(d, w) L(o + s d, w) dw) ds
  *
- * One of the two terms is sampled. A colour channel is chosen with probability proportional to the path's weights
- * beta, and a distance s with the density (a + b) T(s) of that channel. If s is beyond the end of the ray, the light
- * comes from that end, otherwise from the medium at s. The weight is divided by the mean of the channels' densities,
- * weighted by the same probabilities (the balance heuristic), so that every channel is unbiased, whichever was
- * chosen, and the sum of the weights beta never grows. If all channels have equal coefficients, the weights are
- * exactly b / (a + b) and 1. A medium that only absorbs needs no sample.
+ * Each path samples one of the two terms on the right. A colour channel is chosen with probability proportional to
+ * the path's weights beta, and a distance s with the density (a + b) T(s) of that channel. If s is beyond the end of
+ * the ray, the light comes from that end, otherwise from the medium at s. The weight is divided by the mean of the
+ * channels' densities, weighted by the same probabilities (the balance heuristic), so that every channel is unbiased,
+ * whichever was chosen, and the sum of the weights beta never grows. If all channels have equal coefficients, the
+ * weights are exactly b / (a + b) and 1. A medium that only absorbs needs no sample.
  *
  * The phase function of Henyey & Greenstein (1941), with the mean cosine g between the directions before and after, is
  *

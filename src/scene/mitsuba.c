@@ -4,7 +4,7 @@
  * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
  * shape first refers to it. Media, volumes and motion are not read; integrators and samplers
  * are ignored, because the program's own options choose them.
- * The file is long so that all of Mitsuba's names are in one place.
+ * The file is long because all of Mitsuba's names are in one place.
  */
 #include "scene/mitsuba.h"
 
@@ -314,7 +314,7 @@ typedef struct bsdf_kind {
     int kind;           /* kind of the replacement; -1: light passes through */
     const char *colour; /* name of the BSDF's parameter for the diffuse albedo or the reflectance */
     double otherwise, alpha;
-    const char *instead; /* NULL, or the replacement's name in a warning */
+    const char *instead; /* the replacement's name in a warning, or NULL for no warning */
 } bsdf_kind;
 
 static const bsdf_kind kinds[] = {{"diffuse", KOKSMA__MATTE, "reflectance", 0.5, 0, NULL},

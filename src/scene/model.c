@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Completes a scene that consists of a mesh file alone. The scene gets an image size; a camera if the file has none;
- * and, if no mesh emits light and the file has no other lights, a studio: a key light, a dim sky and, if the camera
- * was added, a ground. Also replaces the sky of any scene by the user's.
+ * Completes a scene that consists of nothing but a mesh file. The scene gets an image size; a camera if the file has
+ * none; and, if no mesh emits light and the file has no other lights, a studio: a key light, a dim sky and, if the
+ * camera was added, a ground. Also replaces the sky of any scene by the user's.
  */
 #include "scene/model.h"
 #include "render/lights/lights.h"

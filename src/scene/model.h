@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Makes a scene from a mesh file alone. */
+/* Makes a scene from nothing but a mesh file. */
 #ifndef KOKSMA_SCENE_MODEL_H
 #define KOKSMA_SCENE_MODEL_H
 
@@ -11,7 +11,7 @@
 koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_scene *scene);
 
 /* Reads everything in a file into the empty scene: meshes where its nodes place them, materials, cameras, lights.
-   Members for which the file has no data stay empty. *has_camera: whether position, axes and angle of scene->camera
+   Members for which the file has no data remain empty. *has_camera: whether position, axes and angle of scene->camera
    are set. Errors: those of koksma__mesh_read. Defined in model_build.c. */
 koksma_status koksma__model_read(const char *path, koksma__named by, koksma_scene *scene, bool *has_camera);
 

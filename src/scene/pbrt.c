@@ -5,7 +5,7 @@
  * pbrt_values.c converts parameters to colours, materials and meshes. Motion and curves are not read; the only medium
  * read is a homogeneous one that contains the camera. Directives that do not describe the scene (Sampler, Integrator,
  * ...) are ignored, because the program's own options choose them.
- * The file is long so that all of pbrt's directives are in one place.
+ * The file is long because all of pbrt's directives are in one place.
  */
 #include "scene/pbrt.h"
 

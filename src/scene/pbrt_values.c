@@ -269,7 +269,7 @@ typedef struct material_kind {
     int kind;            /* kind of the replacement; -1: light passes through */
     const char *colour;  /* name of the parameter for the diffuse albedo */
     const char *prefix;  /* prefix of the names of a metal's parameters and roughness */
-    const char *instead; /* NULL, or the replacement's name in a warning */
+    const char *instead; /* the replacement's name in a warning, or NULL for no warning */
 } material_kind;
 
 static const material_kind kinds[] = {

@@ -305,8 +305,7 @@ static void what_is_not_read_is_said(void **state)
     expect(plain, NULL, ", \"COLOR_0\": 2", 1, 0, 0, "");
     unlink("texture.pfm");
     expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0, \"metallicRoughnessTexture\": {\"index\": 0}}", NULL,
-           NULL, 1, 1, 1,
-           "material 0 loses its texture of metal and roughness: texture.pfm: there is no such file");
+           NULL, 1, 1, 1, "material 0 loses its texture of metal and roughness: texture.pfm: there is no such file");
     expect(TEXTURED("[1, 1, 1, 1]", "") ", \"normalTexture\": {\"index\": 0}", NULL, NULL, 1, 1, 1,
            "material 0 loses its texture of normals: texture.pfm: there is no such file");
 }

@@ -162,8 +162,8 @@ static void indices_beyond_vertices_are_refused(void **state)
                 const char *largest = w == 0 ? "255" : w == 1 ? "65535" : "4294967295";
                 snprintf(
                     reason, sizeof reason,
-                    "meshes[0].primitives[%d]: indices: number %d of accessor %d is vertex %s; accessor 0 has 4 ", w,
-                    i / 2, w + 2, i % 2 ? largest : "4");
+                    "meshes[0].primitives[%d]: indices: number %d of accessor %d is vertex %s, but accessor 0 has 4 ",
+                    w, i / 2, w + 2, i % 2 ? largest : "4");
                 put_model((container)how, bytes, BYTES, "", "");
                 expect_refusal((container)how, "index", reason);
             }

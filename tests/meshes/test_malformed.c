@@ -149,7 +149,7 @@ static const struct {
     {"a.off", "OFF\nthree one\n", "line 2: no numbers"},
     {"a.off", "FOO\n", "line 1: the file does not begin with 'OFF'"},
     {"a.off", "OFF\n# a comment\n\n1 1 0\n0 0 zero\n", "line 5: a vertex is three numbers"},
-    {"a.off", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n", "line 4: a face is"},
+    {"a.off", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n", "line 4: a face must be"},
     {"a.off", "OFF\n1 1 0\n0 0 0\nthree\n", "line 4: a face is"},
 };
 

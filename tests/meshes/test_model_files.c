@@ -135,7 +135,7 @@ static void what_render_would_refuse_is_refused_at_once(void **state)
                                    "\"materials\": [], \"shapes\":\n[{\"kind\": \"mesh\", \"file\": \"bad.obj\","
                                    "\"emission\": 1, \"scale\": 1e-6, \"translate\": [1000, 1000, 0]}]}");
         assert_int_equal(koksma_scene_open("./refused.json", &scene), KOKSMA_MALFORMED);
-        assert_non_null(strstr(koksma_error_text(), "line 2: shapes[0]: a luminous mesh has no area"));
+        assert_non_null(strstr(koksma_error_text(), "line 2: shapes[0]: a mesh that emits light has no area"));
         unlink("bad.obj");
     }
     unlink("refused.json");

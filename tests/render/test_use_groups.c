@@ -451,7 +451,7 @@ static void groups_that_cannot_be_are_refused(void **state)
     adaptive.budget = 128;
     bad = options_for("random;pixel+time=zaremba", N);
     assert_int_equal(koksma_render_adaptive(scene, &bad, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
-    assert_non_null(strstr(koksma_error_text(), "every set of pattern zaremba is the same; with shift=1"));
+    assert_non_null(strstr(koksma_error_text(), "all sets of pattern zaremba are the same; with shift=1"));
     koksma_scene_close(scene);
 }
 

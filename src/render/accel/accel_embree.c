@@ -338,7 +338,7 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
             packet.mask[i] = ~0u;                                                                                    \
             packet.id[i] = packet.flags[i] = 0;                                                                      \
             packet.time[i] = e->moves ? hits->time[start + i] : 0;                                                   \
-            /* the ray goes from its origin off the triangle to its original end */                                  \
+            /* the ray begins at the origin that was moved off the triangle, and ends where it ended before */       \
             packet.dir_x[i] = shadows->dx[start + i] + (hits->px[start + i] - s->x[start + i]);                      \
             packet.dir_y[i] = shadows->dy[start + i] + (hits->py[start + i] - s->y[start + i]);                      \
             packet.dir_z[i] = shadows->dz[start + i] + (hits->pz[start + i] - s->z[start + i]);                      \
@@ -632,7 +632,7 @@ static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGe
     return check(e);
 }
 
-/* Builds the tree of mesh m alone, for its instances. */
+/* Builds a separate tree of mesh m for its instances. */
 static koksma_status make_shared(embree *e, part *p, size_t m)
 {
     RTCGeometry g = NULL;

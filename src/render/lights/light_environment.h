@@ -67,8 +67,8 @@ KOKSMA__INLINE koksma__v3 koksma__environment_texel_radiance(const koksma__envir
                         e->radiance[2] * (b > 0 ? b : 0)};
 }
 
-/* Makes the tables for the light's image, if it has one; call close also after a failure. Errors: MALFORMED (a pixel
-   is infinite or NaN), MEMORY. */
+/* Makes the tables for the light's image, if it has one; the caller must call close even after a failure. Errors:
+   MALFORMED (a pixel is infinite or NaN), MEMORY. */
 koksma_status koksma__environment_open(const koksma__light *light, koksma__environment **out);
 void koksma__environment_close(koksma__environment *environment);
 

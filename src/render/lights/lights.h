@@ -21,7 +21,7 @@ typedef struct koksma__shading_light {
     bool visible;
     float centre[3], axis_u[3], axis_v[3], normal[3], half[2];
     float radiance[3];
-    float values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
+    float values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
     float area;
     float reach; /* largest distance of a point of the light from its centre */
     /* for choosing among lights: luminous power divided by pi^2, or, for a light far away, irradiance divided by
@@ -37,7 +37,7 @@ enum { KOKSMA__FALLOFF_SQUARE, KOKSMA__FALLOFF_SMOOTH, KOKSMA__FALLOFF_ANGLE };
 /* A sample of the light that arrives at a point. */
 typedef struct koksma__beam {
     float d[3];     /* from the point to the position on the light, which is at t = 1 */
-    float w[3];     /* the same direction, of length 1 */
+    float w[3];     /* direction from the point to the light, of length 1 */
     float value[3]; /* radiance over pdf, before the cosine and the material are applied */
     float pdf;      /* of w, or 0 */
 } koksma__beam;
@@ -79,10 +79,10 @@ typedef struct koksma__light_kind {
     /* The density with which sample() chooses the direction w (of length 1) from p; w hits the light at distance t,
        where the light's normal is n (unused for lights far away). NULL: 0 everywhere. */
     float (*pdf)(const koksma__shading_light *light, const float p[3], const float w[3], float t, const float n[3]);
-    /* NULL, or for a mesh: its emission at (u, v) of a triangle; returns the density over area of sampling that
+    /* NULL, or, for a mesh, sets its emission at (u, v) of a triangle; returns the density over area of sampling that
        position. */
     float (*met)(const koksma__shading_light *light, uint32_t triangle, const float uv[2], float radiance[3]);
-    /* NULL, or for an environment: its radiance along w. */
+    /* NULL, or, for an environment, computes its radiance along w. */
     void (*radiance)(const koksma__shading_light *light, const float w[3], float out[3]);
     /* NULL, or converts a light that rays do not see for lambert_lanes.c. */
     void (*lanes)(const koksma__light *from, koksma__batch_light *out);
@@ -99,12 +99,13 @@ typedef struct koksma__lights {
     size_t n;
     koksma__shading_light *lights;
     float *cdf;                      /* cumulative powers, n + 1 numbers */
-    koksma__batch_lights *estimates; /* for choosing lights by position */
+    koksma__batch_lights *estimates; /* data for choosing lights by position */
     koksma__batch_light *rectangles; /* for lambert_lanes.c; set only if the kinds of all lights have lanes() */
     size_t first_around;             /* index of the first environment, or n */
 } koksma__lights;
 
-/* Prepares the lights of a scene for sampling; call fini also after a failure. Errors: those of open(). */
+/* Prepares the lights of a scene for sampling; the caller must call fini even after a failure. Errors: those of
+   open(). */
 koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out);
 void koksma__lights_fini(koksma__lights *lights);
 

@@ -17,7 +17,8 @@
 #include "render/materials/facets.h"
 #include "render/materials/lobes.h"
 
-/* F0 has three numbers. prepare() sets all of them; images can change them and the roughness. */
+/* The reflectance F0 at normal incidence has three numbers (red, green, blue). prepare() sets these derived numbers;
+   images can change them and the roughness. */
 enum { F0, ROUGHNESS = 3, METALLIC, IOR };
 
 static float specular(const koksma__shading_material *m)

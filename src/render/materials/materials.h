@@ -35,7 +35,7 @@ typedef enum koksma__material_form {
 typedef struct koksma__shading_material {
     const struct koksma__bsdf *bsdf;
     float albedo[2][3];
-    float values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
+    float values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
     float derived;                    /* numbers that prepare() computes from the values */
     const koksma_image *image;        /* the image of the albedo, or NULL */
     const koksma__material *from;     /* the description of this material, which has the images */
@@ -56,7 +56,7 @@ typedef struct koksma__surface {
     const koksma__shading_material *material;
     float p[3], n[3]; /* n points to the side from which the surface is seen */
     float out[3];
-    float albedo[3]; /* of the diffuse part, at this point */
+    float albedo[3]; /* albedo of the diffuse part at this point */
     /* the numbers that the kind's texture() computed for this point; NULL if the material has no texture or the kind
        no texture() */
     const float *local;
@@ -93,8 +93,7 @@ typedef struct koksma__bsdf {
     /* NULL, or computes local[0] to [KOKSMA__LOCAL - 1] at a point from the albedo there and from an image's factors
        of roughness and metallic value, and sets albedo to that of the diffuse part. */
     void (*texture)(const koksma__shading_material *material, const float factors[2], float albedo[3], float *local);
-    /* NULL, or for integrators that follow both directions of glass: gives both, weighted by Fresnel's
-       reflectance. */
+    /* NULL, or gives both directions of glass, weighted by Fresnel's reflectance, to integrators that follow both. */
     void (*split)(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted);
 } koksma__bsdf;
 

@@ -52,7 +52,7 @@ static void put(koksma__v3 v, int i, koksma__lanes *to)
 
 #define AT(a, i) ((koksma__v3){(a)[0][i], (a)[1][i], (a)[2][i]})
 
-/* Returns the emitter of lane i: `one` if all lanes share it, else the one of the lane. */
+/* Returns the emitter of lane i, which is `one` if all lanes share it. */
 INLINE emitter pick(const emitter *one, const emitters *restrict each, int i)
 {
     return one ? *one : (emitter){AT(each->centre, i),   AT(each->u, i), AT(each->v, i), AT(each->normal, i),

@@ -10,7 +10,7 @@
 
 typedef float koksma__lanes[KOKSMA__BLOCK];
 
-enum { KOKSMA__UNLIT = -1 }; /* stands for a material in lanes whose ray hit nothing or a light */
+enum { KOKSMA__UNLIT = -1 }; /* the form of a lane whose ray hit nothing or a light, in place of a material's form */
 
 /* The trait bits of a material: 1 << form, its lobes << KOKSMA__LOBES_AT, and the flags below. */
 enum {

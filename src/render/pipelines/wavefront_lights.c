@@ -2,10 +2,10 @@
 /*
  * Samples direct light for a block of vertices: a position on each light, or on one chosen light, and a shadow ray to
  * it. With KOKSMA_LIGHTS_ONE a light is chosen with a probability proportional to its estimated light without shadows
- * (Shirley 1991, section 5.4; Shirley, Wang & Zimmerman 1996), so that one shadow ray per vertex suffices for many
- * lights; the sampled light is divided by the probability. Other options choose uniformly or in proportion to the
- * power of the lights. The flags of the integrator determine the weight of light that a ray along a followed lobe can
- * also find.
+ * (Shirley 1991, section 5.4, and Shirley, Wang & Zimmerman 1996), so that one shadow ray per vertex suffices for
+ * many lights; the sampled light is divided by the probability. Other options choose uniformly or in proportion to
+ * the power of the lights. The flags of the integrator determine the weight of light that a ray along a followed lobe
+ * can also find.
  */
 #include <string.h>
 

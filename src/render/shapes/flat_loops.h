@@ -13,7 +13,7 @@
 #include "render/pipelines/batch_kernel.h"
 #include "render/shapes/shapes.h"
 
-/* 1 where (u, v) is on the shape, else 0. */
+/* The bounds: 1 where (u, v) is on the shape, 0 elsewhere. */
 typedef int koksma__within(const koksma__batch_shape *s, float u, float v);
 
 INLINE void koksma__flat_hit(const koksma__batch_shape *shape, const koksma__rays *restrict r,

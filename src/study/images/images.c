@@ -37,7 +37,7 @@ typedef struct pictures {
     size_t n;
     picture *at;
     koksma_image reference;
-    const koksma_metric_spec *metric; /* metric of the errors; NULL: the mean absolute error */
+    const koksma_metric_spec *metric; /* metric of the errors, or NULL for the mean absolute error */
 } pictures;
 
 static int compare_pictures(const void *a, const void *b)

@@ -9,7 +9,7 @@
 typedef struct koksma__images {
     const char *places, *reference_path;
     const koksma_image *reference;
-    const koksma_metric_spec *metric; /* metric of the errors; NULL: the mean absolute error */
+    const koksma_metric_spec *metric; /* metric of the errors, or NULL for the mean absolute error */
     const koksma_images_row *rows;    /* sorted by group, then by spp */
     const char *const *first;         /* path of the first image of each row */
     size_t n;

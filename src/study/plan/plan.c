@@ -39,8 +39,8 @@ const char *koksma__plan_shipped(const char *name, size_t *size)
 
 /* ---- Fields that discrepancy blocks and image blocks share ----------------------------------------------- */
 
-/* Sets *out to a block's number of trials: the run's number if it gives one, else the block's `quick` in a quick
-   run, else the block's `trials`. */
+/* Sets *out to a block's number of trials: the run's number if the run gives one; otherwise the block's `quick` in a
+   quick run, and the block's `trials` in other runs. */
 static koksma_status parse_trials(const koksma__json_node *node, const koksma__plan_trials *given, long long *out)
 {
     long long quick = 0;

@@ -19,7 +19,7 @@ typedef struct koksma__wholes {
 
 /* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make. */
 typedef struct koksma__left_out {
-    bool *is;            /* a flag for each pattern and size, true if left out; NULL: no size is left out */
+    bool *is;            /* a flag for each pattern and size, true if left out, or NULL if no size is left out */
     koksma__texts lines; /* a message for each pattern, with its sizes and the reason */
 } koksma__left_out;
 
@@ -78,11 +78,12 @@ typedef struct koksma__table_row {
 
 /* A note on why a published cell differs from the computed one. */
 typedef struct koksma__note {
-    char *pattern; /* pattern of the cell that differs; NULL: all rows of the column */
+    char *pattern; /* pattern of the cell that differs, or NULL for all rows of the column */
     long long n;   /* in a table over several n: the n of the cell's column, or 0 for all columns */
-    int statistic; /* which statistic: 0 mean, 1 SD, 2 max */
+    int statistic; /* the statistic that differs: 0 mean, 1 SD, 2 maximum */
     char *reason;
-    bool explained; /* true: `reason` explains the difference; false: it lists what was tried */
+    /* whether `reason` explains the difference; otherwise it lists the explanations that were tried */
+    bool explained;
 } koksma__note;
 
 typedef struct koksma__table {
@@ -92,7 +93,7 @@ typedef struct koksma__table {
     char *measure, *also; /* measures of a discrepancy table; `also` is shown beside the first, NULL: none */
     koksma__wholes n;     /* numbers of points; with several, each is a column (discrepancy tables only) */
     long long dim;        /* dimension, in a discrepancy table */
-    /* the scene was fitted to the printed numbers, so that agreement with them confirms nothing */
+    /* whether the scene was fitted to the printed numbers, so that agreement with them confirms nothing */
     bool fitted;
     size_t images; /* in an image table: index of the image block that makes all its rows */
     size_t n_rows, n_notes;
@@ -112,7 +113,7 @@ typedef struct koksma__figure {
     long long strata[2];  /* the pixel whose strata are shown; -1: none */
     koksma__texts spaces; /* names of the sample spaces whose strata are shown; if empty, all of them */
     double exposure;      /* in a figure of a scene: factor on the image's values */
-    bool cells;           /* draw the grid cells, or rows and columns, of the pattern */
+    bool cells;           /* whether to draw the grid cells, or the rows and columns, of the pattern */
     bool lines, dual;     /* lines: show random lines; dual: show each as its point (slope, intercept) */
 } koksma__figure;
 
@@ -157,14 +158,14 @@ typedef struct koksma__plan_part {
     /* order: the overall order of the patterns as the paper prints it; either text may be NULL */
     char *about, *order;
     bool asks;               /* whether the part has tables or questions */
-    size_t discrepancies[2]; /* indices of the part's blocks: the first, and one past the last */
+    size_t discrepancies[2]; /* indices of the part's blocks: the index of the first, and 1 + the index of the last */
     size_t images[2];
     size_t figures[2];
 } koksma__plan_part;
 
 typedef struct koksma__plan {
     char *name, *title, *about;
-    char *order; /* order of the patterns: set while the plan is parsed, then moved to its part */
+    char *order; /* order of the patterns, which is set while the plan is parsed and then moved to its part */
     size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions;
     koksma__plan_part *parts;
     koksma__question *questions;

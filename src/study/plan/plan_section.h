@@ -11,7 +11,7 @@ typedef koksma_status (*koksma__spec_parser)(const char *text, char out[KOKSMA_M
 typedef koksma_status (*koksma__item_parser)(const koksma__json_node *node, const koksma__plan_trials *trials,
                                              void *item);
 
-/* Copies the text of the member `key`; *out stays NULL when the member is absent and not needed. */
+/* Copies the text of the member `key`; *out remains NULL if the member is missing and not needed. */
 koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out);
 
 /* Copies the member "id": letters, digits, '.', '-' and '_', because reports use it in links. */

@@ -8,7 +8,7 @@
  *        best of all is decided;
  *     3. the first contest again, until every pair of patterns is decided.
  * A time limit may end the ranking at any point; the rows then report what is known. Every decision is a function of
- * the options alone (ranking_contest.c describes the treatment of patterns too slow for the time limit,
+ * the options only (ranking_contest.c describes the treatment of patterns too slow for the time limit,
  * ranking_decisions.c the statistics): the speed of the machine affects how many decisions are taken, never their
  * outcome.
  *
@@ -41,7 +41,7 @@ typedef struct ranking {
 /* ---- Checks at other sizes ------------------------------------------------------------------------------ */
 
 /* The pattern that is checked at other sizes: the advised pattern, or the leader if every pattern's error is
-   coherent. NOBODY: not decided yet. */
+   coherent. NOBODY if that is not decided yet. */
 static size_t checked(const koksma__contest *c)
 {
     bool all_coherent = true;
@@ -87,8 +87,8 @@ static size_t first_patterns(const koksma__contest *c, size_t best, bool advised
     return n;
 }
 
-/* Stores the best patterns that may be advised, followed by those of the best patterns of all that are not among
-   them; returns their number. *leader: the index in `patterns` of the pattern with the least error. */
+/* Stores in `patterns` the best patterns that may be advised, then the best patterns of all, without repeating any;
+   returns their number. *leader: the index in `patterns` of the pattern with the least error. */
 static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHECKED], size_t *leader)
 {
     size_t all[CHECKED];

@@ -15,8 +15,8 @@
 
 typedef struct koksma__contestant {
     size_t pattern;        /* index into the options' patterns */
-    atomic_bool late;      /* postponed: its first round took more than its share of the time */
-    atomic_bool refused;   /* the pattern cannot be ranked; `reason` says why */
+    atomic_bool late;      /* postponed: whether its first round took more than its share of the time */
+    atomic_bool refused;   /* whether the pattern cannot be ranked, for the reason in `reason` */
     atomic_ullong busy_ns; /* thread time spent on its trials */
     size_t refused_trial;  /* the first trial that failed */
     char reason[KOKSMA_RANK_REASON];

@@ -30,7 +30,8 @@ typedef struct koksma__rank_errors {
        1 */
     double mean, variance;
     double without[KOKSMA__RANK_REPLICATES]; /* mean errors against the reference without replicate r */
-    double robust, top_share;                /* means of these koksma_metric_value fields; no decision uses them */
+    /* means of the fields of koksma_metric_value with these names; no decision uses them */
+    double robust, top_share;
 } koksma__rank_errors;
 
 typedef enum koksma__rank_verdict {
@@ -71,7 +72,7 @@ typedef struct koksma__rank_pair {
 } koksma__rank_pair;
 
 typedef struct koksma__rank_entrant {
-    bool out;      /* the pattern cannot be ranked; its pairs stay undecided */
+    bool out;      /* whether the pattern cannot be ranked, so that its pairs remain undecided */
     bool aside;    /* postponed for now */
     bool coherent; /* the pattern's error is coherent, so that the pattern is not recommended; known after round 0 */
     int n_rounds;  /* number of complete rounds */
@@ -117,7 +118,7 @@ bool koksma__rank_reached(const koksma__rank_table *table, koksma__rank_goal goa
    `present`, postponed patterns do not count either. */
 bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present);
 
-/* Whether pattern i, the best at the size asked for, is confirmed by this table of another size. best: the best
+/* Whether pattern i, the best at the requested size, is confirmed by this table of another size. best: the best
    pattern of this table; NOBODY: undecided. */
 koksma_rank_check_state koksma__rank_check_best(const koksma__rank_table *table, size_t i, size_t best);
 

@@ -125,7 +125,7 @@ void koksma__doc_table_end(koksma__document *d);
 /* ---- Charts ------------------------------------------------------------------------------------------------ */
 
 typedef struct koksma__chart {
-    const char *title, *x_title, *y_title; /* title: also the chart's text alternative */
+    const char *title, *x_title, *y_title; /* title: the title, which is also the chart's text alternative */
     bool log_x, log_y;
     /* which y is better: -1 smaller, 1 larger, 0 neither. A page that cannot draw all lines begins with the best */
     int better;

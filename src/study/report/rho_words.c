@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Writes which measures predict the image error over all cases. Every statement is checked on the ranking over all
- * scenes and on those without one scene (koksma__rho_always_...). A statement that fails without some scene is not
- * made, and the text says that it depends on that scene.
+ * scenes and on those without one scene (koksma__rho_always_...). A statement that fails when some scene is left out
+ * is not made; the text then says that the result depends on that scene.
  */
 #include "study/report/rho_words.h"
 #include "stats/bootstrap.h"

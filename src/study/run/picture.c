@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The renders of a study. A picture's pattern and variant become options of the renderer; variants.c calls the
-   renderer, also for adaptive methods. A picture's seed is the hash of a text that names everything the picture
+   renderer, for adaptive methods, too. A picture's seed is the hash of a text that names everything the picture
    depends on, so that a job has the same random numbers in every run, on any thread, and in any plan. */
 #include "study/run/picture.h"
 

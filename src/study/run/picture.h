@@ -16,7 +16,7 @@ typedef struct koksma__study_scene {
     koksma_scene *scene;
     char hash[24];
     int width, height;
-    koksma_rank_renderer render; /* another renderer, or NULL */
+    koksma_rank_renderer render; /* a function that calls another renderer, or NULL for this library's */
     void *render_context;
 } koksma__study_scene;
 

@@ -162,8 +162,8 @@ static koksma_status size_of_file(koksma__sheet *sheet, koksma__sheet_sampler *s
     return status;
 }
 
-/* Finds seeds and numbers of sets of a sampler whose points are in files; for samplers[0], also the sheet's
-   sizes. */
+/* Finds seeds and numbers of sets of a sampler whose points are in files; for samplers[0] it finds the sheet's sizes,
+   too. */
 static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *sampler)
 {
     koksma__file_set *sets = NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An SQLite file, independent of studies: database.c alone includes SQLite. The caller must let only one thread
-   at a time call these functions. Errors of those that return a status: IO (the file can't be written, or another
-   run holds it), MALFORMED (it is not a database, or is damaged), MEMORY. */
+/* An SQLite file, independent of studies; only database.c includes SQLite. The caller must let only one thread at a
+   time call these functions. Errors of those that return a status: IO (the file can't be written, or another run
+   holds it), MALFORMED (it is not a database, or is damaged), MEMORY. */
 #ifndef KOKSMA_STUDY_STORE_DATABASE_H
 #define KOKSMA_STUDY_STORE_DATABASE_H
 
@@ -66,7 +66,7 @@ void koksma__bind_number(koksma__statement *statement, int *column, double value
 koksma_status koksma__statement_run(koksma__database *database, koksma__statement *statement);
 
 /* Steps to the next row and returns whether there is one; its columns can be read until the next call. Does
-   nothing unless *status is OK. Reset the statement after the last row that is wanted. */
+   nothing unless *status is OK. Resets the statement after the last row that the caller needs. */
 bool koksma__next_row(koksma__database *database, koksma__statement *statement, koksma_status *status);
 void koksma__statement_reset(koksma__statement *statement);
 

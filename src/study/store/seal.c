@@ -29,7 +29,7 @@ static uint64_t fold(uint64_t h, uint64_t x)
 
 static uint64_t fold_number(uint64_t h, double number)
 {
-    uint64_t bits = 0x7ff8000000000000u; /* the bits that stand for NULL */
+    uint64_t bits = 0x7ff8000000000000u; /* the bits that represent NULL */
     if (!isnan(number)) {
         memcpy(&bits, &number, sizeof bits);
     }

@@ -127,7 +127,7 @@ static long long end_of(const koksma__store *store, long long series)
     return series >= 0 && (size_t)series < store->n_known ? store->known[series].end : 0;
 }
 
-/* The results that each_result looks for: those of a series with trials below `end`. */
+/* The results that each_result is to find: those of a series with trials below `end`. */
 typedef struct wanted {
     long long series, end;
     const koksma__series *key;
@@ -200,8 +200,8 @@ static koksma_status each_in_memory(const koksma__store *store, const wanted *w,
 /* Looking up one row by its id takes as long as reading about this many rows in sequence. */
 static const long long ROWS_A_LOOKUP = 8;
 
-/* Calls `visit` for the results in the order of trials; looks trials up one by one, or filters all rows where that is
-   faster. */
+/* Calls `visit` for the results in the order of trials. Trials are looked up one by one, or filtered from all rows if
+   that is faster. */
 static koksma_status each_result(koksma__store *store, const wanted *w)
 {
     if (w->end <= 0) {

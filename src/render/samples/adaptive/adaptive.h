@@ -17,7 +17,7 @@ typedef struct koksma__sample_demand {
     uint32_t now;   /* samples in the next round; 0: the pixel is done */
     uint32_t later; /* number of samples that the last round will need because of these samples */
     float score;    /* priority of the pixel; under a budget the highest scores are selected first */
-    bool selected;  /* true: the next round draws samples of this pixel */
+    bool selected;  /* whether the next round draws samples of this pixel */
 } koksma__sample_demand;
 
 typedef struct koksma__adaptive koksma__adaptive;
@@ -48,9 +48,9 @@ typedef struct koksma__adaptive_method {
     /* Determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
        bytes. */
     void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
-    /* NULL, or called between rounds: may examine the whole image and change demands */
+    /* NULL, or a function that is called between rounds and may examine the whole image and change demands */
     void (*plan)(koksma__adaptive *run);
-    /* NULL, or called when no pixel is selected any more: sets demands for one last round */
+    /* NULL, or a function that is called when no pixel is selected any more and sets demands for one last round */
     void (*last)(koksma__adaptive *run);
     /* NULL, or returns the number of probes for the splits of a selected pixel; in a round of probes, draw and
        take process the probes. */

@@ -88,8 +88,8 @@ static int partner(const koksma__strata *s, const koksma__use_cells *use, uint64
     return renewed || last ? order[k] ^ (int)koksma__below(r.w[1], 4) : order[k ^ b] ^ c;
 }
 
-/* Descends from the root to a stratum in the base use, and also in `use` unless it is NULL. last: the stratum is
-   one of the last stage. */
+/* Descends from the root to a stratum in the base use, and also in `use` unless it is NULL. last: whether the stratum
+   belongs to the last stage. */
 static void walk(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
                  const koksma__stratum *stratum, bool last, spot *at_base, spot *at_use)
 {

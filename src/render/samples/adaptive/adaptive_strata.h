@@ -10,11 +10,12 @@
  * random permutation p for each pixel and use ("uncorrelated jitter"). The cells of a one-dimensional use are m^2
  * intervals of a line with shuffled pairing, and the columns of the square with aligned pairing.
  *
- * Aligned pairing leaves most of the product of the spaces unsampled: for example, samples in the left of the pixel
- * never see the right of a light. The parameter `phase` can correct this. With phase=fixed the other uses are not
- * moved. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s uniform; the mean of
- * each pixel is then right, but neighbouring strata across the seam differ. With phase=folded the coordinates of all
- * uses but the pixel are mapped by x -> |2 frac(x + s) - 1|, s uniform in [0,1), which has no seam.
+ * Aligned pairing samples only a small part of the product of the uses' unit squares: for example, samples in the
+ * left of the pixel never see the right of a light. The parameter `phase` can correct this. With phase=fixed the
+ * other uses are not moved. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s
+ * uniform; the mean of each pixel is then right, but neighbouring strata across the seam differ. With phase=folded
+ * the coordinates of all uses but the pixel are mapped by x -> |2 frac(x + s) - 1|, s uniform in [0,1), which has no
+ * seam.
  *
  * The parameter `reuse` decides which samples the parts of a split stratum get. With reuse=kept the old sample stays
  * in the part that contains it, and the other parts get new samples. With reuse=renewed all four parts get new
