@@ -18,7 +18,7 @@
 #include "render/fields.h"
 #include "render/lights/lights.h"
 #include "scene/import_shapes.h"
-#include "scene/spectrum.h"
+#include "scene/import_spectrum.h"
 #include "scene/xml.h"
 
 enum { MOST_NESTED = 16 };

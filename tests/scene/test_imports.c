@@ -13,7 +13,7 @@
 
 #include "rendering.h"
 #include "scene/import.h"
-#include "scene/spectrum.h"
+#include "scene/import_spectrum.h"
 
 static char folder[64];
 

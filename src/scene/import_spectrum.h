@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sampled spectra of other renderers' scenes as linear red, green and blue. */
-#ifndef KOKSMA_SCENE_SPECTRUM_H
-#define KOKSMA_SCENE_SPECTRUM_H
+#ifndef KOKSMA_SCENE_IMPORT_SPECTRUM_H
+#define KOKSMA_SCENE_IMPORT_SPECTRUM_H
 
 #include <stdbool.h>
 #include <stddef.h>

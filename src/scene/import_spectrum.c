@@ -7,7 +7,7 @@
  * of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances in daylight, emission
  * as it is, so that an even emission is reddish.
  */
-#include "scene/spectrum.h"
+#include "scene/import_spectrum.h"
 
 #include <math.h>
 #include <string.h>
