@@ -252,7 +252,7 @@ static void edge_keeps_its_limits(void **state)
     koksma_points p = test_points("random", 1025, 3, 1), small = test_points("random", 40, 3, 1);
     assert_ok(koksma_measure_spec("edge", &edge));
     assert_int_equal(koksma_evaluate(&edge, &p, NULL, &v), KOKSMA_N);
-    assert_string_equal(koksma_error_text(), "edge: n = 1025: up to 1024 points in 3D; l2-edge takes more");
+    assert_string_equal(koksma_error_text(), "edge: n = 1025: it takes up to 1024 points in 3D; l2-edge takes more");
     koksma_points_fini(&p);
     assert_ok(koksma_evaluate(&edge, &small, &(koksma_run){.threads = 1}, &one));
     for (int threads = 2; threads <= 8; threads += 3) {

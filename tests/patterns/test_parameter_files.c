@@ -257,7 +257,7 @@ static void bad_files_are_refused(void **state)
         {"net-file", "# dnet\n2\n2\n3\n3\n4 2 1\n8 2 1\n", "digits", KOKSMA_MALFORMED},
         {"net-file", "# dnet\n2\n2\n100\n3\n4 2 1\n4 2 1\n", "power", KOKSMA_MALFORMED},
         {"net-file", "# dnet\n2\n2\n3\n3\n4 2 x\n4 2 1\n", "'x'", KOKSMA_MALFORMED},
-        {"net-file", "# plattice\n4\n2\n3\n64\n1\n1\n", "primes", KOKSMA_MALFORMED},
+        {"net-file", "# plattice\n4\n2\n3\n64\n1\n1\n", "a prime", KOKSMA_MALFORMED},
         {"net-file", "# plattice\n2\n2\n3\n7\n1\n1\n", "degree", KOKSMA_MALFORMED},
         {"net-file", "# plattice\n2\n2\n3\n11\n1\n9\n", "line 7", KOKSMA_MALFORMED},
         {"net-file", "d s a m_i\n2 1 0 2\n", "odd", KOKSMA_MALFORMED},

@@ -443,8 +443,8 @@ static const struct {
     {"a.pbrt", PBRT "Material \"interface\" Shape \"disk\"", NULL},
     {"a.pbrt", PBRT "\n\nMaterial \"hair\" Shape \"sphere\"", "a.pbrt:4: material 'hair'"},
     {"a.pbrt", PBRT "Material \"velvet\" Shape \"sphere\"", "a.pbrt:2: material 'velvet'"},
-    {"a.pbrt", PBRT "Shape \"curve\" \"point3 P\" [0 0 0]", "a.pbrt:2: shape 'curve': it is left out"},
-    {"a.pbrt", PBRT "Shape \"sphere\" \"float zmax\" 0.5", "a.pbrt:2: a part of a sphere"},
+    {"a.pbrt", PBRT "Shape \"curve\" \"point3 P\" [0 0 0]", "a.pbrt:2: shape 'curve' is left out"},
+    {"a.pbrt", PBRT "Shape \"sphere\" \"float zmax\" 0.5", "a.pbrt:2: a partial sphere"},
     {"a.pbrt", PBRT "LightSource \"spot\" \"rgb I\" [1 2 3]", NULL},
     {"a.pbrt", PBRT "LightSource \"goniometric\" \"rgb I\" [1 2 3]", "a.pbrt:2: light 'goniometric'"},
     {"a.pbrt", PBRT "LightSource \"distant\" \"blackbody L\" 5000", NULL},
@@ -486,7 +486,7 @@ static const struct {
      BALL("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/><float name=\"alpha_u\" "
           "value=\"0.2\"/></bsdf>"),
      "a.xml:2: anisotropic"},
-    {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid': it is left out"},
+    {"a.xml", MITSUBA("<shape type=\"sdfgrid\"/>"), "a.xml:2: shape 'sdfgrid' is left out"},
     {"a.xml", MITSUBA("<emitter type=\"spot\"/>"), NULL},
     {"a.xml",
      MITSUBA("<emitter type=\"spot\"><float name=\"beam_width\" value=\"20\"/>"
@@ -589,7 +589,7 @@ static const struct {
     {"b.pbrt", "Camera \"orthographic\" \"float screenwindow\" [1 1 0 1]", ":1: the screen window is empty"},
     {"b.pbrt", "Camera \"perspective\" \"float screenwindow\" [-1 1]", ":1: a screen window is four numbers"},
     {"b.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [500 1 400 2]",
-     ":2: I: the wavelengths of a spectrum don't rise"},
+     ":2: wavelengths of a spectrum must increase"},
     {"b.pbrt", "\nCamera \"perspective\" \"float fov\" [ 30", ":2: fov: a list without its closing bracket"},
     {"b.pbrt", "Camera \"perspective\" \"float fov\" [ x ]", ":1: 'x': a number is needed here"},
     {"b.pbrt", "Camera \"perspective", "a text without its closing quotation mark"},
