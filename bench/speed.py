@@ -11,12 +11,14 @@ older commit, which is built on the first run (build/speed/base, 3 minutes):
 
     DANDY, HELMER, OPENQMC   folders of their sources (jakobbossek/dandy, Andrew-Helmer/stochastic-generation,
                              AcademySoftwareFoundation/openqmc, all on GitHub)
+    CYCODEBASE               the folder of cySampleElim.h (cemyuksel/cyCodeBase on GitHub)
     GSL                      a prefix with include/gsl and a library, where pkg-config knows none
     KOKSMA_BENCH_BASE        a folder in which c86c5f3 is built (build/release); "none": no older program
     KOKSMA_BENCH_POINTS      points of the large file (10^8)
     KOKSMA_BENCH_ROUNDS      turns (3)
 
-scipy, QMCPy, Mitsuba, POV-Ray and Blender count where they are installed: run it by a Python that has the first three."""
+scipy, QMCPy, poisson-disc, Mitsuba, POV-Ray and Blender count where they are installed: run it by a Python that has the
+first four."""
 import argparse
 import array
 import datetime
@@ -131,6 +133,9 @@ def build_peers(base):
         peers["helmer"] = compiled("row-helmer", ["cc", *FLAGS, "-DWITH_HELMER", ours, "-c", ROW, "-o", row],
                                    ["c++", "-O3", "-march=native", "-w", *includes, "-I" + folder,
                                     os.path.join(ROOT, "bench/bench_helmer.cpp"), *sources, row, *LINK])
+    if os.environ.get("CYCODEBASE"):
+        peers["cyCodeBase"] = compiled("row-elimination", ["c++", "-O3", "-march=native", "-w", "-I" + os.environ["CYCODEBASE"],
+                                                           os.path.join(ROOT, "bench/bench_elimination.cpp")])
     prefix = os.environ.get("GSL")
     gsl = ["-I%s/include" % prefix, "-L%s/lib" % prefix] if prefix else []
     peers["gsl"] = compiled("row-gsl", ["cc", *FLAGS, "-DWITH_GSL", ours, *gsl, ROW, *LINK, "-lgsl", "-lgslcblas", "-lm"])
@@ -302,6 +307,10 @@ def patterns(table, peers):
     for pattern in ("sobol", "halton"):
         table.versus(part, pattern + " 2D 1M", lambda p=pattern: timed(row, "generate", p, n, 2),
                      (lambda p=pattern: timed(peers["gsl"], "gsl", p, n, 2)) if "gsl" in peers else None, "GSL", near=near(2))
+    for dim in (2, 3):
+        table.versus(part, "sample-elimination %dD 4096" % dim, lambda d=dim: timed(row, "generate", "sample-elimination", 4096, d),
+                     (lambda d=dim: timed(peers["cyCodeBase"], "elimination", 4096, d)) if "cyCodeBase" in peers else None,
+                     "cyCodeBase", 1)
     table.versus(part, "fast spectrum, 4096 points, 639^2", lambda: timed(row, "fast", "random", 4096, 319),
                  (lambda: timed(peers["base"], "fast", "random", 4096, 319)) if "base" in peers else None, BASE_COMMIT,
                  1.52)  # 2.5 times UTK, which took 1.64 times as long as c86c5f3 elsewhere
@@ -325,6 +334,19 @@ def python_peers(table, row):
                           ("n-rooks", lambda: qmc.LatinHypercube(2))):
         table.versus(part, pattern + " 2D 1M", lambda p=pattern: timed(row, "generate", p, n, 2)[0],
                      lambda m=make: seconds(lambda: m().random(n)), "scipy " + scipy.__version__)
+    table.versus(part, "halton:scramble=owen 2D 64k", lambda: timed(row, "generate", "halton:scramble=owen", 1 << 16, 2)[0],
+                 lambda: seconds(lambda: qmc.Halton(2, seed=1).random(1 << 16)), "scipy " + scipy.__version__, 1)
+    for dim, count, radius in ((2, 2000, 0.0187), (3, 1000, 0.0885)):  # its sets have about as many points, and room for more
+        table.versus(part, "poisson-disk-maximal %dD %d" % (dim, count),
+                     lambda d=dim, c=count: timed(row, "generate", "poisson-disk-maximal", c, d)[0],
+                     lambda d=dim, r=radius: seconds(lambda: qmc.PoissonDisk(d, radius=r, seed=1).fill_space()),
+                     "scipy " + scipy.__version__, 1)
+    try:
+        import poisson_disc
+        table.versus(part, "poisson-disk-maximal 2D 2000", lambda: timed(row, "generate", "poisson-disk-maximal", 2000, 2)[0],
+                     lambda: seconds(lambda: poisson_disc.Bridson_sampling(numpy.ones(2), 0.0187)), "poisson-disc", 1)
+    except ImportError:
+        pass
     points = numpy.random.default_rng(1).random((10000, 2))
     for name, method in (("l2-star", "L2-star"), ("l2-centered", "CD"), ("l2-wraparound", "WD"), ("l2-mixture", "MD")):
         table.versus("5 measures", name + " 2D, 1e4 points", lambda m=name: timed(row, "measure", m, "random", 10000, 2)[0],
@@ -338,6 +360,11 @@ def python_peers(table, row):
         small = 1 << 16
         table.versus(part, pattern + " 2D 64k", lambda p=pattern: timed(row, "generate", p, small, 2)[0],
                      lambda m=make: seconds(lambda: m().gen_samples(small)), "QMCPy " + qmcpy.__version__)
+    for pattern, make in (("lattice-sequence", lambda: qmcpy.Lattice(2, randomize="FALSE", order="RADICAL INVERSE")),
+                          ("sobol", lambda: qmcpy.DigitalNetB2(2, randomize="FALSE")),
+                          ("interlaced-sobol", lambda: qmcpy.DigitalNetB2(2, randomize="FALSE", alpha=2))):
+        table.versus(part, pattern + " 2D 64k", lambda p=pattern: timed(row, "generate", p, 1 << 16, 2)[0],
+                     lambda m=make: seconds(lambda: m().gen_samples(1 << 16, warn=False)), "QMCPy " + qmcpy.__version__, 1)
 
 
 def start_up(table, row, base):

@@ -21,29 +21,13 @@
 #include "core/status.h"
 #include "domains/choose.h"
 #include "domains/dart_grid.h"
+#include "domains/gaussian.h"
+#include "domains/maximal.h"
 #include "patterns/shared/elimination.h"
 
 enum { REJECTIONS = 20000, LOOK_EVERY = 1 << 14 };
 
 typedef koksma__choice choice;
-
-size_t koksma__domain_find(const double *sums, size_t count, double at)
-{
-    size_t low = 0, high = count - 1;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (sums[middle] > at) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    /* if rounding has made `at` equal to the total, return the last entry whose share is above 0 */
-    while (low > 0 && sums[low] <= sums[low - 1]) {
-        low--;
-    }
-    return low;
-}
 
 static koksma_status choose_first(const choice *c)
 {

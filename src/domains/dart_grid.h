@@ -4,7 +4,7 @@
 #ifndef KOKSMA_DOMAINS_DART_GRID_H
 #define KOKSMA_DOMAINS_DART_GRID_H
 
-#include "domains/choose.h"
+#include "domains/domain.h"
 
 typedef struct koksma__dart_grid {
     int dim;

@@ -13,7 +13,8 @@
 #include "core/points_io.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "domains/field.h"
+#include "domains/choose.h"
+#include "domains/density_field.h"
 #include "domains/image_density.h"
 #include "image/formats.h"
 

@@ -6,12 +6,13 @@
  * 1984) of the image on the torus. Nodes are the leaves of a quadtree, no wider than the width of a point at their
  * centre; the centroid of a leaf is that of 4 x 4 parts.
  */
+#include "domains/density_field.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
 #include "core/torus.h"
-#include "domains/field.h"
 #include "domains/image_density.h"
 
 enum { DEEPEST = 26, LEAST_POINTS = 4 };

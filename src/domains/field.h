@@ -4,7 +4,7 @@
 #ifndef KOKSMA_DOMAINS_FIELD_H
 #define KOKSMA_DOMAINS_FIELD_H
 
-#include "domains/choose.h"
+#include "domains/domain.h"
 
 /* A small part of the domain: its centroid, its number of points, and the square of its width. The width is that of a
    point there, and the square is larger by twice the variance of the part along an axis, so that sums over nodes come
@@ -34,10 +34,5 @@ typedef struct koksma__field {
 /* Adds a node; *capacity is that of the field's nodes. Errors: MEMORY. */
 koksma_status koksma__field_add(koksma__field *field, size_t *capacity, koksma__field_node node);
 void koksma__field_close(koksma__field *field);
-
-koksma_status koksma__density_field_open(const koksma__point_domain *domain, size_t n, double sigma,
-                                         koksma__field *field);
-koksma_status koksma__surface_field_open(const koksma__point_domain *domain, size_t n, double sigma,
-                                         koksma__field *field);
 
 #endif

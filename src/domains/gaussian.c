@@ -21,6 +21,8 @@
  * Source: Ahmed, Ren & Wonka 2022, whose program for densities has these forces with Gaussians of one width for the
  * pixels; Fattal 2011 for widths that follow the density. Time of a step: n (points and nodes in reach), some 200.
  */
+#include "domains/gaussian.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -158,26 +160,4 @@ koksma_status koksma__choose_gaussian(const koksma__choice *c)
     koksma__source_tree_fini(&d.tree);
     free(d.xs);
     return status;
-}
-
-koksma_status koksma__field_add(koksma__field *field, size_t *capacity, koksma__field_node node)
-{
-    if (field->n_nodes == *capacity) {
-        const size_t more = *capacity + *capacity / 2 + 1024;
-        koksma__field_node *grown = realloc(field->nodes, more * sizeof *grown);
-        KOKSMA__REQUIRE_MEMORY(grown, more * sizeof *grown);
-        field->nodes = grown;
-        *capacity = more;
-    }
-    field->nodes[field->n_nodes++] = node;
-    return KOKSMA_OK;
-}
-
-void koksma__field_close(koksma__field *field)
-{
-    if (field->close) {
-        field->close(field->data);
-    }
-    free(field->nodes);
-    *field = (koksma__field){0};
 }

@@ -3,7 +3,7 @@
 #ifndef KOKSMA_DOMAINS_IMAGE_DENSITY_H
 #define KOKSMA_DOMAINS_IMAGE_DENSITY_H
 
-#include "domains/choose.h"
+#include "domains/domain.h"
 #include "patterns/shared/cells.h"
 
 typedef struct koksma__image_density {

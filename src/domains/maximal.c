@@ -15,6 +15,8 @@
  * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree; Mitchell, Rand, Ebeida & Bajaj 2012 for
  * radii that vary ("smaller disks"). Time of one set: (n + parts) log n; the search makes some 20 to 40 sets.
  */
+#include "domains/maximal.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef KOKSMA_DOMAINS_NEAREST_H
 #define KOKSMA_DOMAINS_NEAREST_H
 
-#include "domains/choose.h"
+#include "domains/domain.h"
 
 typedef struct koksma__nearest koksma__nearest;
 

@@ -14,7 +14,8 @@
 #include "core/points_io.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "domains/field.h"
+#include "domains/choose.h"
+#include "domains/surface_field.h"
 #include "meshes/mesh_read.h"
 
 typedef struct surface {

@@ -7,12 +7,13 @@
  * Distances are those of space, as for the other methods; along an open border the density ends, which keeps points
  * from piling up there.
  */
+#include "domains/surface_field.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "domains/field.h"
 #include "domains/nearest.h"
 
 enum { DEEPEST = 24, NODES_A_POINT = 8 };

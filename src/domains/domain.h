@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Domains of points other than the uniform unit cube: a square with a density, the surface of a model. A domain is made
+   of parts, the pixels of the density or the triangles of the model, each with coordinates of its own; the methods of
+   choose.c make points on it, by pattern. */
+#ifndef KOKSMA_DOMAINS_DOMAIN_H
+#define KOKSMA_DOMAINS_DOMAIN_H
+
+#include <koksma/koksma.h>
+
+/* A point of a domain: a part and a position in it. `at` is in [0,1)^2 for a pixel; for a triangle it has the weights
+   of the second and the third corner. */
+typedef struct koksma__domain_point {
+    uint32_t part;
+    double at[2];
+} koksma__domain_point;
+
+struct koksma__field;
+
+typedef struct koksma__point_domain {
+    const char *what;   /* for messages: "with a density" */
+    int dim;            /* coordinates of a position, which are in [0,1) */
+    int corners;        /* of a part: 4 or 3 */
+    bool torus, varies; /* varies: the density does */
+    double area;        /* of the domain, in the coordinates of positions */
+    double unit;        /* length 1 of the parameter d in these coordinates */
+    size_t n_parts;
+    const void *data; /* of the functions */
+    /* Makes candidate i. Candidates are independent and have the density of the domain. */
+    void (*draw)(const void *data, uint64_t seed, uint64_t i, koksma__domain_point *point);
+    void (*place)(const void *data, const koksma__domain_point *point, double *x);
+    /* The part's share of the points, in proportion to the density; 0 for a part without points. */
+    double (*share)(const void *data, size_t part);
+    /* The unit of distance on a part: 1 in the mean of the density. */
+    double (*unit_of)(const void *data, size_t part);
+    /* Prepares what gaussian.c needs for n points; koksma__field_close frees it. */
+    koksma_status (*open_field)(const struct koksma__point_domain *domain, size_t n, double sigma,
+                                struct koksma__field *field);
+} koksma__point_domain;
+
+/* What a method makes points for. */
+typedef struct koksma__choice {
+    const koksma__point_domain *domain;
+    const koksma_pattern *pattern;
+    const double *params;
+    uint64_t seed;
+    size_t n;
+    const koksma_run *run;
+    koksma__domain_point *points;
+} koksma__choice;
+
+/* The index of the first of `count` ascending sums that is above `at`; the last index whose sum rises if none is. */
+size_t koksma__domain_find(const double *sums, size_t count, double at);
+
+#endif
