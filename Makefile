@@ -19,7 +19,7 @@
 #   Release
 #   make dist        write build/dist/koksma-VERSION.tar.gz; the same commit gives the same bytes
 #   make dist-test   build and test from that archive, in an empty directory without git
-#   make wheel       build a Python wheel that needs nothing but libc, and try it with the newest NumPy and SciPy
+#   make wheel       build a self-contained Python wheel, and try it with the newest NumPy and SciPy
 #   make deb         write Debian packages to build/deb and check them with lintian
 #   make cross       build for aarch64 and run the tests of libkoksma under qemu; MACHINES="aarch64 s390x i686"
 #

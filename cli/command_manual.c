@@ -128,8 +128,8 @@ static void put_overview(void)
     }
     put_exit_status();
     printf(".SH ENVIRONMENT\n.TP\n.B KOKSMA_KERNELS\nthe instruction set of the inner loops: ref, baseline, avx2 or "
-           "avx512.\nBy default it is the fastest that the processor has. Results of the last three have equal "
-           "bits.\n");
+           "avx512.\nThe default is the fastest one that the processor supports. baseline, avx2 and avx512 give "
+           "results with equal bits.\n");
     put_examples(cli_overview_examples);
 }
 

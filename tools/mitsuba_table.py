@@ -25,14 +25,17 @@ def percent(x):
 
 
 def fitting(sampler, n):
-    """The largest number up to n of points that a pattern makes; Mitsuba's own samplers make what they are asked for."""
-    while sampler in OURS:
+    """The largest number up to n of points that a sampler makes: Mitsuba's own round others up, which would be more time."""
+    while True:
         try:
-            koksma.generate(sampler, n, 2)
-            break
+            if sampler in OURS:
+                koksma.generate(sampler, n, 2)
+                return n
+            if mi.load_dict({"type": sampler, "sample_count": n}).sample_count() == n:
+                return n
         except koksma.ArgumentError:
-            n -= 1
-    return n
+            pass
+        n -= 1
 
 
 def show(ranking, names, notes):
@@ -68,9 +71,8 @@ def main():
         show(equal, {s: s for s in samplers}, ("coherence", bands))
     if a.only == "samples":
         return
-    seconds = dict(zip(samplers, koksma.mitsuba.times(scene, samplers, a.spp, size=(256, 256), repeats=2, clock=time.process_time)))
-    # A factor of 1 is a name, too: no sampler stands twice, and the reference is the plain one. Mitsuba's own samplers round
-    # numbers up that they can't make, and warn.
+    seconds = dict(zip(samplers, koksma.mitsuba.times(scene, samplers, a.spp, size=(256, 256), repeats=5, clock=time.process_time)))
+    # A factor of 1 is a name, too: no sampler stands twice, and the reference is the plain one.
     factors = {s: seconds["independent"] / seconds[s] for s in samplers}
     names = {f"{s}*{fitting(s, max(1, round(a.spp * factors[s]))) / a.spp:.5f}": s for s in samplers}
     print(f"At the time of `independent` with {a.spp} samples:\n")

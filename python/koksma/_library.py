@@ -6,16 +6,21 @@ import ctypes
 import os
 import re
 from contextlib import contextmanager
-from ctypes import POINTER, byref, c_bool, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
+from ctypes import POINTER, addressof, byref, c_bool, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache
 from operator import index
 from pathlib import Path
-from typing import Callable, Iterator, Optional, SupportsIndex
+from time import perf_counter
+from typing import Callable, Dict, Hashable, Iterator, Optional, Set, SupportsIndex, Tuple
 
 from . import _structs as s
 from ._signals import Signals
 
 ABI = 0
+_PACE_S = 0.005  # how often a long call runs handlers of signals
+_QUICK_S = 0.01  # nobody wants to stop a call that took no longer when it was made before
+_SPECS: Dict[Tuple[str, str], s.Spec] = {}
+quick: Set[Hashable] = set()  # what was seen to be short: of measures and patterns (text, shape)
 
 
 class Error(Exception):
@@ -112,6 +117,8 @@ def core() -> ctypes.CDLL:
     _declare(library, None, "koksma_points_fini", points)
     _declare(library, c_int, "koksma_points_read", c_char_p, points)
     _declare(library, c_int, "koksma_points_write", c_char_p, points, c_char_p, run)
+    _declare(library, c_int, "koksma__evaluate_array", spec, c_void_p, c_int, POINTER(s.Value))
+    _declare(library, c_int, "koksma__generate_array", spec, c_uint64, c_void_p, c_int)
     _declare(library, c_int, "koksma_evaluate", spec, points, run, POINTER(s.Value))
     _declare(library, c_int, "koksma_evaluate_prefixes", spec, points, POINTER(c_size_t), c_size_t, run, POINTER(s.Value))
     _declare(library, c_bool, "koksma_log_line", c_size_t, POINTER(c_double), POINTER(c_double), POINTER(s.Line))
@@ -261,16 +268,25 @@ def check(status: int) -> None:
     raise error
 
 
+@lru_cache(maxsize=None)
+def _paced() -> s.KeepGoing:
+    """Called by the library, in C: asks Python once in an interval only, as the library asks far more often."""
+    return s.KeepGoing(("koksma__paced", core()))
+
+
 def call(function: object, *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
-         run_at: int, progress: Optional[Callable[[float], object]] = None, short: bool = False) -> None:
+         run_at: int, progress: Optional[Callable[[float], object]] = None, short: bool = False,
+         same: Optional[Hashable] = None) -> None:
     """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler or `progress` raises
     stops it, and comes out: KeyboardInterrupt after Ctrl-C. A short call is over before anybody could want to stop it, and
-    does without what that costs: Python runs handlers when it has returned."""
+    does without what that costs: Python runs handlers when it has returned. same: calls with equal ones take about the same
+    time, so that one is short if another was."""
     if time_limit is not None and not time_limit > 0:
         raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
     threads = whole("threads", threads, 0, s.MAX_INT)
-    if short and time_limit is None and progress is None:
-        return check(function(*arguments[:run_at], byref(s.Run(threads)), *arguments[run_at:]))
+    if (short or same in quick) and time_limit is None and progress is None:
+        check(function(*arguments[:run_at], byref(s.Run(threads)), *arguments[run_at:]))
+        return _remember(same)
     signals = Signals()
 
     def keep_going(_context: object, fraction_done: float) -> bool:
@@ -281,15 +297,35 @@ def call(function: object, *arguments: object, threads: SupportsIndex = 0, time_
                 signals.raised.append(error)
         return not signals.raised
 
-    run = s.Run(threads, time_limit or 0.0, s.KeepGoing(keep_going), None)
+    asked = s.KeepGoing(keep_going)
+    pacing = s.Pacing(asked, None, _PACE_S)
+    if progress is None:
+        run = s.Run(threads, time_limit or 0.0, _paced(), addressof(pacing))
+    else:
+        run = s.Run(threads, time_limit or 0.0, asked, None)
     try:
         signals.take()
+        started = perf_counter()
         status = function(*arguments[:run_at], byref(run), *arguments[run_at:])
+        if status == 0 and perf_counter() - started < _QUICK_S:
+            _remember(same)
     finally:
         signals.give_back()
     if signals.raised:  # perhaps at the very end, when the library did not ask any more
         raise signals.raised.pop(0)
     check(status)
+
+
+def _remember(same: Optional[Hashable]) -> None:
+    if same is not None and same not in quick:
+        if len(quick) > 4096:
+            quick.clear()
+        quick.add(same)
+
+
+def kept_spec(kind: str, name: str) -> Optional[s.Spec]:
+    """The spec that `spec` has kept, if it has."""
+    return _SPECS.get((kind, name))
 
 
 def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
@@ -313,7 +349,14 @@ def without_zero(what: str, raw: bytes) -> bytes:
 
 
 def spec(kind: str, name: str) -> s.Spec:
-    """A parsed spec of a pattern or measure."""
+    """A parsed spec of a pattern or measure, not to be changed: those without an operand (a file, a program) are kept."""
+    kept = _SPECS.get((kind, name)) if type(name) is str else None
+    if kept is not None:
+        return kept
     result = s.Spec()
     check(getattr(core(), f"koksma_{kind}_spec")(text(name), byref(result)))
+    if type(name) is str and not (kind == "pattern" and result.pattern.contents.operand):
+        if len(_SPECS) > 512:
+            _SPECS.clear()
+        _SPECS[kind, name] = result
     return result

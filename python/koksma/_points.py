@@ -7,17 +7,22 @@ import os
 import weakref
 from ctypes import byref
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, allow_exec as allowing_exec, call, check, core, lab, spec, text, whole, without_zero
+from ._library import ArgumentError, allow_exec as allowing_exec, call, check, core, kept_spec, lab, quick, spec, text, whole, without_zero
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE, STRATIFIED, LATIN = 1 << 1, 1 << 3, 1 << 4  # KOKSMA_CLAIM_SEQUENCE and so on
 _SHORT_RANGE, _SHORT_SET = 1 << 18, 64  # coordinates made in 30 ms at most, and made or measured in 1 ms
+_XS, _DOUBLE, _c_void_p = s.Points.xs.offset, np.dtype(np.float64), ctypes.c_void_p
+_DATA = -(-20 // ctypes.sizeof(_c_void_p) - 2) * ctypes.sizeof(_c_void_p)  # in PyArrayInterface: 20 bytes, aligned, then shape, strides, data
+_capsule_pointer = ctypes.pythonapi.PyCapsule_GetPointer
+_capsule_pointer.argtypes, _capsule_pointer.restype = [ctypes.py_object, ctypes.c_char_p], _c_void_p
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
@@ -80,6 +85,22 @@ class Value:
     standard_error: float
     exact: bool
     witness: Optional[Witness]
+
+    if not TYPE_CHECKING:
+        def __getattr__(self, name: str) -> Any:
+            """Reads the library's struct when a member is asked for, which is half of the time of a short call."""
+            fields = self.__dict__
+            raw = fields.get("_raw")
+            if raw is not None:
+                fields.update(_fields_of(raw))
+                fields.pop("_raw", None)
+            if name in fields:
+                return fields[name]
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def __getstate__(self) -> Dict[str, Any]:
+        self.value
+        return self.__dict__
 
     def __float__(self) -> float:
         return self.value
@@ -181,8 +202,15 @@ def measures() -> List[Member]:
 
 
 def view(array: PointArray) -> s.Points:
-    """The array's own memory as the library's points."""
-    return s.Points(array.shape[0], array.shape[1], array.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))
+    """The array's own memory as the library's points; they hold no reference to it.
+
+    The address is read from the struct of NumPy's array interface: array.ctypes and array.__array_interface__ run much
+    more of Python, which takes 20 to 50 us where a call of the library has just used the processor's caches.
+    """
+    points = s.Points(*array.shape)
+    interface = array.__array_struct__  # a capsule; it lives until the address has been read
+    _c_void_p.from_buffer(points, _XS).value = _c_void_p.from_address(_capsule_pointer(interface, None) + _DATA).value
+    return points
 
 
 def as_points(points: npt.ArrayLike) -> PointArray:
@@ -190,6 +218,8 @@ def as_points(points: npt.ArrayLike) -> PointArray:
 
     What NumPy would cut down to a real number without being asked (the imaginary part, a date, a mask) is refused.
     """
+    if type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.flags.carray and points.size:
+        return points
     given = np.asanyarray(points)
     if given.dtype.kind not in "buifO":
         raise ArgumentError(f"points are real numbers, not {given.dtype}")
@@ -251,6 +281,13 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     "poisson-disk-maximal" and "gaussian-blue-noise". Equal arguments give equal bits, and the same as `koksma
     generate`.
     """
+    shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
+    if (type(seed) is type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
+            and density is on is None and type(first) is int and first == 0 and set(map(type, shape or ())) == {int}
+            and (pattern, shape) in quick):
+        quickly = _quick_points(pattern, shape, seed, threads, out)
+        if quickly is not None:
+            return quickly
     if allow_exec:
         with allowing_exec():
             return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on)
@@ -287,10 +324,11 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     points, member = view(out), parsed.pattern.contents
     short = not member.operand and out.size <= (
         _SHORT_RANGE if member.ranges else _SHORT_SET if member.claims & (STRATIFIED | LATIN) else 0)
+    same = (pattern, out.shape) if not member.operand and (member.ranges or member.claims & (STRATIFIED | LATIN)) else None
     if first:
         call(core().koksma_generate_range, byref(parsed), seed, 0, first, byref(points), threads=threads, run_at=4, short=short)
     else:
-        call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2, short=short)
+        call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2, short=short, same=same)
     return out
 
 
@@ -355,6 +393,11 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
     ['l2-star', 'star']
     """
     if isinstance(measure, str):
+        if (type(points) is np.ndarray and type(measure) is str and (measure, points.shape) in quick and type(threads) is int
+                and 0 <= threads <= s.MAX_INT and warp is None and time_limit is None):
+            value = _quick_value(points, measure, threads)
+            if value is not None:
+                return value
         return value_of(points, measure, warp=warp, threads=threads, time_limit=time_limit)
     array = as_points(points)
     return {name: value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in measure}
@@ -366,20 +409,66 @@ def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None,
     array = as_points(points)
     parsed, value, c_points = spec("measure", measure), s.Value(), view(array)
     if warp is None:
-        short = parsed.measure.contents.answer == 0 and ":" not in measure and array.size <= _SHORT_SET
+        exact = parsed.measure.contents.answer == 0
         call(core().koksma_evaluate, byref(parsed), byref(c_points), byref(value), threads=threads,
-             time_limit=time_limit, run_at=2, short=short)
+             time_limit=time_limit, run_at=2, short=exact and ":" not in measure and array.size <= _SHORT_SET,
+             same=(measure, array.shape) if exact else None)
     else:
         found = core().koksma_warp_find(text(warp))
         if not found:
             raise ArgumentError(f"no warp '{warp}'; koksma.warps() names them")
         call(core().koksma_warp_evaluate, found, byref(parsed), byref(c_points), byref(value), threads=threads,
              time_limit=time_limit, run_at=3)
-    w = value.witness
+    return _value_of(value)
+
+
+def _value_of(raw: s.Value) -> Value:
+    value = object.__new__(Value)
+    value.__dict__["_raw"] = raw
+    return value
+
+
+def _fields_of(raw: s.Value) -> Dict[str, Any]:
+    """The members of a Value."""
+    w = raw.witness
     lengths = {1: (w.dim, w.dim), 2: (w.dim, 1), 3: (2, 1)}.get(w.kind)
     witness = Witness(_WITNESS_KINDS[w.kind], w.closed, w.count, w.volume, tuple(w.lo[:lengths[0]]),
                       tuple(w.hi[:lengths[1]])) if lengths else None
-    return Value(value.value, value.square, value.lower, value.upper, value.standard_error, value.exact, witness)
+    return {"value": raw.value, "square": raw.square, "lower": raw.lower, "upper": raw.upper,
+            "standard_error": raw.standard_error, "exact": raw.exact, "witness": witness}
+
+
+@lru_cache(maxsize=None)
+def _evaluate_array() -> Any:
+    return core().koksma__evaluate_array
+
+
+@lru_cache(maxsize=None)
+def _generate_array() -> Any:
+    return core().koksma__generate_array
+
+
+def _quick_value(array: PointArray, measure: str, threads: int) -> Optional[Value]:
+    """value_of where it was short before: one call of C. None: the long way serves."""
+    parsed, raw = kept_spec("measure", measure), s.Value()
+    if parsed is None:
+        return None
+    interface = array.__array_struct__  # a capsule, which owns the struct
+    if _evaluate_array()(parsed, _capsule_pointer(interface, None), threads, raw):
+        return None
+    return _value_of(raw)
+
+
+def _quick_points(pattern: str, shape: Tuple[int, ...], seed: int, threads: int, out: Optional[PointArray]) -> Optional[PointArray]:
+    """generate where it was short before, likewise."""
+    parsed = kept_spec("pattern", pattern)
+    if parsed is None:
+        return None
+    array = np.zeros(shape) if out is None else out
+    interface = array.__array_struct__
+    if _generate_array()(parsed, seed, _capsule_pointer(interface, None), threads):
+        return None
+    return array
 
 
 def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding]:

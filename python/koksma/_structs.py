@@ -28,6 +28,11 @@ class Run(Structure):
     _fields_ = [("threads", c_int), ("time_limit_s", c_double), ("keep_going", KeepGoing), ("context", c_void_p)]
 
 
+class Pacing(Structure):
+    _fields_ = [("keep_going", KeepGoing), ("context", c_void_p), ("interval_s", c_double), ("next_s", c_double),
+                ("stopped", c_bool)]
+
+
 class Pattern(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("min_dim", c_int), ("max_dim", c_int),
                 ("claims", c_uint), ("params", POINTER(Param)), ("generate", c_void_p), ("operand", c_char_p),
@@ -332,7 +337,7 @@ CONSTANTS = [
 
 #: Header, C name and class of every struct above.
 LAYOUTS = [
-    ("koksma.h", "koksma_points", Points), ("koksma.h", "koksma_param", Param), ("koksma.h", "koksma_run", Run),
+    ("koksma.h", "koksma_points", Points), ("koksma.h", "koksma_param", Param), ("koksma.h", "koksma_run", Run), ("core/parallel.h", "koksma__pacing", Pacing),
     ("koksma.h", "koksma_pattern", Pattern), ("koksma.h", "koksma_measure", Measure),
     ("koksma.h", "koksma_modifier", Modifier), ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),

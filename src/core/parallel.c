@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "core/allow.h"
+#include "core/clock.h"
 #include "core/status.h"
 
 enum { MAX_THREADS = 256 };
@@ -44,6 +45,20 @@ int koksma__threads(const koksma_run *run)
 bool koksma__keep_going(const koksma_run *run, double fraction_done)
 {
     return !run || !run->keep_going || run->keep_going(run->context, fraction_done);
+}
+
+bool koksma__paced(void *pacing, double fraction_done)
+{
+    koksma__pacing *p = pacing;
+    const double now_s = koksma__now_s();
+    if (p->next_s == 0) {
+        p->next_s = now_s + p->interval_s;
+    }
+    if (!p->stopped && now_s >= p->next_s) {
+        p->stopped = !p->keep_going(p->context, fraction_done);
+        p->next_s = now_s + p->interval_s;
+    }
+    return !p->stopped;
 }
 
 koksma_status koksma__fail_interrupted(void)

@@ -149,9 +149,10 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
 {
     const double most = (double)(KOKSMA_MAX_COORDINATES / (size_t)c->dim),
                  expected = per_volume(c->dim) / pow(d, c->dim);
-    KOKSMA__FAIL_IF(expected > most, KOKSMA_N,
-                    "poisson-disk-maximal: d=%g has about %.2g points; d=%.2g or more would do", d, expected,
-                    1.01 * distance_of(most, c->dim));
+    KOKSMA__FAIL_IF(
+        expected > most, KOKSMA_N,
+        "poisson-disk-maximal: d=%g would give about %.2g points, which is too many; d=%.2g or more would do", d,
+        expected, 1.01 * distance_of(most, c->dim));
     koksma_status status = cover_init(c, seed, fmin(d, farthest(c->dim)));
     return status ? status : explain(cover_fill(c, SIZE_MAX, run), c, expected);
 }

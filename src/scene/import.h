@@ -48,7 +48,7 @@ typedef struct koksma__import_material {
 /* The material and emission of a shape. */
 typedef struct koksma__import_surface {
     int material;       /* -1: no surface, light passes through */
-    bool emits, turned; /* turned: fronts and backs are swapped */
+    bool emits, turned; /* turned: the front and back sides are swapped */
     bool hidden;        /* a light that no ray meets */
     double radiance[3];
 } koksma__import_surface;

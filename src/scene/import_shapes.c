@@ -28,7 +28,7 @@ enum { SIDES = 64, RINGS = 32 };
 
 /* A mesh that was made already, identified by its file's path or by its basic shape. */
 struct koksma__known_mesh {
-    char *path; /* path of the mesh's file; NULL: made from a basic shape */
+    char *path; /* path of the mesh's file, or NULL for a mesh made from a basic shape */
     long part;  /* the number of the mesh in its file, or -1 */
     koksma__form form;
     bool with_normals;

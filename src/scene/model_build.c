@@ -140,7 +140,7 @@ static koksma__image_part colours_of(const koksma__material *m)
     return m->bsdf == &koksma__bsdf_principled ? KOKSMA__IMAGE_SRGB : KOKSMA__IMAGE_COLOURS;
 }
 
-/* Reads the colour texture; without it the material's colour stays. */
+/* Reads the colour texture; if it is missing, the material keeps its colour. */
 static void take_colour_map(builder *build, const koksma__file_texture *from, koksma__material *m)
 {
     if (from->name && m->bsdf == &koksma__bsdf_ggx) {

@@ -651,8 +651,9 @@ static koksma_status check_window(reader *r, double aspect)
                                            "the screen window of a perspective camera is moved to the middle"));
     }
     return fabs((w[1] - w[0]) / height - aspect) > 1e-3 * aspect
-               ? koksma__import_unknown(r->im, r->camera_place,
-                                        "the screen window has another shape than the image: its height is kept")
+               ? koksma__import_unknown(
+                     r->im, r->camera_place,
+                     "the screen window and the image have different aspect ratios: the window's height is used")
                : KOKSMA_OK;
 }
 

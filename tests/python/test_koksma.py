@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python package against the program KOKSMA (in the environment) and against numpy."""
 import builtins
+import copy
 import ctypes
 import dataclasses
 import gc
@@ -9,6 +10,7 @@ import inspect
 import json
 import os
 import pathlib
+import pickle
 import signal
 import subprocess
 import sys
@@ -426,6 +428,58 @@ class Compare(unittest.TestCase):
                                   (image + 1j, image), (np.full((4, 5), np.nan), image), (3, image)):
             with self.subTest(images=images), self.assertRaises((ValueError, TypeError)):
                 koksma.compare(images, reference)
+
+
+def members(value):
+    """All of a Value, as text: some are NaN."""
+    return repr(dataclasses.astuple(value))
+
+
+class Again(unittest.TestCase):
+    """Calls that were short before take a way of their own: they give and refuse the same."""
+
+    def test_values_and_points(self):
+        for n in (16, 64):
+            points = koksma.generate("random", n, seed=3)
+            for name in ("star", "l2-star", "extreme", "min-distance"):
+                first = koksma.measure(points, name)
+                for given in (points, np.asfortranarray(points), points.astype(">f8"), points[::-1][::-1], points.tolist()):
+                    again = koksma.measure(given, name)
+                    self.assertEqual(members(again), members(first))
+                locked = points.copy()
+                locked.flags.writeable = False
+                self.assertEqual(members(koksma.measure(locked, name)), members(first))
+                with self.assertRaises(ValueError):
+                    koksma.measure(points + 1, name)
+        for pattern in ("random", "sobol", "n-rooks"):
+            for arguments in ({}, {"dim": 2}, {"seed": 3}, {"seed": np.uint64(3)}):
+                first = koksma.generate(pattern, 16, **arguments)
+                again = koksma.generate(pattern, 16, **arguments)
+                np.testing.assert_array_equal(again, first)
+                self.assertIsNot(again, first)
+                out = np.zeros((16, 2))
+                seed = {k: v for k, v in arguments.items() if k == "seed"}
+                self.assertIs(koksma.generate(pattern, out=out, **seed), out)
+                np.testing.assert_array_equal(out, first)
+                out.flags.writeable = False
+                with self.assertRaises(ValueError):
+                    koksma.generate(pattern, out=out)
+            for wrong in ({"n": 16.0}, {"n": 16, "dim": 2.0}, {"n": 16, "seed": 1.0}, {"n": "16"}):
+                with self.assertRaises(TypeError):
+                    koksma.generate(pattern, **wrong)
+
+    def test_members_are_read_when_asked_for(self):
+        points, fields = koksma.generate("random", 16), [f.name for f in dataclasses.fields(koksma.Value)]
+        whole = members(koksma.measure(points))
+        for name in fields:  # whichever is first
+            value = koksma.measure(points)
+            self.assertEqual(repr(getattr(value, name)), repr(getattr(koksma.measure(points), name)))
+            self.assertEqual(members(value), whole)
+        for same in (pickle.loads(pickle.dumps(koksma.measure(points))), copy.deepcopy(koksma.measure(points))):
+            self.assertEqual(members(same), whole)
+        self.assertFalse(hasattr(koksma.measure(points), "valu"))
+        with self.assertRaises(dataclasses.FrozenInstanceError):
+            koksma.measure(points).value = 1
 
 
 class Speed(unittest.TestCase):

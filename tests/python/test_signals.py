@@ -92,6 +92,19 @@ class Raised(Case):
                 long_call()
             thread.join()
 
+    def test_adaptive_renders(self):
+        """Control-C ends one of each method, and the next is as ever."""
+        handler = self.on(signal.SIGINT, raising(KeyboardInterrupt()))
+        for method in [m.name for m in koksma.adaptive()]:
+            arguments = dict(size=(16, 12), adaptive=method, budget=32)
+            before = koksma.render("ball", spp=4, **arguments)
+            with self.subTest(method=method), self.assertRaises(KeyboardInterrupt):
+                thread = send_in_call(signal.SIGINT)
+                koksma.render("balls", spp=64, size=(1024, 1024), adaptive=method, budget=10000)
+            thread.join()
+            self.assertIs(signal.getsignal(signal.SIGINT), handler)
+            np.testing.assert_array_equal(koksma.render("ball", spp=4, **arguments), before)
+
     def test_a_call_that_never_asks(self):
         self.on(signal.SIGUSR1, raising(Timeout("early")))
         with self.assertRaisesRegex(Timeout, "early"):
@@ -146,8 +159,8 @@ class NotRaised(Case):
         self.assertIs(signal.getsignal(signal.SIGUSR1), handler)
 
     def test_short_calls_leave_handlers_alone(self):
-        """Few points of any pattern that has ranges, strata or Latin sets, and any exact measure of few points; nothing
-        else."""
+        """Few points of any pattern that has ranges, strata or Latin sets, and any exact measure of few points, and what was
+        short before; nothing else."""
         class Taken(Exception):
             pass
 
@@ -155,6 +168,7 @@ class NotRaised(Case):
             raise Taken
 
         self.addCleanup(setattr, _library, "Signals", Signals)
+        _library.quick.clear()
         _library.Signals = take
         ranged = [m.name for m in koksma.patterns() if not m.operand and koksma.has_ranges(m.name) and m.min_dim <= 2 <= m.max_dim]
         self.assertGreater(len(ranged), 10)
@@ -172,6 +186,16 @@ class NotRaised(Case):
                        lambda: koksma.measure(PLANE, "star"), lambda: koksma.measure(points, "star-lower"),
                        lambda: koksma.measure(points, "extreme:grid=9"), lambda: koksma.measure(points, "star", time_limit=9)):
             self.assertRaises(Taken, longer)
+        _library.Signals = Signals
+        calls = (lambda: koksma.measure(PLANE, "star").value, lambda: koksma.generate("n-rooks", 33).tolist(),
+                 lambda: koksma.generate("n-rooks", 33, out=np.zeros((33, 2))).tolist())
+        values = [call() for call in calls]
+        while not {("star", PLANE.shape), ("n-rooks", (33, 2))} <= _library.quick:  # a busy machine may take its time
+            self.assertEqual([call() for call in calls], values)
+        _library.Signals = take
+        self.assertEqual([call() for call in calls], values)
+        self.assertRaises(Taken, lambda: koksma.measure(PLANE[1:], "star"))
+        _library.Signals = Signals
         self.on(signal.SIGUSR1, raising(Timeout("after")))
         with self.assertRaisesRegex(Timeout, "after"):
             _library.call(lambda _run: signal.raise_signal(signal.SIGUSR1) or 0, run_at=0, short=True)

@@ -26,11 +26,11 @@ class Structs(unittest.TestCase):
         for _header, name, value in _structs.CONSTANTS:
             ours.append(f"{name} {value}")
             lines.append(f'printf("{name} %llu\\n", (unsigned long long){name});')
-        includes = "".join(f"#include <koksma/{h}>\n" for h in sorted({h for h, _, _ in _structs.LAYOUTS + _structs.CONSTANTS}))
+        includes = "".join(f"#include <{h if '/' in h else f'koksma/{h}'}>\n" for h in sorted({h for h, _, _ in _structs.LAYOUTS + _structs.CONSTANTS}))
         source = f"#include <limits.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <stdio.h>\n{includes}int main(void) {{ {' '.join(lines)} return 0; }}\n"
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "layouts")
-            subprocess.run(["cc", "-x", "c", "-", "-I", INCLUDE, "-o", program], input=source, text=True, check=True)
+            subprocess.run(["cc", "-x", "c", "-", "-I", INCLUDE, "-I", os.path.join(INCLUDE, "..", "src"), "-o", program], input=source, text=True, check=True)
             theirs = subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines()
         self.assertEqual(theirs, ours, "a struct of the headers changed: mend python/koksma/_structs.py")
 
