@@ -83,7 +83,8 @@ static void put_exit_status(void)
 {
     printf(
         ".SH \"EXIT STATUS\"\n0 done; 1 it ran and the answer is no; 2 the command line is wrong; 3 a named file is "
-        "missing,\nmalformed or of a kind that is not read; 4 the system failed; 130 interrupted, finished results are kept.\n");
+        "missing,\nmalformed or of a kind that is not read; 4 the system failed; 130 interrupted, finished results "
+        "are kept.\n");
 }
 
 /* Prints the title line of a page, whose name is in capitals as in other manuals. */

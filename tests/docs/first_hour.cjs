@@ -37,6 +37,7 @@ const focus = () => {
   for (const file of files) for (const width of [400, 1280]) for (const colorScheme of ["light", "dark"]) {
     const name = path.basename(file, ".html"), label = `${name} at ${width} px, ${colorScheme}`;
     const page = await (await browser.newContext({ colorScheme, viewport: { width, height: 900 } })).newPage();
+    page.setDefaultTimeout(600000); // a busy machine takes more than the usual 30 s for a page
     page.on("pageerror", e => problems.push(`${label}: ${e.message}`));
     await page.goto("file://" + path.resolve(file));
     await page.waitForSelector("body:not(.starting)"); // the explorer loads the library first

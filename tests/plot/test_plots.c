@@ -256,14 +256,10 @@ static void bytes_are_the_same_again(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_and_grids),
-        cmocka_unit_test(points_of_the_unit_square),
-        cmocka_unit_test(splits_are_marked),
-        cmocka_unit_test(charts_without_labels),
-        cmocka_unit_test(thirty_two_curves_differ),
-        cmocka_unit_test(isolated_points_are_marked),
-        cmocka_unit_test(patterns_have_colours),
-        cmocka_unit_test(the_palette_names_patterns),
+        cmocka_unit_test(sizes_and_grids),          cmocka_unit_test(points_of_the_unit_square),
+        cmocka_unit_test(splits_are_marked),        cmocka_unit_test(charts_without_labels),
+        cmocka_unit_test(thirty_two_curves_differ), cmocka_unit_test(isolated_points_are_marked),
+        cmocka_unit_test(patterns_have_colours),    cmocka_unit_test(the_palette_names_patterns),
         cmocka_unit_test(bytes_are_the_same_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -66,7 +66,8 @@ static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA
     if (unexplained) {
         koksma__doc_answer_begin(d, false);
         koksma__doc_say(d, "%zu of %zu published means of %s %s for an unknown reason: ✗ in the tables.", unexplained,
-                        agree + explained + unexplained, group == MEASURES ? "measures" : "images", verb(unexplained));
+                        agree + explained + unexplained, group == MEASURES ? "measures" : "images",
+                        verb(unexplained));
         koksma__doc_paragraph_end(d);
     }
 }
