@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 
-#include "core/points_io.h"
 #include "target.h"
 
 /* One of the readers of points, over bytes: what it takes lies in [0, 1]. */

@@ -11,6 +11,7 @@
 
 #include "image/formats.h"
 #include "image/metrics/metrics.h"
+#include "image/registry.h"
 #include "integrands/integrands.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
@@ -20,7 +21,7 @@
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/samples/adaptive/adaptive.h"
-#include "render/samples/sampler.h"
+#include "render/samples/uses.h"
 #include "render/shapes/shapes.h"
 #include "warps/warps.h"
 

@@ -2,16 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The layers of src/ and cli/, drawn and checked from the code.
 
-    tools/layers.py check [BUILD]     fail where a directory breaks a rule more often than it may
-    tools/layers.py problems [BUILD]  list all that breaks a rule
-    tools/layers.py shrink BUILD      lower the numbers in tools/layers_exceptions.txt to today's
+    tools/layers.py check [BUILD]     list all that breaks a rule; exit code 1 if there is any
     tools/layers.py draw FILE.svg     write the drawing of the directories
     tools/layers.py arrows            list every arrow between directories with one use of it
 
 Rules: a directory includes and uses only those named in MAY_USE; that relation has no cycle, and neither has that of
 files (a header and its .c file count as one). A shared function (koksma__) is declared in the header of the file
-that defines it. No type name is defined twice. No header holds code for a single file. How often
-a directory may break a rule is in tools/layers_exceptions.txt; these numbers can only shrink.
+that defines it. No type name is defined twice. No header holds code for a single file.
 
 How: comments and strings are removed; an include names a file; a name koksma_... that occurs in one file and that
 another file defines (a function or a variable at the start of a line) is a use. The public headers are no way around
@@ -24,7 +21,6 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-EXCEPTIONS = "tools/layers_exceptions.txt"
 
 # What a directory may use beside itself. The public headers are data types to all.
 MAY_USE = {
@@ -281,39 +277,12 @@ def problems(build):
     return found + (list(check_objects(tree, build)) if build else [])
 
 
-def read_exceptions():
-    """{(rule, directory): how often}."""
-    lines = open(os.path.join(ROOT, EXCEPTIONS), encoding="utf-8").read().splitlines()
-    return {(rule, d): int(n) for rule, d, n in (line.split() for line in lines if line.strip() and line[0] != "#")}
-
-
 def check(build):
-    by = {}
-    for rule, path, what in problems(build):
-        by.setdefault((rule, directory(path)), []).append("%s: %s" % (path, what))
-    allowed, failed = read_exceptions(), 0
-    for key in sorted(by):
-        if len(by[key]) > allowed.get(key, 0):
-            failed += len(by[key]) - allowed.get(key, 0)
-            print("%s: %d times in %s, and %d are allowed:" % (key[0], len(by[key]), key[1], allowed.get(key, 0)))
-            print("\n".join(sorted(by[key])))
-    for key in sorted(allowed):
-        if allowed[key] > len(by.get(key, ())) and (build or key[0] != "unseen"):
-            print("%s %s: now %d, not %d: run tools/layers.py shrink" %
-                  (*key, len(by.get(key, ())), allowed[key]))
-    print("%d problems beyond %d exceptions" % (failed, sum(allowed.values())))
-    return 1 if failed else 0
-
-
-def shrink(build):
-    by, path = {}, os.path.join(ROOT, EXCEPTIONS)
-    for rule, where, _ in problems(build):
-        by[rule, directory(where)] = by.get((rule, directory(where)), 0) + 1
-    head = "".join(line for line in open(path, encoding="utf-8") if line[0] == "#")
-    allowed = {key: min(n, by.get(key, 0)) for key, n in read_exceptions().items()}
-    with open(path, "w", encoding="utf-8") as f:
-        f.write(head + "".join("%s %s %d\n" % (*key, allowed[key]) for key in sorted(allowed) if allowed[key]))
-    return 0
+    found = problems(build)
+    for problem in sorted(found):
+        print("%s: %s: %s" % problem)
+    print("%d problems" % len(found))
+    return 1 if found else 0
 
 
 # ---- The drawing ---------------------------------------------------------------------------------------------
@@ -438,12 +407,6 @@ def main():
     arguments = sys.argv[1:]
     if arguments[:1] == ["check"] and len(arguments) <= 2:
         return check(arguments[1] if len(arguments) > 1 else None)
-    if arguments[:1] == ["problems"] and len(arguments) <= 2:
-        for problem in problems(arguments[1] if len(arguments) > 1 else None):
-            print("%s: %s: %s" % problem)
-        return 0
-    if arguments[:1] == ["shrink"] and len(arguments) == 2:
-        return shrink(arguments[1])
     if arguments[:1] == ["draw"] and len(arguments) == 2:
         return draw(arguments[1])
     if arguments == ["arrows"]:

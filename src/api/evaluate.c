@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/spec.h"
 #include "core/status.h"
 

@@ -8,7 +8,7 @@
 #include "core/allow.h"
 #include "core/modifiers.h"
 #include "core/parallel.h"
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"

@@ -25,6 +25,7 @@
 
 #include <string.h>
 
+#include "core/permutation.h"
 #include "core/random.h"
 #include "core/status.h"
 

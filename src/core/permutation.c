@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A random permutation by the inside-out form of the Fisher-Yates shuffle: It takes O(n), with one random word for
    each element. */
+#include "core/permutation.h"
+
 #include "core/random.h"
 
 void koksma__random_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation)

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sets of points: memory, limits of n and dim, and the check that coordinates are in [0,1]. */
+#include "core/points.h"
+
 #include <stdlib.h>
 
 #include "core/pages.h"
-#include "core/points_io.h"
 #include "core/status.h"
 
 koksma_status koksma__points_fit(size_t n, int dim)

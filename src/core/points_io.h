@@ -10,21 +10,9 @@
 #include "core/read_file.h"
 #include "core/visibility.h"
 
-/* Fails unless dim is a valid number of dimensions and n points of that dimension fit into one set. Errors: ARGUMENT,
-   DIM. */
-KOKSMA__LAB koksma_status koksma__points_fit(size_t n, int dim);
-
-/* Fails unless the set has points, its size is within the limits, and each coordinate is in [0,1] (NaN is not). Every
-   public function that takes points, unless it documents another rule, makes this check first. Errors: ARGUMENT, DIM. */
-KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
-
 /* Like koksma_points_read; `by` tells who named the file and thus which kinds of files may be opened
    (core/read_file.h). */
 koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points);
-
-/* Readers by format. Error messages call the source `name`. On failure points is left empty. */
-koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points);
-koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points);
 
 /* A file of n points that is written piece by piece, in the format given by the ending of its name. Coordinates may
    be any numbers. */
@@ -49,17 +37,5 @@ koksma_status koksma__writer_close(koksma__points_writer *writer, koksma_status 
 /* Writes all rows with one call, like koksma_points_write, but does not check that coordinates are in [0,1]. */
 koksma_status koksma__numbers_write(const char *path, const koksma_points *rows, const char *comment,
                                     const koksma_run *run);
-
-/* The writers of each format: one writes the header, one the points. `progress` is the fraction of the whole file
-   that was written before these points; `share` is the fraction that they make up. */
-typedef struct koksma__progress {
-    const koksma_run *run;
-    double done, share;
-} koksma__progress;
-
-void koksma__points_begin_text(FILE *stream, uint64_t n, int dim, const char *comment);
-koksma_status koksma__points_put_rows(FILE *stream, const koksma_points *points, char separator,
-                                      koksma__progress progress);
-koksma_status koksma__points_put_npy(FILE *stream, const koksma_points *points, koksma__progress progress);
 
 #endif

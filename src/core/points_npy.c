@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* NumPy's .npy, versions 1 to 3: little- or big-endian float32 and float64 arrays of shape (n, dim) or (n,), in C or
    Fortran order. Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html */
+#include "core/points_npy.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/npy.h"
 #include "core/parallel.h"
-#include "core/points_io.h"
 #include "core/status.h"
 
 enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048, WRITTEN_AT_ONCE = 1 << 18 };

@@ -3,6 +3,8 @@
    accepts blanks, commas and tabs between fields, comments, and a CSV header. A line `# n N` or `# dim D` must match
    the points. Test files with known values have another form: a preamble of lines `key number`, ended by a line
    `points`. Its lines `n N` and `dim D` must also match. */
+#include "core/points_text.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +12,7 @@
 #include "core/c_locale.h"
 #include "core/decimal.h"
 #include "core/parallel.h"
-#include "core/points_io.h"
+#include "core/read_file.h"
 #include "core/status.h"
 
 enum { MAX_LINE = 1 << 18, BLOCK = 2 * MAX_LINE, SHOWN = 40 };

@@ -10,13 +10,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "domains/choose.h"
 #include "domains/density_field.h"
 #include "domains/image_density.h"
 #include "image/formats.h"
+#include "image/image.h"
 
 typedef koksma__image_density density;
 

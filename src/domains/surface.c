@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "domains/choose.h"

@@ -40,6 +40,7 @@
 #include "image/coherence_law.h"
 #include "image/formats.h"
 #include "image/fourier.h"
+#include "image/image.h"
 #include "image/usable.h"
 
 enum { MAX_RINGS = 16, RING_FREQUENCIES = 64, ROUNDS = 4 };

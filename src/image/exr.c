@@ -5,6 +5,9 @@
 
 #include "image/exr.h"
 
+#include "image/image.h"
+#include "image/layers.h"
+
 static const koksma__exr_host host = {koksma__bytes_put, koksma__image_claim, koksma__layer_channel,
                                       koksma__layers_find, koksma_image_fini};
 static const koksma__module module = {"exr", "OpenEXR", {koksma__fail, koksma__fail_memory, &host}};

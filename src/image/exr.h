@@ -23,9 +23,4 @@ typedef struct koksma__exr_host {
 
 #define KOKSMA__EXR_HOST ((const koksma__exr_host *)koksma__own_host->functions)
 
-/* exr_rgba.c: reads EXR files as half floats: those compressed by DWAA, DWAB, B44 or B44A whose channels are R, G, B
-   or Y. wide: the file's numbers are not halves; a number too large for a half is UNSUPPORTED. */
-koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int channels, bool wide,
-                                    koksma_image *out);
-
 #endif

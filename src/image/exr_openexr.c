@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "image/exr.h"
+#include "image/exr_rgba.h"
 #include "modules/module_side.h"
 
 enum { SHORT_NAME = 31 }; /* the longest channel name, in bytes, that every EXR reader accepts */

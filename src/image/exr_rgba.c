@@ -6,6 +6,8 @@
  * may be that of another thread, but the status is right.
  */
 #define _GNU_SOURCE /* memfd_create */
+#include "image/exr_rgba.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

@@ -15,9 +15,6 @@ typedef struct koksma__bytes {
     size_t size, capacity;
 } koksma__bytes;
 
-/* Writes data at an offset and fills a gap before it with zeros; false when memory runs out. */
-bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size);
-
 typedef struct koksma__image_format {
     const char *name;
     bool (*recognises)(const unsigned char *bytes, size_t size);
@@ -45,43 +42,10 @@ typedef struct koksma__image_format {
 /* maximum length of a layer's name, and the capacity for the name, ".R" and the final 0 */
 enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 };
 
-/* Writes the name of channel k of a layer. */
-void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME]);
-
-/* The index of the first layer with a channel of that name; n: there is none. *channel: its index in the layer. */
-size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k);
-
-/* ARGUMENT unless the layers are images of one size, and no two channels have the same name. Errors name no file. */
-koksma_status koksma__layers_check(const koksma_layer *layers, size_t n);
-
-/* ARGUMENT unless these are valid dimensions of an image. */
-koksma_status koksma__image_check_shape(int width, int height, int channels);
-
-/* Format i of the table; NULL past the end. */
-const koksma__image_format *koksma__image_format_at(size_t i);
-
 /* The maximum number of pixels of an image that a scene or model names: 8192 x 8192. */
 enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
 
-/* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors name no
-   file. */
-koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
-                                       koksma_image *out);
-
-/* Checks that all pixels are numbers below 1e30. Other values come from a sun that is too bright for the file's
-   number format, or from a failed computation; they must not be drawn as black without an error. MALFORMED names
-   `name` and the first bad pixel. */
-koksma_status koksma__image_check(const koksma_image *image, const char *name);
-
-/* koksma_image_init for a size that a file claims: MALFORMED when the size is out of range, or when `bytes` bytes of
-   at most `pixels_a_byte` pixels each can't hold so many pixels. */
-koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
-                                  koksma_image *out);
-
 /* Luminance of linear red, green and blue (Rec. 709), in doubles. */
 #define KOKSMA__LUMINANCE(rgb) (0.2126 * (rgb)[0] + 0.7152 * (rgb)[1] + 0.0722 * (rgb)[2])
-
-/* Of a pixel. */
-double koksma__luminance(const koksma_image *image, size_t pixel);
 
 #endif

@@ -3,6 +3,7 @@
    recognises JPEG files and calls the module. */
 #include <string.h>
 
+#include "image/image.h"
 #include "image/jpeg.h"
 
 static const koksma__jpeg_host host = {koksma__bytes_put, koksma__image_claim};

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The layers of an image file: checks which layers may be written together, and names their channels. */
+#include "image/layers.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
 
 void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME])
 {

@@ -13,6 +13,7 @@
 #include "core/c_locale.h"
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
 
 static bool recognises(const unsigned char *bytes, size_t size)
 {

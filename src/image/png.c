@@ -16,6 +16,7 @@
 
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
 
 static bool recognises(const unsigned char *bytes, size_t size)
 {

@@ -10,6 +10,8 @@
 #include "core/atomic_file.h"
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
+#include "image/layers.h"
 
 static const koksma__image_format *const formats[] = {
 #define FORMAT(name) &koksma__format_##name,
@@ -21,74 +23,6 @@ static const koksma__image_format *const formats[] = {
 const koksma__image_format *koksma__image_format_at(size_t i)
 {
     return i < sizeof formats / sizeof *formats ? formats[i] : NULL;
-}
-
-bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size)
-{
-    if (offset + size > bytes->capacity) {
-        const size_t capacity = 2 * (offset + size) + 4096;
-        unsigned char *more = realloc(bytes->data, capacity);
-        if (!more) {
-            return false;
-        }
-        bytes->data = more;
-        bytes->capacity = capacity;
-    }
-    if (offset > bytes->size) {
-        memset(bytes->data + bytes->size, 0, offset - bytes->size);
-    }
-    memcpy(bytes->data + offset, data, size);
-    bytes->size = offset + size > bytes->size ? offset + size : bytes->size;
-    return true;
-}
-
-koksma_status koksma__image_check_shape(int width, int height, int channels)
-{
-    KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
-                        (size_t)width * (size_t)height > KOKSMA_MAX_PIXELS,
-                    KOKSMA_ARGUMENT,
-                    "%d x %d pixels: each side must be 1 to %d, and the number of pixels at most %zu", width, height,
-                    KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
-    KOKSMA__FAIL_IF(channels != 1 && channels != 3, KOKSMA_ARGUMENT, "%d channels: an image has 1 or 3", channels);
-    return KOKSMA_OK;
-}
-
-koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels)
-{
-    KOKSMA__REQUIRE(image);
-    *image = (koksma_image){0};
-    KOKSMA__TRY(koksma__image_check_shape(width, height, channels));
-    const size_t count = (size_t)width * (size_t)height * (size_t)channels;
-    image->pixels = calloc(count, sizeof *image->pixels);
-    KOKSMA__REQUIRE_MEMORY(image->pixels, count * sizeof *image->pixels);
-    image->width = width;
-    image->height = height;
-    image->channels = channels;
-    return KOKSMA_OK;
-}
-
-void koksma_image_fini(koksma_image *image)
-{
-    if (image) {
-        free(image->pixels);
-        *image = (koksma_image){0};
-    }
-}
-
-/* The largest number of pixels that this thread accepts in an image file. */
-static _Thread_local size_t most_pixels = KOKSMA_MAX_PIXELS;
-
-koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
-                                  koksma_image *out)
-{
-    KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
-                        (size_t)(width * height) > most_pixels,
-                    KOKSMA_MALFORMED,
-                    "it claims %lld x %lld pixels: each side must be 1 to %d, and the number of pixels at most %zu",
-                    width, height, KOKSMA_MAX_IMAGE_SIDE, most_pixels);
-    KOKSMA__FAIL_IF((double)width * (double)height > (double)bytes * pixels_a_byte, KOKSMA_MALFORMED,
-                    "cut short: it claims %lld x %lld pixels but has only %zu bytes", width, height, bytes);
-    return koksma_image_init(out, (int)width, (int)height, channels);
 }
 
 /* The library that a format needs and this build lacks, or NULL. */
@@ -155,7 +89,7 @@ koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, 
     const koksma__image_format *format;
     *out = (koksma_image){0};
     koksma_status status = find_format(bytes, size, &format);
-    most_pixels = kind == KOKSMA__FILE_TEXTURE ? KOKSMA__TEXTURE_PIXELS : KOKSMA_MAX_PIXELS;
+    koksma__image_limit(kind == KOKSMA__FILE_TEXTURE ? KOKSMA__TEXTURE_PIXELS : KOKSMA_MAX_PIXELS);
     status = status ? status : format->read(bytes, size, out);
     if (status) {
         koksma_image_fini(out);
@@ -180,7 +114,7 @@ koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, k
     *out = (koksma_image){0};
     koksma_status status = find_format(bytes, size, &format);
     if (!status && part == KOKSMA__IMAGE_ALPHA) {
-        most_pixels = KOKSMA__TEXTURE_PIXELS;
+        koksma__image_limit(KOKSMA__TEXTURE_PIXELS);
         status = format->read_alpha ? format->read_alpha(bytes, size, out) : KOKSMA_OK;
         if (status) {
             koksma_image_fini(out);
@@ -188,7 +122,7 @@ koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, k
         return status;
     }
     if (!status && part != KOKSMA__IMAGE_COLOURS && format->read_srgb) {
-        most_pixels = KOKSMA__TEXTURE_PIXELS;
+        koksma__image_limit(KOKSMA__TEXTURE_PIXELS);
         status = format->read_srgb(bytes, size, out);
         if (status) {
             koksma_image_fini(out);
@@ -217,41 +151,6 @@ koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksm
 koksma_status koksma_image_read(const char *path, koksma_image *out)
 {
     return koksma__image_read(path, KOKSMA__FILE_IMAGE, KOKSMA__BY_USER, out);
-}
-
-static size_t count_numbers(const koksma_image *image)
-{
-    return (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-}
-
-static koksma_status refuse_number(const koksma_image *image, size_t i, const char *name)
-{
-    const size_t pixel = i / (size_t)image->channels, width = (size_t)image->width;
-    return koksma__fail(KOKSMA_MALFORMED, "%s: pixel %zu,%zu has the value %g", name, pixel % width, pixel / width,
-                        (double)image->pixels[i]);
-}
-
-koksma_status koksma__image_check(const koksma_image *image, const char *name)
-{
-    for (size_t i = 0; i < count_numbers(image); i++) {
-        if (!(image->pixels[i] < 1e30f)) {
-            return refuse_number(image, i, name);
-        }
-    }
-    return KOKSMA_OK;
-}
-
-koksma_status koksma_image_check_finite(const koksma_image *image, const char *name)
-{
-    KOKSMA__REQUIRE(image, name);
-    KOKSMA__FAIL_IF(!image->pixels, KOKSMA_ARGUMENT, "an image without pixels");
-    const koksma_status status = koksma__image_check_shape(image->width, image->height, image->channels);
-    for (size_t i = 0; !status && i < count_numbers(image); i++) {
-        if (!isfinite(image->pixels[i])) {
-            return refuse_number(image, i, name);
-        }
-    }
-    return status;
 }
 
 static const koksma__image_format *format_of_name(const char *path)

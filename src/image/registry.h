@@ -6,6 +6,7 @@
 #include <koksma/image.h>
 
 #include "core/read_file.h"
+#include "image/formats.h"
 
 /* koksma_image_read with the kind of the file, and with who named the file: the user or another file
    (core/read_file.h). */
@@ -31,5 +32,13 @@ koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size)
    (koksma__atomic_open). */
 koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
                                      const char *metadata);
+
+/* Format i of the table; NULL past the end. */
+const koksma__image_format *koksma__image_format_at(size_t i);
+
+/* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors name no
+   file. */
+koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
+                                       koksma_image *out);
 
 #endif

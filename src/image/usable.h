@@ -4,6 +4,7 @@
 
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
 
 /* ARGUMENT unless the image has pixels and valid dimensions. */
 static inline koksma_status koksma__image_usable(const koksma_image *image)

@@ -5,12 +5,13 @@
  * the blocks are added in order.
  */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/lookup.h"
 #include "core/parallel.h"
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "core/suggestion.h"

@@ -6,6 +6,7 @@
 
 #include <koksma/sampler.h>
 
+#include "core/permutation.h"
 #include "core/random.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"

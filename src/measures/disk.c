@@ -25,6 +25,7 @@
 #include "core/status.h"
 #include "measures/measures.h"
 #include "measures/shared/deadline.h"
+#include "measures/shared/disk_cover.h"
 #include "measures/shared/disk_pencil.h"
 
 enum { PAIRS_TO = 64 };

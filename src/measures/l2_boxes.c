@@ -14,6 +14,7 @@
 #include "measures/l2_boxes.h"
 
 #include "measures/measures.h"
+#include "measures/shared/l2.h"
 #include "measures/shared/l2_gradient.h"
 
 /* Defines koksma__measure_l2_KIND: its title and citations, whether it is a measure on the torus, and c12, a24, g, q

@@ -13,7 +13,8 @@
  */
 #include "measures/measures.h"
 #include "measures/shared/deadline.h"
-#include "measures/shared/star.h"
+#include "measures/shared/star_partition.h"
+#include "measures/shared/star_search.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {

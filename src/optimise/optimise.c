@@ -15,7 +15,7 @@
 #include "api/evaluate.h"
 #include "core/clock.h"
 #include "core/parallel.h"
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/status.h"
 #include "measures/measures.h"
 #include "optimise/methods.h"

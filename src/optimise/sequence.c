@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/atomic_file.h"
+#include "core/points.h"
 #include "core/points_io.h"
 #include "core/status.h"
 

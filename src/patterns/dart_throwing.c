@@ -19,6 +19,7 @@
 #include "core/status.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/dart_cover.h"
+#include "patterns/shared/dart_tiles.h"
 #include "patterns/shared/packing.h"
 #include "patterns/shared/torus_grid.h"
 

@@ -19,7 +19,8 @@
 
 #include "core/allow.h"
 #include "core/child.h"
-#include "core/points_io.h"
+#include "core/points_npy.h"
+#include "core/points_text.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
 

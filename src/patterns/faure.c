@@ -13,7 +13,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/digit_sequence.h"
 #include "patterns/shared/owen_sequence.h"
-#include "patterns/shared/radical.h"
+#include "patterns/shared/primes.h"
 
 enum { NONE, OWEN };
 

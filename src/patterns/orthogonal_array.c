@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/permutation.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/patterns.h"

@@ -22,6 +22,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/ball_cover.h"
 #include "patterns/shared/dart_cover.h"
+#include "patterns/shared/dart_tiles.h"
 #include "patterns/shared/maximal_search.h"
 #include "patterns/shared/packing.h"
 

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/status.h"
 #include "measures/shared/spectrum.h"
 

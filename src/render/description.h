@@ -174,25 +174,4 @@ struct koksma_scene {
     koksma__scene_cache *cache;
 };
 
-/* ---- Building one: description.c ------------------------------------------------------------------------------ */
-
-/* The index of the material with this name; -1 if there is none. */
-int koksma__find_material(const koksma_scene *scene, const char *name);
-
-/* Adds a shape, a copy of *from; the pointer is valid until the next shape is added. Errors: MALFORMED (too many),
-   MEMORY. */
-koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *from, koksma__shape **out);
-
-/* Adds a light, zeroed. Errors: MALFORMED (too many). */
-koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);
-
-/* Adds a warning about a model file. Errors: MEMORY. */
-koksma_status koksma__scene_note(koksma_scene *scene, const char *text);
-
-/* Sets the albedo of a material with an image to the image's mean. */
-void koksma__material_mean(koksma__material *material);
-
-/* Computes the members that follow from the others: grey, moves, and the pixels' part of the hash. */
-void koksma__scene_finish(koksma_scene *scene);
-
 #endif

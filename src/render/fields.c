@@ -12,6 +12,7 @@
 
 #include "core/vector.h"
 #include "image/formats.h"
+#include "image/image.h"
 #include "image/registry.h"
 
 const char *koksma__package_hint(const char *path)

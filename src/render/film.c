@@ -40,6 +40,7 @@
 
 #include "core/status.h"
 #include "render/aov.h"
+#include "render/filters/filter_table.h"
 #include "render/vector3.h"
 
 /* The sums of a pixel, beside W and the sum of w y, that the variance of splatted samples needs, in this order. */

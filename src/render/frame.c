@@ -11,7 +11,13 @@
 
 #include "core/status.h"
 #include "render/accel/accel_meshes.h"
+#include "render/accel/accel_shapes.h"
+#include "render/filters/filter_table.h"
 #include "render/frame.h"
+#include "render/samples/image_samples.h"
+#include "render/samples/pixel_samples.h"
+#include "render/samples/use_patterns.h"
+#include "render/samples/uses.h"
 
 /* ---- The scene in floats ------------------------------------------------------------------------------ */
 

@@ -10,11 +10,13 @@
 #include <koksma/render.h>
 
 #include "render/accel/intersect.h"
+#include "render/filters/filter_table.h"
 #include "render/filters/filters.h"
 #include "render/frustum_cull.h"
 #include "render/integrators/integrator_flags.h"
 #include "render/pipelines/vertices.h"
 #include "render/samples/sampler.h"
+#include "render/samples/uses.h"
 
 typedef struct koksma__aovs koksma__aovs;
 
@@ -109,29 +111,6 @@ void koksma__move_origins(const koksma__frame *frame, const float *film, int n, 
 
 /* The sample dimensions that the render will use. */
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);
-
-/* Makes a group of the pixels from `first` on that have frame->together samples in all, at least one pixel, none from
-   `end` on. */
-void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);
-
-/* Draws the sample pairs of one use for all samples of a group, one pixel after the other; with on_film each pixel's
-   position is added. The pairs are padded with copies to whole lanes. */
-koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
-                                 koksma__sample_scratch *scratch, float *pairs);
-
-/* Scratch in which a task draws its samples and computes their values. */
-typedef struct koksma__task_scratch {
-    const koksma__pipeline *pipeline;
-    void *pipeline_scratch;
-    koksma__sample_scratch draw;
-    koksma__values values;
-} koksma__task_scratch;
-
-/* Allocates memory for groups of `capacity` samples; if all_layers, also for albedo, normal and depth. The caller
-   must call fini even after a failure. Errors: MEMORY. */
-koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
-                                        bool all_layers, koksma__task_scratch *scratch);
-void koksma__task_scratch_fini(koksma__task_scratch *scratch);
 
 /* The number of samples, rounded up to whole lanes. */
 static inline size_t koksma__whole_lanes(size_t samples)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "render/description_build.h"
 #include "render/lights/lights.h"
 
 enum { MAX_PLACEMENTS = 1 << 16 };

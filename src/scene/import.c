@@ -21,8 +21,10 @@
 #include "core/hash.h"
 #include "core/vector.h"
 #include "image/formats.h"
+#include "image/image.h"
 #include "image/registry.h"
 #include "meshes/inflate.h"
+#include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 

@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "core/status.h"
+#include "render/description_build.h"
 #include "scene/import_shapes.h"
 #include "scene/mitsuba.h"
 #include "scene/pbrt.h"

@@ -5,7 +5,11 @@
  * camera was added, a ground. Also replaces the sky of any scene by the user's.
  */
 #include "scene/model.h"
+#include "image/image.h"
+#include "render/description_build.h"
 #include "render/lights/lights.h"
+#include "scene/camera.h"
+#include "scene/model_build.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,31 +23,10 @@
 #include "render/materials/materials.h"
 #include "render/medium.h"
 #include "render/shapes/shapes.h"
-#include "scene/parse.h"
 
 /* A version number in the hash of scenes from mesh files; it is raised when a change of the code alters their
    images. */
 #define MODEL_REVISION 2
-
-bool koksma__camera_aim(const double eye[3], const double forward[3], const double up[3], double fov_rad,
-                        koksma__camera *camera)
-{
-    memcpy(camera->eye, eye, sizeof camera->eye);
-    memcpy(camera->forward, forward, sizeof camera->forward);
-    camera->fov_rad = fov_rad;
-    camera->focus_distance = 1;
-    camera->lens_map = koksma__lens_map("concentric");
-    camera->shutter[1] = 1;
-    if (!koksma__normalise(camera->forward)) {
-        return false;
-    }
-    koksma__cross(camera->forward, up, camera->right);
-    if (!koksma__normalise(camera->right)) {
-        return false;
-    }
-    koksma__cross(camera->forward, camera->right, camera->down);
-    return true;
-}
 
 /* Finds the sphere around the bounding box of all meshes; returns its radius. *low_y is the lowest height of the
    box. */

@@ -5,6 +5,8 @@
  * If some placements mirror a mesh and others do not, the scene contains it twice, once turned inside out (glTF
  * 2.0, section 3.7.4).
  */
+#include "scene/model_build.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,13 +15,14 @@
 #include "core/status.h"
 #include "core/vector.h"
 #include "image/formats.h"
+#include "image/image.h"
 #include "image/registry.h"
 #include "meshes/mesh_read.h"
+#include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/placements.h"
-#include "scene/model.h"
-#include "scene/parse.h"
+#include "scene/camera.h"
 
 typedef struct builder {
     koksma_scene *scene;

@@ -3,6 +3,7 @@
  * Reads scene files, as docs/scenes.md describes them: the root object and its lists, in the order that
  * references need (materials before shapes before lights). Every error names file, line and field.
  */
+
 #include "scene/parse.h"
 
 #include <math.h>
@@ -11,9 +12,12 @@
 #include <string.h>
 
 #include "core/vector.h"
+#include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/medium.h"
 #include "render/shapes/shapes.h"
+#include "scene/camera.h"
+#include "scene/parse_materials.h"
 
 /* ---- The camera ----------------------------------------------------------------------------------------- */
 

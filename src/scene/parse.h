@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads the materials of a scene file; parse.c reads everything else. */
+/* Reads scene files. */
 #ifndef KOKSMA_SCENE_PARSE_H
 #define KOKSMA_SCENE_PARSE_H
 
-#include "render/fields.h"
-#include "scene/scene.h"
+#include "render/description.h"
 
-/* Reads a material. `name` is the path of the scene's file; files that the material names are searched beside it. */
-koksma_status koksma__parse_material(const char *name, const field *f, koksma_scene *scene);
+/* Fills a scene from a text; `name` is for error messages. The caller must call koksma__scene_fini even after an
+   error. */
+koksma_status koksma__scene_parse(const char *name, const char *text, size_t size, koksma_scene *scene);
 
 #endif

@@ -4,10 +4,12 @@
  * the table in render/materials. This file reads the fields that several kinds share: the name, and the diffuse
  * albedo, which is one colour, two colours in the squares of a checkerboard, or an image.
  */
+#include "scene/parse_materials.h"
+
 #include <string.h>
 
+#include "render/description_build.h"
 #include "render/materials/materials.h"
-#include "scene/parse.h"
 
 /* Reads "albedo", or for a checkerboard "albedos" and the size and position of its squares. */
 static koksma_status parse_albedo(const field *f, koksma__material *m)

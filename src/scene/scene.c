@@ -15,6 +15,7 @@
 #include "meshes/mesh_read.h"
 #include "scene/import_open.h"
 #include "scene/model.h"
+#include "scene/parse.h"
 #include "scene/scenes_embedded.h"
 
 enum { N_SHIPPED = sizeof embedded_texts / sizeof *embedded_texts };
@@ -180,13 +181,6 @@ uint64_t koksma_scene_hash(const koksma_scene *scene)
 {
     KOKSMA__REQUIRE_OR(0, scene);
     return scene->hash;
-}
-
-const koksma_warp *koksma__lens_map(const char *name)
-{
-    return koksma_warp_find(!strcmp(name, "concentric") ? "concentric-disk"
-                            : !strcmp(name, "polar")    ? "polar-disk"
-                                                        : "");
 }
 
 int koksma_scene_rays_per_sample(const koksma_scene *scene)

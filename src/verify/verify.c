@@ -9,7 +9,7 @@
 
 #include "core/capacity.h"
 #include "core/lookup.h"
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/status.h"
 
 static const koksma__property *const properties[] = {

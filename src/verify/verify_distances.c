@@ -14,7 +14,7 @@
 #include "core/c_locale.h"
 #include "core/closest_pair.h"
 #include "core/parallel.h"
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/status.h"
 #include "patterns/shared/packing.h"
 #include "patterns/shared/torus_grid.h"

@@ -12,7 +12,6 @@
 
 #include "api/generate.h"
 #include "patterns/shared/packing.h"
-#include "patterns/shared/radical.h"
 #include "test.h"
 
 typedef void claim_check(const koksma_spec *spec, const koksma_points *points, uint64_t seed);

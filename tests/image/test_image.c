@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "image/formats.h"
+#include "image/registry.h"
 #include "test.h"
 
 static koksma_image noise(int width, int height, int channels)

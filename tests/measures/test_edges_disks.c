@@ -4,6 +4,8 @@
 
 #include "kernels/kernels.h"
 #include "measures/shared/disk_laws.h"
+#include "measures/shared/edge_cover.h"
+#include "measures/shared/edge_domain.h"
 #include "measures/shared/edge_sweep.h"
 #include "measures/shared/lines.h"
 #include "measures/shared/orientation.h"

@@ -6,8 +6,9 @@
 
 #include "core/clock.h"
 #include "kernels/kernels.h"
-#include "measures/shared/extreme.h"
+#include "measures/shared/extreme_plane.h"
 #include "measures/shared/extreme_runs.h"
+#include "measures/shared/extreme_small.h"
 #include "sets.h"
 
 static void plane_equals_plain_search(void **state)

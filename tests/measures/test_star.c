@@ -5,7 +5,8 @@
 
 #include <koksma/series.h>
 
-#include "measures/shared/star.h"
+#include "measures/shared/star_2d.h"
+#include "measures/shared/star_partition.h"
 #include "sets.h"
 
 static double radical_inverse(unsigned base, unsigned long i)

@@ -4,7 +4,7 @@
 #include <koksma/warp.h>
 
 #include "measures/shared/quadrature.h"
-#include "measures/shared/warp_disks.h"
+#include "measures/shared/warp_caps.h"
 #include "measures/shared/warp_domains.h"
 #include "sets.h"
 

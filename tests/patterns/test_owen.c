@@ -6,7 +6,9 @@
 
 #include "api/generate.h"
 #include "claims/claims.h"
+#include "core/permutation.h"
 #include "core/random.h"
+#include "patterns/shared/primes.h"
 #include "test.h"
 
 enum { MOST_DIM = 7 };

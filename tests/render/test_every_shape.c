@@ -19,6 +19,7 @@
 #include "core/vector.h"
 #include "kinds.h"
 #include "render/accel/accel_meshes.h"
+#include "render/accel/accel_shapes.h"
 #include "render/shapes/shapes.h"
 
 enum { TRIALS = 24, STEPS = 2000 };

@@ -8,7 +8,8 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/pipelines/wavefront.h"
+#include "render/pipelines/wavefront_lights.h"
+#include "render/pipelines/wavefront_scratch.h"
 #include "test.h"
 
 enum { POINTS = 40, GRID = 4096 };

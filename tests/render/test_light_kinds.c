@@ -12,6 +12,7 @@
  */
 #include "kinds.h"
 #include "render/accel/accel_meshes.h"
+#include "render/accel/accel_shapes.h"
 #include "render/lights/lights.h"
 #include "render/vector3.h"
 

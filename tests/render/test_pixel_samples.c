@@ -11,7 +11,9 @@
 #include "core/modifiers.h"
 #include "core/random.h"
 #include "render/samples/float_sets.h"
+#include "render/samples/pixel_samples.h"
 #include "render/samples/sampler.h"
+#include "render/samples/uses.h"
 #include "test.h"
 
 enum { MOST = 256, TRIALS = 20000 };

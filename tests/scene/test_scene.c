@@ -5,6 +5,7 @@
 
 #include <koksma/render.h>
 
+#include "scene/parse.h"
 #include "scene/scene.h"
 #include "test.h"
 

@@ -21,6 +21,7 @@
 #include "core/suggestion.h"
 #include "core/sum.h"
 #include "image/formats.h"
+#include "image/image.h"
 #include "image/metrics/metrics.h"
 #include "image/usable.h"
 

@@ -5,6 +5,8 @@
    8 x 16 numbers. Rows 2k and 2k+1 have the cosine and the sine at frequency k of x, columns those of y. The columns
    are computed for one chunk of the points at a time and used for a band of rows, so that memory does not grow with
    the number of points. */
+#include "measures/shared/amplitudes_exact.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +14,6 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "measures/shared/amplitudes.h"
 
 enum { ROWS = 8, COLUMNS = 16, GROUP = 8, POINTS_PER_PANEL = 128, BLOCKS_PER_BAND = 32, CHUNK_NUMBERS = 1 << 22 };
 

@@ -6,6 +6,8 @@
  * transform of the points is that of the grid divided by that of the kernel. All columns are transformed along y
  * first, two real columns as one complex column, then the rows with 0 <= ky <= half along x.
  */
+#include "measures/shared/amplitudes_fast.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +15,6 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "measures/shared/amplitudes.h"
 
 enum { WIDTH = 14, LANES = 16, NODES = 48 };
 

@@ -14,6 +14,8 @@
  * away from c. If the disk is better than the best so far, these distances are close to a d_i whose bound exceeds the
  * best value. When these points are few, the disks through all pairs of them are tried, and the cell is finished.
  */
+#include "measures/shared/disk_cover.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -33,10 +33,4 @@ koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma
 koksma_status koksma__disk_pair(const koksma__disk_set *set, size_t i, size_t j, double dx, double dy,
                                 koksma__disk_best *best);
 
-/* Raises *best to the best of all disks by branch and bound. *upper is an upper bound for all disks; it exceeds the
-   value of *best if the search stopped early, at the deadline or, without one, after 2^28 point tests. Errors:
-   MEMORY, INTERRUPTED. */
-koksma_status koksma__disk_cover(const koksma__disk_set *set, const koksma_run *run, double deadline_s,
-                                 koksma__disk_best *best, double *upper);
-
 #endif

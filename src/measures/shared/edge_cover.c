@@ -11,13 +11,15 @@
  * where both bounds are computed from the points sorted along the middle direction. Intervals whose bound exceeds the
  * largest known value are halved.
  */
+#include "measures/shared/edge_cover.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/deadline.h"
-#include "measures/shared/edge_sweep.h"
+#include "measures/shared/edge_domain.h"
 #include "measures/shared/order.h"
 
 enum { FIRST_CUTS = 32, MAX_CUTS = 1 << 20 };

@@ -23,6 +23,8 @@
  * counts as on it, which causes errors of a few 1e-15 in the values. Normals of planes through three points are
  * computed with 106 bits, because the points may be almost collinear.
  */
+#include "measures/shared/edge_space.h"
+
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>

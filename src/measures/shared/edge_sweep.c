@@ -29,6 +29,8 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/deadline.h"
+#include "measures/shared/edge_cover.h"
+#include "measures/shared/edge_domain.h"
 #include "measures/shared/orientation.h"
 
 enum { PIVOTS_PER_BLOCK = 16, DIGIT = 11 };

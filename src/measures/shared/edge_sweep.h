@@ -2,42 +2,12 @@
 #ifndef KOKSMA_MEASURES_SHARED_EDGE_SWEEP_H
 #define KOKSMA_MEASURES_SHARED_EDGE_SWEEP_H
 
-#include <koksma/koksma.h>
-
-enum { KOKSMA__MAX_CHORDS = 3 };
-
-/* The direction of a chord as two exact differences, (across[0] - across[1], up[0] - up[1]); both are 0 if there is
-   no chord. */
-typedef struct koksma__chord {
-    double across[2], up[2];
-} koksma__chord;
-
-/* A convex domain in the plane with the uniform measure of total mass 1. */
-typedef struct koksma__domain {
-    /* returns the mass of the half-plane a x + b y <= a p[0] + b p[1] */
-    double (*area_below_through)(double a, double b, const double p[2]);
-    /* computes the chords with midpoint p. They are the lines through p for which the mass on one side is stationary
-       as the line turns about p. There is at least one; at a corner they are the two adjacent sides */
-    void (*chords)(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS]);
-    double radius; /* radius of a circle that contains the domain */
-} koksma__domain;
-
-/* A half-plane: a x + b y <= c if it is closed, else a x + b y < c. */
-typedef struct koksma__edge_line {
-    double value, a, b, c, mass;
-    size_t count;
-    bool closed;
-} koksma__edge_line;
+#include "measures/shared/edge_domain.h"
 
 /* Computes the largest |count/n - mass| over half-planes whose border goes through a point, with its witness. If
    run's time limit passes, out is not exact: it receives the best value found and an upper bound. Errors: N, MEMORY,
    INTERRUPTED. */
 koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
                                  koksma_value *out);
-
-/* Cuts the directions into intervals until the deadline. Sets *upper to a bound for all lines, and *best to the best
-   line in the middle direction of an interval if it is better. Errors: MEMORY, INTERRUPTED. */
-koksma_status koksma__edge_cover(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
-                                 double deadline_s, koksma__edge_line *best, double *upper);
 
 #endif

@@ -13,6 +13,8 @@
  * block has cost as much as sweeping it from each of its left sides would cost, the block is swept instead. The cost
  * is a count of operations, not a time, so that results are reproducible.
  */
+#include "measures/shared/extreme_plane.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,8 +22,8 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/shared/deadline.h"
-#include "measures/shared/extreme.h"
 #include "measures/shared/extreme_runs.h"
+#include "measures/shared/extreme_strip.h"
 #include "measures/shared/extreme_sweep.h"
 #include "measures/shared/order.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Finds the best box in d = 1 to 3 dimensions by trying all pairs of sides in all coordinates but the first:
    O(n^(2d-1)). */
-#include "measures/shared/extreme.h"
+#include "measures/shared/extreme_small.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* When a search has found the best strip, the functions of this file find the best box of this strip again, with all
    its sides and the value that is reported. */
-#include "measures/shared/extreme.h"
+#include "measures/shared/extreme_strip.h"
 
 void koksma__extreme_of_strip(size_t n, const double *x, const double *y, double left, double right, bool closed,
                               koksma_value *out)

@@ -30,6 +30,8 @@
  * All sums are compensated. The weights are rounded products, with independent errors of 1e-16 for each point that
  * average out. The halves do not depend on the number of threads, and their sums are added in a fixed order.
  */
+#include "measures/shared/l2_divide.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +40,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/shared/double_double.h"
-#include "measures/shared/l2.h"
+#include "measures/shared/l2_pairs.h"
 #include "measures/shared/order.h"
 
 typedef koksma__dd dd;

@@ -2,7 +2,7 @@
 #ifndef KOKSMA_MEASURES_SHARED_L2_GRADIENT_H
 #define KOKSMA_MEASURES_SHARED_L2_GRADIENT_H
 
-#include "measures/shared/l2.h"
+#include "measures/shared/l2_pairs.h"
 
 /* Computes the square of an L2 discrepancy by sums over pairs, and its derivatives by all coordinates, in O(n^2 d).
    Errors: MEMORY. */

@@ -7,10 +7,12 @@
  * result is f^d times the square, and its root is divided by f^(d/2). The root has half the exponent of the square,
  * so it is in the range of doubles in more dimensions.
  */
+#include "measures/shared/l2_range.h"
+
 #include <math.h>
 
 #include "core/status.h"
-#include "measures/shared/l2.h"
+#include "measures/shared/l2_pairs.h"
 
 /* Up to PLAIN_DIM dimensions every term of every L2 discrepancy is in the range of doubles. */
 enum { PLAIN_DIM = 200, FAR_BITS = 900, GUARD_BITS = 1000 };

@@ -14,6 +14,8 @@
  * that the product of the low halves of two 112-bit factors is dropped. For n < 2^22 the unit is 2^-53, which is the
  * spacing of doubles near 1. Moving a point by such a distance changes the square by less than 1e-16/n.
  */
+#include "measures/shared/l2_sort.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,8 +23,8 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/double_double.h"
-#include "measures/shared/l2.h"
 #include "measures/shared/l2_below.h"
+#include "measures/shared/l2_pairs.h"
 #include "measures/shared/order.h"
 
 #ifndef __SIZEOF_INT128__

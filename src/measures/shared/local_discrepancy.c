@@ -7,7 +7,7 @@
  */
 #include <stdlib.h>
 
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/status.h"
 
 koksma_status koksma_local_discrepancy(const koksma_points *points, const double *x, double *out)

@@ -14,7 +14,7 @@
 
 #include "core/closest_pair.h"
 #include "core/parallel.h"
-#include "core/points_io.h"
+#include "core/points.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/shared/closest_space.h"

@@ -26,9 +26,4 @@ KOKSMA__LAB double koksma__plane_constant(void);
    */
 KOKSMA__LAB void koksma__random_plane(uint64_t seed, uint64_t index, double a[3], double *c);
 
-/* Computes the measure `edge` in 3 dimensions: the largest |count/n - volume| over all half-spaces, with its witness.
-   If run's time limit passes, out is not exact: it receives the best value found and the upper bound 1. Errors: N,
-   MEMORY, INTERRUPTED. */
-koksma_status koksma__edge_space(const koksma_points *points, const koksma_run *run, koksma_value *out);
-
 #endif

@@ -8,9 +8,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/points.h"
 #include "core/points_io.h"
 #include "core/status.h"
-#include "measures/shared/amplitudes.h"
+#include "measures/shared/amplitudes_exact.h"
+#include "measures/shared/amplitudes_fast.h"
 
 /* Constants in the definitions of the quality numbers, which koksma/spectrum.h explains. */
 #define NYQUIST_SHARE 0.1

@@ -3,6 +3,8 @@
    each rank j by y the sweep keeps the number of points so far whose rank is below j, which gives the excess (rank <=
    j) and the deficit (rank < j) of the box to (x, y_j). Equal coordinates need no special case: a box that is
    evaluated before all its points are counted gives too small a value, but the sweep evaluates it again later. */
+#include "measures/shared/star_2d.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,7 +12,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/shared/order.h"
-#include "measures/shared/star.h"
+#include "measures/shared/star_kinetic.h"
 
 enum { CROSSOVER = 2000, POINTS_PER_BLOCK = 1 << 15 };
 

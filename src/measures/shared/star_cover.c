@@ -3,6 +3,8 @@
    b] has an excess above #(x <= b)/n - volume(a), or a deficit above volume(b) - #(x < a)/n. The box with the largest
    bound is cut in two until the deadline passes or the memory is full; the largest bound that remains is an upper
    bound of the discrepancy. */
+#include "measures/shared/star_cover.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +12,6 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/deadline.h"
-#include "measures/shared/star.h"
 
 enum { MAX_BOXES = 1 << 19, POINTS_PER_CHECK = 1 << 16 };
 

@@ -28,6 +28,8 @@
  * has overtaken another. Comparisons are made in doubles. If two lines are nearly equal, either may win, because
  * their values are equal up to rounding.
  */
+#include "measures/shared/star_kinetic.h"
+
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -35,7 +37,6 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "measures/shared/star.h"
 
 enum { BLOCK = 16, CHECK_EVERY = 1 << 14, PARTS = 4, MANY = 1 << 12 };
 

@@ -9,6 +9,8 @@
  * that contains c of the points undecided in this coordinate. The slabs of the first coordinate are separate blocks
  * of work, each with its own best box, so that the result does not depend on the number of threads.
  */
+#include "measures/shared/star_partition.h"
+
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -20,7 +22,7 @@
 #include "kernels/kernels.h"
 #include "measures/shared/deadline.h"
 #include "measures/shared/order.h"
-#include "measures/shared/star.h"
+#include "measures/shared/star_2d.h"
 
 enum { LEAVES_PER_CHECK = 256 };
 

@@ -13,6 +13,8 @@
  * A step moves some coordinates by a bounded number of ranks and climbs. It is undone if the new value is less than
  * the old value minus a threshold. The moves get smaller and the threshold goes to zero.
  */
+#include "measures/shared/star_search.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +24,8 @@
 #include "core/status.h"
 #include "measures/shared/deadline.h"
 #include "measures/shared/order.h"
-#include "measures/shared/star.h"
+#include "measures/shared/star_2d.h"
+#include "measures/shared/star_partition.h"
 
 enum { DIMS = KOKSMA__STAR_MAX_DIM, MANY = 1 << 14 };
 

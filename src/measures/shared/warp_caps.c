@@ -2,8 +2,10 @@
 /*
  * The measure l2-disk for points on the hemisphere, with law=area: spherical caps with a random direction and a
  * uniform area. By Stolarsky's invariance principle the mean square follows from mean distances between points, and
- * between points and the hemisphere (the formula is in warp_disks.h): O(n^2).
+ * between points and the hemisphere (the formula is in warp_caps.h): O(n^2).
  */
+#include "measures/shared/warp_caps.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,7 +13,6 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/shared/quadrature.h"
-#include "measures/shared/warp_disks.h"
 
 enum { BLOCK = 32 };
 

@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#include "measures/shared/edge_domain.h"
+
 enum { NODES = 64 };
 
 /* Gauss-Legendre nodes and weights on (0, 1), by Newton's iteration on the Legendre polynomial. */

@@ -5,6 +5,8 @@
  * sum over points and a constant. The sum over points and the constant consist of integrals over rings about the
  * origin (quadrature.c). O(n^2).
  */
+#include "measures/shared/warp_l2_disk.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,7 +15,6 @@
 #include "core/sum.h"
 #include "kernels/kernels.h"
 #include "measures/shared/quadrature.h"
-#include "measures/shared/warp_disks.h"
 #include "measures/shared/warp_domains.h"
 
 enum { BLOCK = 64 };
@@ -60,7 +61,7 @@ static double in_pieces(double (*f)(double, const void *), const ring *g, double
     return koksma__integral(f, g, a, corner) + koksma__integral(f, g, corner, b);
 }
 
-/* Returns the term a(s) of the formula in warp_disks.h. */
+/* Returns the term a(s) of the formula in warp_l2_disk.h. */
 static double linear_term(double r, double s)
 {
     const ring g = {r, s};

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Throws the darts of one round of koksma__disks_fill and decides which are kept (the algorithm is in
    dart_cover.h). */
+#include "patterns/shared/dart_round.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +11,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/shared/dart_cover.h"
+#include "patterns/shared/dart_tiles.h"
 
 enum { MOST_CELLS = KOKSMA__DART_TILE };
 

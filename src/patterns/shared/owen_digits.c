@@ -22,7 +22,7 @@
 #include "kernels/kernels.h"
 #include "patterns/shared/columns.h"
 #include "patterns/shared/grow.h"
-#include "patterns/shared/radical.h"
+#include "patterns/shared/primes.h"
 
 enum { FEW = 256, MANY = 4096, MAX_BASE = 38880, SMALL_BASE = 13, BLOCK_NUMBERS = 1 << 14 };
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The first 4,096 primes, computed once by the sieve of Eratosthenes. */
-#include <pthread.h>
+#include "patterns/shared/primes.h"
 
-#include "patterns/shared/radical.h"
+#include <pthread.h>
 
 enum { LIMIT = 38880 }; /* above the 4,096th prime, 38,873 */
 

@@ -11,6 +11,7 @@
 
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/shared/primes.h"
 
 static uint32_t digit_of(const koksma__radical *r, int j, uint32_t a)
 {

@@ -47,7 +47,4 @@ void koksma__radicals_fini(koksma__radicals *r);
 /* Computes out[i], i < count, the radical inverse of first + i. */
 void koksma__radical_column(const koksma__radical *r, uint64_t first, size_t count, double *out);
 
-/* Returns the k-th prime, counted from 0: koksma__prime(0) = 2. k < KOKSMA_MAX_DIM. */
-uint32_t koksma__prime(int k);
-
 #endif

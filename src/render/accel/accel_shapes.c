@@ -4,6 +4,8 @@
  * rays. A flat shape casts no shadow if all other shapes and all lights lie on one side of it, because that side is
  * convex; shadow rays therefore skip, for example, a floor.
  */
+#include "render/accel/accel_shapes.h"
+
 #include <math.h>
 #include <stdlib.h>
 

@@ -40,7 +40,4 @@ typedef struct koksma__geometry {
     void (*release)(struct koksma__geometry *geometry);
 } koksma__geometry;
 
-/* Makes the geometry of the scene's analytic shapes, without an acceleration structure. Errors: MEMORY. */
-koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out);
-
 #endif

@@ -4,6 +4,8 @@
  * as cumulative sums, which are inverted by binary search. All positions in a cell have the same weight, the mean of
  * f over the cell divided by the mean of |f|, so that the expected weight in each cell is exactly the integral of f.
  */
+#include "render/filters/filter_table.h"
+
 #include <math.h>
 #include <stdlib.h>
 

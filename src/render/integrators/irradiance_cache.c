@@ -25,6 +25,9 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "render/pipelines/wavefront.h"
+#include "render/pipelines/wavefront_scratch.h"
+#include "render/samples/pixel_samples.h"
+#include "render/samples/uses.h"
 #include "render/vector3.h"
 
 enum { RAYS = 256, COARSEST = 16, FINEST = 2, LEVELS = 64, BUCKETS = 1 << 16, MAX_RECORDS = 1 << 22 };

@@ -15,6 +15,7 @@
 #include "core/capacity.h"
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
 #include "render/lights/surface_lights.h"
 
 static void pixel(const koksma_image *image, size_t i, float rgb[3])

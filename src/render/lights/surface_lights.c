@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/vector.h"
+#include "render/description_build.h"
 
 static double luminance(const double rgb[3])
 {

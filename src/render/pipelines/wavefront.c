@@ -35,6 +35,9 @@
  */
 #include "render/pipelines/wavefront.h"
 
+#include "render/pipelines/wavefront_lights.h"
+#include "render/pipelines/wavefront_scratch.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -45,6 +48,7 @@
 #include "render/lens.h"
 #include "render/pipelines/pipelines.h"
 #include "render/pipelines/wavefront_medium.h"
+#include "render/samples/uses.h"
 #include "render/texture.h"
 #include "render/vector3.h"
 

@@ -7,10 +7,13 @@
  * the power of the lights. The flags of the integrator determine the weight of light that a ray along a followed lobe
  * can also find.
  */
+#include "render/pipelines/wavefront_lights.h"
+
 #include <string.h>
 
-#include "render/pipelines/wavefront.h"
 #include "render/pipelines/wavefront_medium.h"
+#include "render/pipelines/wavefront_scratch.h"
+#include "render/samples/uses.h"
 
 static void choose(const koksma__trace *trace, const koksma__vertices *v, const float *us, koksma__light_lanes *l)
 {

@@ -10,7 +10,8 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
-#include "render/pipelines/wavefront.h"
+#include "render/group.h"
+#include "render/pipelines/wavefront_scratch.h"
 
 void koksma__wavefront_close(void *opened)
 {

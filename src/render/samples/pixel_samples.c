@@ -10,6 +10,8 @@
  * The random words are hashes of (seed, pixel, use). float_sets.c makes the pairs of a use in floats if its pattern
  * has such a form; koksma_generate makes all others.
  */
+#include "render/samples/pixel_samples.h"
+
 #include <stdlib.h>
 
 #include "api/generate.h"
@@ -21,6 +23,8 @@
 #include "patterns/shared/file_names.h"
 #include "render/samples/float_sets.h"
 #include "render/samples/sampler.h"
+#include "render/samples/use_patterns.h"
+#include "render/samples/uses.h"
 
 /* base of the keys for the random numbers of permutations, above the keys of all uses */
 enum { LANE_PAIRING = 1 << 20 };

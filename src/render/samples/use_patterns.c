@@ -5,12 +5,14 @@
  * and '=', if any. A ';' ends a part only where the next part names uses, so that a path may contain a ';'. The
  * canonical text prints each pattern in canonical form.
  */
+#include "render/samples/use_patterns.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
-#include "render/samples/sampler.h"
+#include "render/samples/uses.h"
 
 /* ---- Checks ---------------------------------------------------------------------------------------------- */
 

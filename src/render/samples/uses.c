@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Implements uses, the purposes for which sample dimensions are drawn: the table of uses, the group of each use, the
- * dimensions of a pattern that a use takes, and the scratch memory for drawing samples.
+ * Implements uses, the purposes for which sample dimensions are drawn: the table of uses, the group of each use, and
+ * the dimensions of a pattern that a use takes.
  */
-#include <stdlib.h>
+#include "render/samples/uses.h"
 
-#include "core/capacity.h"
 #include "core/status.h"
-#include "render/samples/sampler.h"
 
 /* Converts the number of a use to its index in the table; all lights share the last index. */
 #define POSITION(number) ((number) < KOKSMA__USE_LIGHT ? (number) : KOKSMA_N_USES - 1)
@@ -141,35 +139,4 @@ int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
     default:
         return start + 2 * (number - KOKSMA__USE_LIGHT);
     }
-}
-
-koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler)
-{
-    static const koksma_run alone = {.threads = 1};
-    const size_t n = sampler->most, pixels = sampler->prepare && n && n < KOKSMA__BLOCK ? KOKSMA__BLOCK / n : 1;
-    const size_t words = (pixels * (2 * n + 4 * KOKSMA__SHUFFLED) + 2 * KOKSMA__SHUFFLED) / 16 * 16;
-    const size_t orders = 2 * pixels * (n < KOKSMA__ORDERED ? n : KOKSMA__ORDERED) + 2 * 64;
-    const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
-    *room = (koksma__sample_scratch){
-        .xs = malloc((2 * n + 8) * sizeof *room->xs),
-        .pairs = malloc(2 * n * sizeof *room->pairs),
-        /* the words are aligned, because kernels store whole vectors */
-        .words = aligned_alloc(64, words * sizeof *room->words),
-        .order = malloc(orders * sizeof *room->order),
-        .kept = malloc((kept + 1) * sizeof *room->kept),
-        .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),
-        .run = sampler->run ? sampler->run : &alone,
-        .room_for = pixels,
-    };
-    if (!room->xs || !room->pairs || !room->words || !room->order || !room->kept || !room->kept_keys) {
-        koksma__sample_scratch_fini(room);
-        return koksma__fail_memory(24 * n + 4 * words + 2 * orders + 8 * kept);
-    }
-    return KOKSMA_OK;
-}
-
-void koksma__sample_scratch_fini(koksma__sample_scratch *room)
-{
-    KOKSMA__FREE(room->xs, room->pairs, room->words, room->order, room->kept, room->kept_keys);
-    *room = (koksma__sample_scratch){0};
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* box: six rectangles that face outwards, rotated about y by angle_deg. */
 #include "core/vector.h"
+#include "render/description_build.h"
 #include "render/shapes/shapes.h"
 
 /* Makes the side with number `side` (0 to 5: -x +x -y +y -z +z of the box's axes), a rectangle with the axes that a

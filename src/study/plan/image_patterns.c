@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "render/samples/sampler.h"
+#include "render/samples/use_patterns.h"
 
 koksma_status koksma__image_pattern_set(const char *text, koksma_render_options *options)
 {

@@ -23,6 +23,7 @@
 #include "core/hash.h"
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
 #include "study/ranking/ranking_contest.h"
 
 #define ALPHA 0.04

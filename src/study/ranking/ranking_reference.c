@@ -13,6 +13,7 @@
 
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
 
 enum { REPLICATES = KOKSMA__RANK_REPLICATES, LEAST_SPP = 64, TIMES = 16 };
 

@@ -18,8 +18,9 @@
 #include "core/sha256.h"
 #include "core/status.h"
 #include "image/formats.h"
+#include "image/image.h"
 #include "image/registry.h"
-#include "render/rows.h"
+#include "render/render.h"
 #include "study/plan/point_files.h"
 #include "study/run/study.h"
 

@@ -2,7 +2,7 @@
 /* Work in parts: rows of a picture have the bits of the whole one, and every number of a queue is given out once. */
 #include <string.h>
 
-#include "render/rows.h"
+#include "render/render.h"
 #include "rendering.h"
 #include "study/run/work_queue.h"
 

@@ -7,6 +7,8 @@
  * estimate is biased, because the values that decide about splits are also averaged. It is unbiased with reuse=fresh;
  * aligned strata also need phase=shifted or phase=folded.
  */
+#include "render/samples/adaptive/adaptive_place.h"
+#include "render/samples/adaptive/adaptive_show.h"
 #include "render/samples/adaptive/adaptive_strata.h"
 
 enum { PAIRING = KOKSMA__STRATA_REUSE + 1, PHASE };

@@ -15,6 +15,8 @@
  * would not if cells were quartered in several uses at once. The candidates for the base use are the pixel, the lens
  * and time, and the first lights and the lobe of the first two vertices.
  */
+#include "render/samples/adaptive/adaptive_place.h"
+#include "render/samples/adaptive/adaptive_show.h"
 #include "render/samples/adaptive/adaptive_strata.h"
 #include "render/vector3.h"
 

@@ -79,9 +79,6 @@ struct koksma__adaptive {
     koksma_adaptive_report report;
 };
 
-/* Selects the pixels of the next round and sets *selected to their number. Errors: MEMORY. */
-koksma_status koksma__adaptive_choose(koksma__adaptive *run, size_t *selected);
-
 #define ADAPTIVE(name) extern const koksma_adaptive koksma__adaptive_##name;
 #include "render/samples/adaptive/adaptive.def"
 #undef ADAPTIVE

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Selects the pixels that receive samples in the next round: all that demand samples or, under a budget, those
    where samples reduce the error most. */
+#include "render/samples/adaptive/adaptive_choose.h"
+
 #include <stdlib.h>
 
 #include "core/status.h"

@@ -10,9 +10,12 @@
 #include "core/status.h"
 #include "render/aov.h"
 #include "render/film.h"
+#include "render/group.h"
 #include "render/pipelines/pipelines.h"
+#include "render/samples/adaptive/adaptive_choose.h"
+#include "render/samples/adaptive/adaptive_place.h"
 #include "render/samples/adaptive/adaptive_sets.h"
-#include "render/samples/adaptive/adaptive_strata.h"
+#include "render/samples/uses.h"
 
 enum { PIXELS_A_TASK = 128, SAMPLES_A_LOOK = 1 << 12 };
 

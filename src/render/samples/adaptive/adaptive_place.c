@@ -17,8 +17,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/permutation.h"
 #include "core/random.h"
-#include "render/samples/adaptive/adaptive_strata.h"
+#include "render/samples/adaptive/adaptive_place.h"
+#include "render/samples/uses.h"
 
 /* The current position of a walk: a cell, and the offset of the sample in that cell. */
 typedef struct spot {

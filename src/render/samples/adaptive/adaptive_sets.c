@@ -13,7 +13,9 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "render/aov.h"
+#include "render/filters/filter_table.h"
 #include "render/samples/adaptive/adaptive_sets.h"
+#include "render/samples/uses.h"
 #include "render/vector3.h"
 
 /* Of each AOV and pixel: the sums of weight x value and of value, three channels each. */

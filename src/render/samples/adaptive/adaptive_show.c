@@ -5,12 +5,15 @@
  * split, and among all parts of a stratum that was split at depth `level` exactly one has only zeros as further
  * digits; that part represents the split.
  */
+#include "render/samples/adaptive/adaptive_show.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/samples/adaptive/adaptive_strata.h"
+#include "render/samples/adaptive/adaptive_place.h"
+#include "render/samples/uses.h"
 #include "render/vector3.h"
 
 enum { LIGHTS = 4 };

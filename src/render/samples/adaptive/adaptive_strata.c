@@ -6,6 +6,8 @@
  */
 #include "render/samples/adaptive/adaptive_strata.h"
 
+#include "render/samples/adaptive/adaptive_place.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +15,7 @@
 #include "core/capacity.h"
 #include "core/status.h"
 #include "render/aov.h"
+#include "render/filters/filter_table.h"
 #include "render/vector3.h"
 
 /* The largest number of strata in the image; they take 3.5 GiB. */

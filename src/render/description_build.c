@@ -5,6 +5,8 @@
  * depends on all parts: whether pictures have one channel, whether anything moves, and the part of the scene's hash
  * that depends on images in other files.
  */
+#include "render/description_build.h"
+
 #include <stdio.h>
 #include <string.h>
 

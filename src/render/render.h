@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Renders an image in parts, for several machines. */
-#ifndef KOKSMA_RENDER_ROWS_H
-#define KOKSMA_RENDER_ROWS_H
+#ifndef KOKSMA_RENDER_RENDER_H
+#define KOKSMA_RENDER_RENDER_H
 
 #include <koksma/render.h>
 

@@ -3,11 +3,11 @@
  * Chooses the table of kernels once: the one for the fastest instruction set that the processor has (by cpuid), or
  * the one that the environment variable KOKSMA_KERNELS names.
  */
+#include "kernels/kernels.h"
+
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "kernels/kernels.h"
 
 extern const koksma__kernel_table koksma__kernel_table_ref, koksma__kernel_table_baseline;
 #ifdef KOKSMA_X86_KERNELS

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Images in memory: allocation, and checks of sizes and numbers. */
+#include "image/image.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size)
+{
+    if (offset + size > bytes->capacity) {
+        const size_t capacity = 2 * (offset + size) + 4096;
+        unsigned char *more = realloc(bytes->data, capacity);
+        if (!more) {
+            return false;
+        }
+        bytes->data = more;
+        bytes->capacity = capacity;
+    }
+    if (offset > bytes->size) {
+        memset(bytes->data + bytes->size, 0, offset - bytes->size);
+    }
+    memcpy(bytes->data + offset, data, size);
+    bytes->size = offset + size > bytes->size ? offset + size : bytes->size;
+    return true;
+}
+
+koksma_status koksma__image_check_shape(int width, int height, int channels)
+{
+    KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
+                        (size_t)width * (size_t)height > KOKSMA_MAX_PIXELS,
+                    KOKSMA_ARGUMENT,
+                    "%d x %d pixels: each side must be 1 to %d, and the number of pixels at most %zu", width, height,
+                    KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
+    KOKSMA__FAIL_IF(channels != 1 && channels != 3, KOKSMA_ARGUMENT, "%d channels: an image has 1 or 3", channels);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels)
+{
+    KOKSMA__REQUIRE(image);
+    *image = (koksma_image){0};
+    KOKSMA__TRY(koksma__image_check_shape(width, height, channels));
+    const size_t count = (size_t)width * (size_t)height * (size_t)channels;
+    image->pixels = calloc(count, sizeof *image->pixels);
+    KOKSMA__REQUIRE_MEMORY(image->pixels, count * sizeof *image->pixels);
+    image->width = width;
+    image->height = height;
+    image->channels = channels;
+    return KOKSMA_OK;
+}
+
+void koksma_image_fini(koksma_image *image)
+{
+    if (image) {
+        free(image->pixels);
+        *image = (koksma_image){0};
+    }
+}
+
+/* The largest number of pixels that this thread accepts in an image file. */
+static _Thread_local size_t most_pixels = KOKSMA_MAX_PIXELS;
+
+void koksma__image_limit(size_t pixels)
+{
+    most_pixels = pixels;
+}
+
+koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
+                                  koksma_image *out)
+{
+    KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
+                        (size_t)(width * height) > most_pixels,
+                    KOKSMA_MALFORMED,
+                    "it claims %lld x %lld pixels: each side must be 1 to %d, and the number of pixels at most %zu",
+                    width, height, KOKSMA_MAX_IMAGE_SIDE, most_pixels);
+    KOKSMA__FAIL_IF((double)width * (double)height > (double)bytes * pixels_a_byte, KOKSMA_MALFORMED,
+                    "cut short: it claims %lld x %lld pixels but has only %zu bytes", width, height, bytes);
+    return koksma_image_init(out, (int)width, (int)height, channels);
+}
+
+static size_t count_numbers(const koksma_image *image)
+{
+    return (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+}
+
+static koksma_status refuse_number(const koksma_image *image, size_t i, const char *name)
+{
+    const size_t pixel = i / (size_t)image->channels, width = (size_t)image->width;
+    return koksma__fail(KOKSMA_MALFORMED, "%s: pixel %zu,%zu has the value %g", name, pixel % width, pixel / width,
+                        (double)image->pixels[i]);
+}
+
+koksma_status koksma__image_check(const koksma_image *image, const char *name)
+{
+    for (size_t i = 0; i < count_numbers(image); i++) {
+        if (!(image->pixels[i] < 1e30f)) {
+            return refuse_number(image, i, name);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_image_check_finite(const koksma_image *image, const char *name)
+{
+    KOKSMA__REQUIRE(image, name);
+    KOKSMA__FAIL_IF(!image->pixels, KOKSMA_ARGUMENT, "an image without pixels");
+    const koksma_status status = koksma__image_check_shape(image->width, image->height, image->channels);
+    for (size_t i = 0; !status && i < count_numbers(image); i++) {
+        if (!isfinite(image->pixels[i])) {
+            return refuse_number(image, i, name);
+        }
+    }
+    return status;
+}
+
+double koksma__luminance(const koksma_image *image, size_t pixel)
+{
+    const float *p = image->pixels + pixel * (size_t)image->channels;
+    return image->channels == 1 ? (double)p[0]
+                                : 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Layers: the images of one file. */
+#ifndef KOKSMA_IMAGE_LAYERS_H
+#define KOKSMA_IMAGE_LAYERS_H
+
+#include "image/formats.h"
+
+/* Writes the name of channel k of a layer. */
+void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME]);
+
+/* The index of the first layer with a channel of that name; n: there is none. *channel: its index in the layer. */
+size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k);
+
+/* ARGUMENT unless the layers are images of one size, and no two channels have the same name. Errors name no file. */
+koksma_status koksma__layers_check(const koksma_layer *layers, size_t n);
+
+#endif

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* L2 discrepancies that are outside the range of doubles. */
+#ifndef KOKSMA_MEASURES_SHARED_L2_RANGE_H
+#define KOKSMA_MEASURES_SHARED_L2_RANGE_H
+
+#include "measures/shared/l2_pairs.h"
+
+/* Computes the value by sums over pairs. It is correct even if terms of the square are beyond the range of doubles,
+   or if the square itself is, which is then NaN. The error DIM means that the value, or a product over the first
+   coordinates of a point, is beyond this range. */
+koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                        koksma_value *out);
+
+#endif
