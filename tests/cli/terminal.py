@@ -122,6 +122,6 @@ with tempfile.TemporaryDirectory() as folder:
               f"{command}: a bar in a pipe")
     cost = piped("study", "estimate", "./plan.json", "--threads", "2", "--time-limit", "0.2")
     check(re.fullmatch(r"about (\d+ (min|h) )?[\d.]+ (s|min) on 2 threads, \d+ MB: 1680 jobs, 4560 rows, and 2 reference images "
-                       r"\([^()]+ of the time\)\n", cost), f"estimate: {cost}")
+                       r"\([^()]+ of this time\)\n", cost), f"estimate: {cost}")
 print("\n".join(failures) or f"{tables} tables")
 sys.exit(bool(failures))

@@ -132,7 +132,7 @@ def check_study(checks, program):
     done = files.run(program, "study", "report", "one", "-q")
     checks.check(done.code == 0, f"report: {done.code} {done.err}")
     with open("one/report.html", encoding="utf-8") as file:
-        checks.check("takes --allow-exec" in file.read(), "the report does not say why it draws no points")
+        checks.check("needs --allow-exec" in file.read(), "the report does not say why it draws no points")
     done = files.run(program, "study", "audit", "one", "--rows", "all", "-q")
     checks.check(done.code != 0 and b"--allow-exec" in done.out + done.err, f"audit: {done.code} {done.out} {done.err}")
     checks.check(not os.path.exists("ran"), "report, export or audit ran a program")

@@ -204,7 +204,7 @@ def hostiles(bench):
         bench.refused(f"{counts} claimed", serialized([mesh(flags, counts=counts)]), "a mesh has at most")
     for counts in ((2**26, 4), (5, 2**26), (10000, 10000)):
         bench.refused(f"{counts} claimed", serialized([mesh(flags, counts=counts)]), "compressed bytes can hold")
-    bench.refused("an index beyond", serialized([good[:-4] + struct.pack("<I", 5)]), "vertex that is not there")
+    bench.refused("an index beyond", serialized([good[:-4] + struct.pack("<I", 5)]), "a vertex that does not exist")
     bench.refused("an infinite vertex", serialized([good[:25] + struct.pack("<f", float("inf")) + good[29:]]), "inf")
     # many meshes, of which each claims the most that its stream could hold: together more than a model may have
     body = struct.pack("<I", SINGLE) + b"\0" + struct.pack("<QQ", 1 << 25, 1) + bytes(12 << 20)

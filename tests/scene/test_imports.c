@@ -473,7 +473,7 @@ static const struct {
      "a.pbrt:2: the screen window and the image"},
     {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"wrinkled\" Shape \"sphere\"", "a.pbrt:2: texture 'wrinkled'"},
     {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.bz2\"",
-     "a.pbrt:2: a.ply.bz2 is no file of a mesh"},
+     "a.pbrt:2: the mesh a.ply.bz2 has an unsupported format"},
     {"a.xml", BALL("<bsdf type=\"diffuse\"/>"), NULL},
     {"a.xml", BALL("<bsdf type=\"twosided\"><bsdf type=\"conductor\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"water\"/></bsdf>"), NULL},
