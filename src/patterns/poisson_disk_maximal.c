@@ -206,7 +206,7 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
 }
 
 static const koksma_param params[] = {
-    {"d", "smallest distance; 0: whichever gives n points", 0, 0, 8, NULL, false},
+    {"d", "smallest distance; 0: the distance that gives n points", 0, 0, 8, NULL, false},
     {0},
 };
 

@@ -84,7 +84,7 @@ def main():
         check("another reference", other[0] == 0 and
               1.8 < rows[0]["reference_error"] / other[1][0]["reference_error"] < 2.2, other)
 
-        for bad, reason in ((command.replace("{seed}", "7"), "equal for all seeds"),
+        for bad, reason in ((command.replace("{seed}", "7"), "the same picture for every seed"),
                             (command.replace("{seed}", "{sed}"), "{sed} is unknown"),
                             (command.replace("{out.pfm}", "x"), "lacks {out}"),
                             ("exit 5", "lacks {out}"),

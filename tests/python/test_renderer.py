@@ -54,7 +54,7 @@ class Renderers(unittest.TestCase):
             koksma.rank("any", ["coarse", "fine"], 4, renderer=raises)
 
     def test_refusals(self):
-        with self.assertRaisesRegex(ValueError, "equal for all seeds"):
+        with self.assertRaisesRegex(ValueError, "the same picture for every seed"):
             koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)))
         with self.assertRaisesRegex(ValueError, "reference takes renderer"):
             koksma.rank("ball", ["random"], 4, reference="random")
