@@ -137,14 +137,33 @@ static void aim(exr_decode_pipeline_t *decoder, koksma_image *image, int x, int 
     }
 }
 
+/* Chooses the routines that decode. Where one channel of halves is read out of 3 or 4 channels, OpenEXRCore 3.1.5 would
+   choose a routine for files whose channels are all read, and write through the null pointers of the others. Only for
+   this choice, each channel that is not read asks for another type than its own: files that need several conversions
+   get the general routine, which leaves out channels without a pointer. */
+static exr_result_t choose(exr_const_context_t file, exr_decode_pipeline_t *decoder, koksma_image *image)
+{
+    aim(decoder, image, 0, 0);
+    for (int c = 0; c < decoder->channel_count; c++) {
+        exr_coding_channel_info_t *channel = &decoder->channels[c];
+        if (!channel->decode_to_ptr) {
+            channel->decode_to_ptr = (uint8_t *)image->pixels;
+            channel->user_data_type = channel->data_type == EXR_PIXEL_HALF ? EXR_PIXEL_UINT : EXR_PIXEL_HALF;
+        }
+    }
+    return exr_decoding_choose_default_routines(file, 0, decoder);
+}
+
 static exr_result_t decode(exr_const_context_t file, const exr_chunk_info_t *chunk, exr_decode_pipeline_t *decoder,
                            bool first, koksma_image *image, int x, int y)
 {
     exr_result_t r =
         first ? exr_decoding_initialize(file, 0, chunk, decoder) : exr_decoding_update(file, 0, chunk, decoder);
+    if (!r && first) {
+        r = choose(file, decoder, image);
+    }
     if (!r) {
         aim(decoder, image, x, y);
-        r = first ? exr_decoding_choose_default_routines(file, 0, decoder) : r;
     }
     return r ? r : exr_decoding_run(file, 0, decoder);
 }

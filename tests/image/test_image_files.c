@@ -60,6 +60,23 @@ static float value(int x, int y, int k)
     return (float)(100 * k + 10 * y + x);
 }
 
+/* The attributes that follow an EXR file's channels. */
+static void put_tail(file *f)
+{
+    put_attribute(f, "compression", "compression", 1);
+    put_number(f, 0, 1);
+    put_box(f, "dataWindow", WIDTH, HEIGHT);
+    put_box(f, "displayWindow", WIDTH, HEIGHT);
+    put_attribute(f, "lineOrder", "lineOrder", 1);
+    put_number(f, 0, 1);
+    put_attribute(f, "pixelAspectRatio", "float", 4);
+    put_float(f, 1);
+    put_attribute(f, "screenWindowCenter", "v2f", 8);
+    put_number(f, 0, 8);
+    put_attribute(f, "screenWindowWidth", "float", 4);
+    put_float(f, 1);
+}
+
 /* https://openexr.com/en/latest/OpenEXRFileLayout.html: tiled, one level, not compressed, B, G and R as floats. */
 static void put_tiled_header(file *f)
 {
@@ -73,18 +90,7 @@ static void put_tiled_header(file *f)
         put_number(f, 1, 4);
     }
     put_number(f, 0, 1);
-    put_attribute(f, "compression", "compression", 1);
-    put_number(f, 0, 1);
-    put_box(f, "dataWindow", WIDTH, HEIGHT);
-    put_box(f, "displayWindow", WIDTH, HEIGHT);
-    put_attribute(f, "lineOrder", "lineOrder", 1);
-    put_number(f, 0, 1);
-    put_attribute(f, "pixelAspectRatio", "float", 4);
-    put_float(f, 1);
-    put_attribute(f, "screenWindowCenter", "v2f", 8);
-    put_number(f, 0, 8);
-    put_attribute(f, "screenWindowWidth", "float", 4);
-    put_float(f, 1);
+    put_tail(f);
     put_attribute(f, "tiles", "tiledesc", 9);
     put_number(f, TILE, 4);
     put_number(f, TILE, 4);
@@ -146,6 +152,74 @@ static void tiles_are_read(void **state)
     }
 }
 
+/* The value that pixel i has in channel c, times 1024: a half keeps it. */
+static uint32_t channel_value(int c, int i)
+{
+    return 1024 + 64 * (uint32_t)c + (uint32_t)i;
+}
+
+/* As tiled_exr() in lines, with channels named by one letter each and with types of 0 (unsigned), 1 (half) or 2
+   (float). */
+static file lines_exr(const char *names, const char *types)
+{
+    file f = {.size = 0};
+    const size_t n = strlen(names);
+    put(&f, "\x76\x2f\x31\x01\x02\x00\x00\x00", 8);
+    put_attribute(&f, "channels", "chlist", (uint32_t)n * 18 + 1);
+    size_t pixel = 0;
+    for (size_t c = 0; c < n; c++) {
+        put_number(&f, (uint64_t)names[c], 2);
+        put_number(&f, (uint64_t)(types[c] - '0'), 4);
+        put_number(&f, 0, 4);
+        put_number(&f, 1, 4); /* sampling */
+        put_number(&f, 1, 4);
+        pixel += types[c] == '1' ? 2 : 4;
+    }
+    put_number(&f, 0, 1);
+    put_tail(&f);
+    put_number(&f, 0, 1);
+    for (size_t y = 0; y < HEIGHT; y++) {
+        put_number(&f, f.size + 8 * (HEIGHT - y) + y * (8 + pixel * WIDTH), 8);
+    }
+    for (int y = 0; y < HEIGHT; y++) {
+        put_number(&f, (uint64_t)y, 4);
+        put_number(&f, pixel * WIDTH, 4);
+        for (int i = 0; i < (int)n * WIDTH; i++) { /* all of a channel, then the next */
+            const int c = i / WIDTH;
+            const uint32_t v = channel_value(c, i % WIDTH + WIDTH * y);
+            if (types[c] == '2') {
+                put_float(&f, (float)v / 1024);
+            } else {
+                put_number(&f, types[c] == '1' ? 0x3c00 + (v - 1024) : v, types[c] == '1' ? 2 : 4);
+            }
+        }
+    }
+    return f;
+}
+
+/* A channel is read by its own among any number of others, of any types: those at any place before and behind it. */
+static void one_channel_of_several_is_read(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *names, *types;
+    } files[] = {{"Y", "1"},       {"XY", "11"},      {"YZ", "11"},     {"XYZ", "111"},   {"WXY", "111"},
+                 {"YZa", "111"},   {"XYZ", "211"},    {"XYZ", "012"},   {"XYZ", "222"},   {"XYZ", "121"},
+                 {"XYZ", "020"},   {"WXYZ", "1111"},  {"YZab", "1111"}, {"VWXY", "1111"}, {"WXYZ", "2110"},
+                 {"WXYZ", "2222"}, {"WXYZa", "11111"}};
+    koksma_image image;
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        const file f = lines_exr(files[k].names, files[k].types);
+        assert_ok(read_bytes("lines.exr", &f, f.size, &image));
+        assert_int_equal(image.channels, 1);
+        const int c = (int)(strchr(files[k].names, 'Y') - files[k].names);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            assert_float_equal(image.pixels[i], (float)channel_value(c, i) / 1024, 0);
+        }
+        koksma_image_fini(&image);
+    }
+}
+
 /* images/: files of OpenEXR's C++ library, of 9 x 7 pixels whose window starts at (-5, 7), with the values of
    window_value(). B44 and DWA keep halves to a few hundredths of them. */
 static double window_value(int k, int i)
@@ -188,6 +262,24 @@ static void lossy_exr_is_read(void **state)
     assert_int_equal(read_window("../../../fuzz/corpus/image_exr/channel-list-ends-early.exr", &image),
                      KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "a wrong size"));
+}
+
+/* images/: PIZ files of OpenEXR's C++ library with the channels X, Y and Z of halves, of which Y is read. */
+static void y_of_xyz_is_read(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"piz-xyz-lines.exr", "piz-xyz-tiles.exr"};
+    koksma_image image;
+    for (size_t f = 0; f < sizeof names / sizeof *names; f++) {
+        assert_ok(read_window(names[f], &image));
+        assert_int_equal(image.width, 33);
+        assert_int_equal(image.height, 37);
+        assert_int_equal(image.channels, 1);
+        for (int i = 0; i < 33 * 37; i++) {
+            assert_float_equal(image.pixels[i], 1 + (float)(16 + i % 33 % 4 + 2 * (i / 33 % 5)) / 1024, 0);
+        }
+        koksma_image_fini(&image);
+    }
 }
 
 /* ---- PNG -------------------------------------------------------------------------------------------------- */
@@ -378,7 +470,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tiles_are_read),
+        cmocka_unit_test(one_channel_of_several_is_read),
         cmocka_unit_test(lossy_exr_is_read),
+        cmocka_unit_test(y_of_xyz_is_read),
         cmocka_unit_test(png_gamma_is_ignored_on_demand),
         cmocka_unit_test(png_levels_have_their_curve),
         cmocka_unit_test(png_transparency_is_dropped),
