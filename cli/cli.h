@@ -119,8 +119,8 @@ int cli_fail(const cli_arguments *arguments, koksma_status status);
    same cause. Returns the exit code. */
 int cli_no_memory(void);
 
-/* Copies item i (0..) of a list such as "a,b:x=1,y=2,c" to `item`. A comma between two parameters of a spec does not
-   separate items: it is followed by a parameter's name and '='. Returns false past the end of the list. */
+/* Copies item i (0..) of a list such as "a,b:x=1,y=2,c" to `item`: that list has the items "a", "b:x=1,y=2" and "c".
+   A comma between two parameters of a spec does not separate items. Returns false past the end of the list. */
 bool cli_list_item(const char *list, size_t i, char *item, size_t size);
 
 /* ---- Long work: threads, progress and Ctrl-C, from CLI_RUN_OPTIONS ------------------------------------ */

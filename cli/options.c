@@ -394,9 +394,11 @@ static bool is_use(const char *name, size_t length)
     return koksma_use_at(i) != NULL;
 }
 
-/* Returns the end of the list item that starts at s: the next comma that does not begin another parameter,
-   "key=value", of the same spec. A new spec is recognised by a ':' before any '=' (a parameter never contains a ':'),
-   by the ';' or '+' of patterns for several uses, or by the name of a use, "USE=", which no parameter has. */
+/* Returns the end of the list item that starts at s. Commas separate the items, but they also separate the parameters
+   of one spec: "a:x=1,y=2,b" has the items "a:x=1,y=2" and "b". A comma separates parameters if a ':' is before it in
+   the item and a parameter's "key=" follows. Otherwise it ends the item; in particular, three things that may follow
+   are no parameter: a spec with parameters of its own, "b:x=1", because its ':' comes before its '='; patterns joined
+   by '+' or ';', if that comes before any '='; and "USE=PATTERN", because no parameter has the name of a use. */
 static const char *item_end(const char *s)
 {
     bool has_parameters = false;

@@ -78,11 +78,12 @@ typedef struct koksma_optimise_options {
     size_t n_projections;
     const koksma_processes *processes; /* processes that share the search; NULL: this process does all of the
                                           work */
-    /* A target spectrum that replaces the measure, for 2D points: the wanted mean power at the frequencies 1 .. rings
-       (koksma_spectrum_rings). The search minimises the root mean square difference from this spectrum, with weight r
-       for ring r. It starts from gaussian-blue-noise. NULL, with rings = 0: use the measure */
+    /* NULL, or a target spectrum for 2D points: power[r - 1] is the wanted mean power in ring r = 1 .. rings
+       (koksma_spectrum_rings). With a target the search ignores the measure. It minimises the root mean square
+       difference between the spectrum of the points and the target, with weight r for ring r. With KOKSMA_KEEP_NONE
+       and no first set it starts from a set of gaussian-blue-noise */
     const double *power;
-    int rings;
+    int rings; /* length of power; must be 0 if power is NULL */
 } koksma_optimise_options;
 
 /* A method of search: one line of `koksma list methods`. */
@@ -111,8 +112,8 @@ KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksm
                                          const koksma_run *run, koksma_optimum *out);
 
 /* Computes a target for options->power: the radial power of n points at the frequencies 1 .. rings.
-     text   "step" (0 below the frequency sqrt(n / pi), else 1), "gaussian" (1 - exp(-pi f^2 / n)), a pattern (the mean
-            of 16 sets), or a file of lines with a frequency in units of sqrt(n) and a power
+     text   "step" (0 below the frequency sqrt(n / pi), else 1), "gaussian" (1 - exp(-pi f^2 / n)), a pattern (the
+            mean of 16 sets), or a file of lines with a frequency in units of sqrt(n) and a power
      rings  1 to KOKSMA_SPECTRUM_MAX_HALF
      power  receives rings numbers
    Errors: ARGUMENT, N, MISSING, MALFORMED, MEMORY, INTERRUPTED, and those of koksma_generate. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* EXR as an image format. The module koksma-exr.so, loaded with the first EXR file, reads and writes it; this file
-   recognises EXR files and calls the module. */
+/* EXR as an image format. This file recognises EXR files. The module koksma-exr.so, which is loaded when the first
+   EXR file is read or written, does the reading and writing. */
 #include <string.h>
 
 #include "image/exr.h"

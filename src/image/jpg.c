@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* JPEG as an image format. The module koksma-jpeg.so, loaded with the first JPEG file, reads and writes it; this file
-   recognises JPEG files and calls the module. */
+/* JPEG as an image format. This file recognises JPEG files. The module koksma-jpeg.so, which is loaded when the first
+   JPEG file is read or written, does the reading and writing. */
 #include <string.h>
 
 #include "image/image.h"

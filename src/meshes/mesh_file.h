@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The contents of a mesh file as plain data: meshes, materials, their placements by nodes, lights and a camera. The
-   readers (mesh_obj.c, mesh_mtl.c, mesh_off.c, mesh_ply.c, mesh_serialized.c, gltf_*.c) fill it in one pass over the file;
-   scene/model_build.c builds a scene from it, koksma__mesh_read() a single mesh. */
+   readers (mesh_obj.c, mesh_mtl.c, mesh_off.c, mesh_ply.c, mesh_serialized.c, gltf_*.c) fill it in one pass over the
+   file; scene/model_build.c builds a scene from it, koksma__mesh_read() a single mesh. */
 #ifndef KOKSMA_MESHES_MESH_FILE_H
 #define KOKSMA_MESHES_MESH_FILE_H
 
@@ -95,9 +95,9 @@ static inline koksma__file_placement *koksma__file_placement_at(const koksma__me
     return (koksma__file_placement *)f->placements.items + i;
 }
 
-/* Appends a mesh; the file owns it from now on, even after a failure. All meshes of a file together may have as many
-   vertices and triangles as one mesh, so that a small file that names a mesh many times can't fill the memory.
-   Errors: MALFORMED, MEMORY. */
+/* Appends a mesh; the file owns it from now on, even after a failure. The limit on the vertices and on the triangles
+   of one mesh (mesh.h) is also the limit for all meshes of the file together, so that a small file that names a mesh
+   many times can't fill the memory. Errors: MALFORMED (over the limit), MEMORY. */
 koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, size_t material);
 
 /* Adds a placement; matrix: NULL for the identity. Errors: MALFORMED (over 2^20), MEMORY. */

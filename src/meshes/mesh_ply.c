@@ -221,7 +221,7 @@ static koksma_status check_length(const ply *p)
 
 /* ---- Numbers ------------------------------------------------------------------------------------------------ */
 
-/* Reads the next number of a text line; a whole number is stored in both results. */
+/* Reads the next number of a text line into *real and, if the type `of` is one of whole numbers, also into *whole. */
 static koksma_status take_text(ply *p, const type *of, double *real, long long *whole)
 {
     const char *word;
@@ -282,7 +282,8 @@ static double real_at(const ply *p, const type *of, const unsigned char *at)
     return of->bytes == 8 ? wide : (double)narrow;
 }
 
-/* Reads the next number of an element. For a binary file the caller has checked that enough bytes remain. */
+/* Reads the next number of an element: from a text file as take_text() does, from a binary file into *whole if
+   as_whole is true, else into *real. For a binary file the caller has checked that enough bytes remain. */
 static inline koksma_status take_number(ply *p, const type *of, bool as_whole, double *real, long long *whole)
 {
     if (p->is_text) {

@@ -258,9 +258,10 @@ static koksma_status start(job *j, koksma__descent *d, const koksma_points *poin
     return status;
 }
 
-/* A descent in which no coordinate moves by more than the difference between value and target. The local discrepancy
-   at a corner that is not listed is below the value by twice that difference, and so can exceed the target only if
-   all three coordinates of the corner move that far. */
+/* Descends with each coordinate confined to an interval of length 2 r around its present place, shifted where it
+   would leave the coordinate's range; r is the difference between the value and the target. This keeps most corners
+   that are not listed harmless: their local discrepancies are about r or more below the target, and the move of one
+   coordinate by r raises one by at most r. The next pass over all corners finds those that rise too far. */
 static koksma_status descend_near(job *j, koksma__descent *d, double value)
 {
     const double length = d->length, reach = fmin(value - j->target, length / 2);

@@ -166,8 +166,8 @@ static void find_powers(job *j)
     }
 }
 
-/* Adds the derivatives of all rings to j->moves; j->slopes holds the derivatives of the square by the mean of each
-   ring. */
+/* Adds the derivatives of D^2 by the coordinates of all points to j->moves. j->slopes holds the derivatives of D^2 by
+   the mean power of each ring. */
 static void find_gradient(job *j)
 {
     const double *sums = j->sums;
@@ -213,8 +213,9 @@ koksma_status koksma__radial_power_square(const koksma_optimise_options *o, cons
     return KOKSMA_OK;
 }
 
-/* Reads a target: each line has a frequency, in units of sqrt n and higher than the one before, and a power. The
-   target is linear between the lines and constant outside. */
+/* Reads a target from a file: each line has a frequency, in units of sqrt n and higher than the one before, and a
+   power. Between the frequencies of two lines the power is interpolated linearly. Below the first frequency it is
+   that of the first line, above the last frequency that of the last line. */
 static koksma_status read_profile(const char *path, double root, int rings, double *power)
 {
     unsigned char *bytes;

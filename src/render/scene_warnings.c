@@ -157,13 +157,14 @@ static bool of_unread(const koksma__unread *u, asked *a)
         size_t n;
         const char *what, *so;
     } all[] = {
-        {u->animations, "animations", "objects are shown where their nodes place them"},
+        {u->animations, "animations", "objects stand still, as the file places them without animation"},
         {u->skins, "skins", "their meshes are shown undeformed"},
-        {u->vertex_colours, "meshes' vertex colours", "only materials give the colour"},
-        {u->second_uvs, "textures' own texture coordinates", "they use those of their material's first texture"},
+        {u->vertex_colours, "meshes' vertex colours", "colours come only from materials"},
+        {u->second_uvs, "textures' own texture coordinates",
+         "these textures use the coordinates of their material's first texture"},
         {u->morphs, "morph targets", "meshes are shown undeformed"},
         {u->lines, "points and lines", "only triangles are shown"},
-        {u->see_through, "materials' transparencies", "they are opaque"},
+        {u->see_through, "materials' transparencies", "these materials are opaque"},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         if (all[i].n && here(a)) {

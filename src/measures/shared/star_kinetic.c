@@ -260,10 +260,11 @@ static bool keeps_going(walks *w, double fraction_done)
 static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sign, best_box *best)
 {
     const size_t n = w->n;
-    const double slack =
-        0x1p-51 * (double)n * (double)n; /* rounding error of bounds, which are sums of at most n terms up to 2n */
-    const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks); /* after this number of searches a tournament
-                                                                          would have been as fast */
+    /* Rounding can lower a bound by at most this much: at most n additions compute it, and each rounds a number of at
+       most 2n. */
+    const double slack = 0x1p-51 * (double)n * (double)n;
+    /* If more bounds than this are tested for each point, a tournament would have been as fast. */
+    const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks);
     *best = (best_box){-INFINITY, from};
     start(t, w, from, sign);
     for (size_t i = from; i < end; i++) {

@@ -35,8 +35,10 @@
 
 static const double far_away = 1e9;
 
-/* Lists the points in the 5 x 5 cells around a cell, in units of the torus. These are all points that can be within d
-   of a point of the cell; the corner cells are needed because the diagonal of a cell is a little shorter than d. */
+/* The points in the 5 x 5 cells around a cell, the torus having side 1. If these cells reach over an edge of the
+   torus, the coordinates of the points there go on below 0 or above 1. These are all points that can be within d of a
+   point of the cell; the corner cells are needed because the diagonal of a cell is a little shorter than d. `count`
+   is a multiple of 8: points far away fill up the arrays. */
 typedef struct around {
     size_t count;
     double xs[32], ys[32];

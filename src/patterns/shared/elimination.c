@@ -53,14 +53,14 @@ typedef struct elimination {
     size_t all, keep, count; /* numbers of points: at the beginning, at the end, and in the heap */
     double d_max, d_min;
     bool plain;             /* true: distances are measured in the cube, not on the torus */
-    double *scale;          /* unit of distance at each renumbered point; NULL: 1 */
+    double *scale;          /* each renumbered point's own unit of distance; NULL: all are 1 */
     bool all_images;        /* true: all images of a point contribute, not only the nearest */
     double *xs;             /* coordinates of the renumbered points */
     uint32_t *origin;       /* the original number of a point */
     entry *heap;            /* heaviest point first */
     uint32_t *heap_place;   /* index of a point in the heap */
     uint32_t cells;         /* cells on a side */
-    size_t reach;           /* distance d_max as a number of cells */
+    size_t reach;           /* how many cells d_max extends over at most; unused with `scale` */
     uint32_t *cell_start;   /* where each cell's points begin in `members` */
     uint32_t *cell_count;   /* number of points left in each cell */
     uint32_t *members;      /* the points of all cells, cell by cell */
@@ -121,8 +121,9 @@ static void sink(elimination *e, size_t at)
 
 /* ---- The cells ------------------------------------------------------------------------------------------- */
 
-/* Chooses as many cells on a side as d_max allows, but no more cells than points; if points have units of distance,
-   about as many cells as points. Returns the number of cells. */
+/* Chooses the number of cells on a side: as many as d_max allows, but no more cells than points. If scaled, d_max
+   does not limit them: the distances within which points are neighbours then differ from point to point. Returns the
+   number of cells. */
 static size_t size_cells(elimination *e, bool scaled)
 {
     e->grid_dims = e->dim < GRID_DIMS ? e->dim : GRID_DIMS;
@@ -210,8 +211,8 @@ static double weight_of_images(elimination *e, const double *across, int k, doub
 }
 
 /* Visits the neighbours of `point` in one cell. With relieve = false, while the heap is still in the order of the
-   points, adds their contributions to the weight of `point`; with relieve = true, after `point` was removed, subtracts
-   its contributions from their weights. */
+   points, adds their contributions to the weight of `point`; with relieve = true, after `point` was removed,
+   subtracts its contributions from their weights. */
 static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve)
 {
     const size_t dim = (size_t)e->dim;
@@ -246,8 +247,9 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
     }
 }
 
-/* Returns how many cells away neighbours of a point can be. If points have units of distance, this depends on the
-   unit of the point. */
+/* Returns how many cells away, along each axis, the neighbours of a point can be. With e->scale, two points are
+   neighbours if they are nearer than d_max times the smaller of their units, so a point with a larger unit can have
+   neighbours farther away. */
 static size_t reach_of(const elimination *e, uint32_t point)
 {
     return e->scale ? (size_t)fmin(ceil(e->d_max * e->scale[point] * (double)e->cells), (double)e->cells) : e->reach;

@@ -2,8 +2,8 @@
 /*
  * Stochastic generation (Helmer, Christensen & Kensler 2021): a digital sequence in base 2 with exact Owen (nested
  * uniform) scrambling, in O(1) for each coordinate of a point. Point 2^l + i is put at a random position in a stratum
- * of width 2^-l, in the half that does not contain the earlier point number i ^ partner. The low bits of coordinate k
- * of point p come from word p % 4 of koksma__random(seed, purpose, p / 4, k).
+ * of width 2^-l, in the half that does not contain the earlier point number i XOR partner. The low bits of
+ * coordinate k of point p come from word p % 4 of koksma__random(seed, purpose, p / 4, k).
  */
 #ifndef KOKSMA_PATTERNS_SHARED_GROW_H
 #define KOKSMA_PATTERNS_SHARED_GROW_H

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * SIMD kernels for the samples of a pixel: random orders, pairs in such an order, random positions in cells, and the
- * points of nets.
+ * SIMD kernels for the samples of a pixel: random orders, pairs of coordinates put into such an order, random
+ * positions in cells, and the points of nets.
  *
  * Up to KOKSMA__SHUFFLED samples are put in order by the Fisher-Yates shuffle, which makes each of the n! orders
  * equally likely. More samples are permuted by a bijection of the k-bit numbers below the next power of two, as by
  * Kensler (2013); numbers that the bijection maps to n or above are mapped again. Each round of the bijection
  * computes
  *
- *     x = m x + a mod 2^k,   x = x ^ x >> 2,   x = x rotated by (k + 1) / 2 bits,
+ *     x = m x + a mod 2^k,   x = x XOR (x >> 2),   x = x rotated by (k + 1) / 2 bits.
  *
  * Each round takes 16 random bits for m, which is made odd, and 16 for a. There are six rounds: with five, the pairs
  * of positions still differ measurably from those of a random order (docs/decisions/0040-samples-in-floats.md).
@@ -119,7 +119,7 @@ void BATCH_NAME(order)(const uint32_t *words, size_t n, uint16_t *out)
     }
 }
 
-/* Stores two pairs at a time, because loops over lanes read them next. */
+/* Stores two pairs of coordinates at a time, because loops over lanes read them next. */
 void BATCH_NAME(gather)(const float *from, const uint16_t *order, size_t n, float *to)
 {
     typedef double two __attribute__((vector_size(16)));
@@ -211,14 +211,17 @@ INLINE void permute_lanes(const octet *lane, octet *v)
 #endif
 }
 
-/* Computes the numbers 2^level + i from the numbers i ^ partner in v. */
+/* Computes a coordinate of eight new points of a level (grow.h). The lane of point 2^level + i holds at first the
+   coordinate of the earlier point i XOR partner, and then the new one, which is random in the other half of the
+   earlier point's stratum. */
 INLINE void grow_lanes(const octet *words, int level, octet *v)
 {
     const uint32_t low = UINT32_MAX >> level >> 1;
     *v = ((*v & ~low) ^ (low + 1)) | *words >> (uint32_t)(level + 1);
 }
 
-/* Computes the first eight numbers: lane i >= 2^level is derived from lane i ^ (2^level + partner). */
+/* Computes a coordinate of the first eight points: at each level, each lane i from 2^level on is derived from lane i
+   XOR (2^level + partner). */
 INLINE void grow_eight(const octet *words, const uint32_t *partners, octet *v)
 {
     const octet lane = {0, 1, 2, 3, 4, 5, 6, 7};

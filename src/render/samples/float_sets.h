@@ -7,7 +7,7 @@
 
 #include "render/pipelines/batch.h"
 
-/* The scratch memory of a thread for a set of n points: 2 n + 16 words, n pairs, and n + 64 indices. */
+/* The scratch memory of a thread for a set of n points: 2 n + 16 words, n pairs of coordinates, n + 64 indices. */
 typedef struct koksma__float_scratch {
     uint32_t *fractions;
     float *pairs;
@@ -17,7 +17,7 @@ typedef struct koksma__float_scratch {
 typedef struct koksma__float_set koksma__float_set;
 
 /* Generates a set from set->words random words. `order` is the order of its points, or NULL for the pattern's own
-   order; `offset` is added to all points. */
+   order; `offset` is added to all points. pairs[2 i] and pairs[2 i + 1] are the two coordinates of point i. */
 typedef void koksma__float_draw(const koksma__float_set *set, const koksma__batch_table *batch, const uint32_t *words,
                                 const uint16_t *order, const float offset[2], const koksma__float_scratch *scratch,
                                 float *pairs);
@@ -29,8 +29,8 @@ struct koksma__float_set {
     int dim;
     bool in_random_order; /* whether `draw` needs an order even where the pairing does not shuffle the points */
     bool has_order;       /* whether the first words are for a random order, which `draw` finds in scratch->order */
-    float *corners;       /* pairs: each is the corner of a cell, or twice the start of one stratum */
-    float scale[2];       /* factor from a 24-bit word to an offset within a cell */
+    float *corners; /* n pairs: the two coordinates of a cell's corner, or the start of a stratum in both places */
+    float scale[2]; /* factor from a 24-bit word to an offset within a cell */
     size_t columns, rows;
     uint32_t partners[2][32];
 };

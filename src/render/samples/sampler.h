@@ -41,8 +41,8 @@ typedef struct koksma__sampler {
        of these pixels with the same scratch; NULL: draws alone. */
     void (*prepare)(const struct koksma__sampler *sampler, uint64_t first, size_t count, uint32_t use,
                     koksma__sample_scratch *room);
-    /* Draws the pairs of a use in a pixel and adds the offset; the second number of a one-dimensional use has no
-       meaning. */
+    /* Draws the coordinates of one use for all samples of a pixel, and adds the offset to them. pairs[2 i] and
+       pairs[2 i + 1] are the two coordinates of sample i; in a one-dimensional use the second has no meaning. */
     koksma_status (*draw)(const struct koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room, float *pairs);
     void (*release)(struct koksma__sampler *sampler);

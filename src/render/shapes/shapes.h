@@ -27,7 +27,8 @@ typedef struct koksma__shape_type {
 
     /* The members below are NULL for a compound. */
 
-    /* The radius of a sphere about the centre that contains the shape; NULL: half[0]. Not used for flat shapes. */
+    /* Returns the radius of a sphere about the centre that contains the shape; NULL: the radius is half[0]. Not used
+       for flat shapes. */
     double (*radius)(const koksma__shape *shape);
     /* The implicit equation at time 0, with which tests compare the loops: p is on the surface if the result is 0 and
        *beyond <= 0 (*beyond: how far p is beyond the edge, in any unit). The result is positive on the front, to
@@ -39,7 +40,7 @@ typedef struct koksma__shape_type {
     void (*hit)(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
                 koksma__hits *hits);
     /* Sets position, normal, coordinates, side and material of the hits on this shape. all: whether every lane hits
-       it. NULL: flat shapes, which share a loop. */
+       it. NULL for flat shapes: one loop, finish_flat in batch_shapes.c, serves all of them. */
     void (*finish)(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits, bool all);
     /* Sets the light of lanes that the shape blocks to 0; aimed: the shape at which each ray is aimed, which cannot
        block it, or -1. */

@@ -92,8 +92,9 @@ static koksma_status take_out(const timed *t, size_t trial, koksma_status status
 
 /* ---- Trials --------------------------------------------------------------------------------------------- */
 
-/* Adds the pixel errors of a trial, and of waiting later trials, in the order of the trials. Takes ownership of
-   `errors`. */
+/* Adds the pixel errors of a trial to the sums of the coherence, in the order of the trials: while an earlier
+   trial is missing, the errors wait; else those of later trials that wait only for this one are added, too. Takes
+   ownership of `errors`. */
 static koksma_status add_coherence(const koksma__contest *c, koksma__contestant *p, size_t trial, double *errors)
 {
     koksma_status status = KOKSMA_OK;
@@ -124,7 +125,8 @@ static koksma_status measure_coherence(koksma__contest *c, koksma__contestant *p
     return add_coherence(c, p, trial, errors);
 }
 
-/* Renders a trial and measures its errors; in the first round also adds them to the pattern's coherence. */
+/* Renders a trial and measures its errors. In the first round, also adds the errors of its pixels to the sums from
+   which the coherence of the pattern's error is computed. */
 static koksma_status render_trial(koksma__contest *c, koksma__contestant *p, size_t trial, const koksma_run *run,
                                   double errors[ERRORS])
 {

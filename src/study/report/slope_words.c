@@ -5,7 +5,8 @@
  * slopes contains 0), it names those whose slopes have the narrowest intervals, and how many trials would separate
  * two of them. A pattern with a wide interval thus hides no order among patterns with narrow ones. The
  * sentence also gives the number of patterns that fall faster than random points (or N^-1/2), the number that follow
- * no power law, and the patterns with means of 0. For measures of quality or distance no slope is called the best.
+ * no power law, and the patterns with means of 0. For measures of quality or distance, for which a
+ * fast fall is not better, it does not compare the patterns.
  */
 #include "study/report/slope_words.h"
 
@@ -196,8 +197,9 @@ void koksma__slopes_sentence(koksma__document *d, const koksma__slopes *of)
     }
     koksma__doc_say(d, "*%s:* ", of->name);
     if (of->sense != KOKSMA__FALLS) {
-        koksma__doc_say(d, of->sense == KOKSMA__LARGER ? "larger is better; no slope is the best"
-                                                       : "no power law in N; no slope is the best");
+        koksma__doc_say(d, of->sense == KOKSMA__LARGER
+                               ? "larger values are better, so patterns are not compared by how fast values fall"
+                               : "values follow no power law in N, so patterns are not compared by their slopes");
     } else if (s.counted) {
         say_fastest(d, of, &s);
     } else {

@@ -16,7 +16,7 @@
  *     PIECES   this rank's pieces of a shared search (koksma_study_mpi_processes)
  * Messages from rank 0:
  *     ASSIGNMENTS  jobs or tiles to do, or the end of the phase or of the run; if empty, the rank requests again
- *     PIXELS       shape, then pixels, of a reference
+ *     PIXELS       two messages with a reference image: its width, height and number of channels, then its pixels
  *     PIECES       the pieces of all ranks
  */
 #ifndef KOKSMA_STUDY_RUN_MPI_MESSAGES_H

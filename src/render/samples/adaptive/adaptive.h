@@ -39,7 +39,8 @@ typedef struct koksma__adaptive_method {
     void (*close)(koksma__adaptive *run);
     /* NULL, or prepares a selected pixel before its samples are drawn. Errors: MEMORY. */
     koksma_status (*prepare)(koksma__adaptive *run, size_t pixel);
-    /* Draws the pairs of a pixel's samples in this round. */
+    /* Draws the coordinates of one use for the samples of a pixel in this round, and adds the offset to them.
+       pairs[2 i] and pairs[2 i + 1] are the two coordinates of sample i. */
     koksma_status (*draw)(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room, float *pairs);
     /* Receives the values of the samples that the pixel demanded. Methods decide by the unweighted values; the result

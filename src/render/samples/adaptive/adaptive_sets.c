@@ -49,12 +49,12 @@ static koksma_status compare_sets(const koksma_spec *spec, size_t n, int dim, bo
     return status;
 }
 
-/* Fails if a pattern gives the same points for every set. */
+/* Fails if the pattern of a use or of a group gives the same points for every set. */
 static koksma_status check_patterns(const koksma__adaptive *run)
 {
     const koksma_render_options *options = run->frame->options;
     koksma_status status = KOKSMA_OK;
-    bool seen = false; /* whether the pattern that several uses share has been checked */
+    bool seen = false; /* whether options->pattern, that of all uses without their own, has been checked */
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const koksma__place_of_use place = koksma__place_of_use_at(options, u);
         const bool own = place.group >= 0 || options->patterns[u].pattern;
@@ -124,7 +124,7 @@ size_t koksma__set_size(const koksma__adaptive *run)
 /* ---- Samples ---------------------------------------------------------------------------------------------- */
 
 /* Draws the sets number `first` to first + count - 1 as blocks of one two-dimensional sequence; each block is
-   shuffled separately. */
+   shuffled separately. pairs[2 i] and pairs[2 i + 1] are the two coordinates of point i. */
 static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint32_t use, size_t first, size_t count,
                                  koksma__sample_scratch *room, float *pairs)
 {
@@ -302,8 +302,8 @@ static void weights_of(const koksma__adaptive *run, const koksma__pixel_sets *p,
     *b = has_lobes ? 1 / n - *a * p->moments[1][0] / n : 0;
 }
 
-/* Computes the value and the variance of a pixel as film.c does for a filter with negative lobes: the sums of v^j y^k, of
-   the weights v, follow from those of w^j y^k. */
+/* Computes the value and the variance of a pixel as film.c does for a filter with negative lobes: the sums of
+   v^j y^k, of the weights v, follow from those of w^j y^k. */
 static double signed_result(const koksma__adaptive *run, const koksma__pixel_sets *p, double n, double rgb[3])
 {
     const double(*m)[3] = p->moments;
