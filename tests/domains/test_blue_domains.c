@@ -151,7 +151,7 @@ static void maximal_sets_keep_a_given_distance(void **state)
 /* exp(2 pi i t) */
 static double complex wave(double t)
 {
-    return CMPLX(cos(2 * M_PI * t), sin(2 * M_PI * t));
+    return cos(2 * M_PI * t) + (double complex)I * sin(2 * M_PI * t);
 }
 
 /* n times the mean of |F - E F|^2 over frequencies |a|, |b| <= 3, F the mean of exp(2 pi i (a x + b y)) over the points
