@@ -651,7 +651,7 @@ class Rendering(unittest.TestCase):
         separate = koksma.render("balls", "random;pixel=jittered;time=random", 16, size=(12, 9))
         self.assertTrue((image != separate).any())
         for pattern, said in (("pixel+tme=random", "no such use"), ("pixel+lens=scan-time", "have 4 dimensions together"),
-                              ("pixel+time=random;time=random", "use time has a pattern already")):
+                              ("pixel+time=random;time=random", "use time already has a pattern")):
             with self.assertRaisesRegex(koksma.Error, said):
                 koksma.render("balls", pattern, 16, size=(12, 9))
 
@@ -685,7 +685,7 @@ class Unknown(unittest.TestCase):
             with koksma.refuse_unknown():
                 for call in (lambda: koksma.render(path), lambda: koksma.rank(path, ["random"]),
                              lambda: koksma.datasheet("random", scenes=[path], quick=True)):
-                    with self.assertRaisesRegex(koksma.MalformedError, "odd.pbrt:2: light 'goniometric'.* are refused"):
+                    with self.assertRaisesRegex(koksma.MalformedError, "odd.pbrt:2: light 'goniometric'.* refuse scenes"):
                         call()
                 koksma.render("ball", spp=1, size=(4, 3))
             np.testing.assert_array_equal(before, koksma.render(path, spp=1))
