@@ -244,8 +244,8 @@ struct koksma_pattern {
     /* Returns whether, with these parameters, each point can be computed from its index alone, so that
        koksma_generate_range works. NULL: the pattern has no ranges. */
     bool (*ranges)(const double *params);
-    bool
-        runs_code; /* true: the pattern runs the program or library that its operand names, if koksma_allow_exec permits */
+    /* true: the pattern runs the program or library that its operand names, if koksma_allow_exec permits */
+    bool runs_code;
 };
 
 /* A modifier: a map of the unit cube to itself that every pattern accepts after its own parameters. Several

@@ -166,8 +166,9 @@ static koksma_status fill(maximal *m, size_t n)
     while (m->n_pieces && m->grid.n < n) {
         KOKSMA__TRY(throw_darts(m, n));
         KOKSMA__TRY(divide(m));
-        KOKSMA__FAIL_IF(!koksma__keep_going(m->c->run, (double)m->grid.n / (double)n), KOKSMA_INTERRUPTED,
-                        "interrupted");
+        if (!koksma__keep_going(m->c->run, (double)m->grid.n / (double)n)) {
+            return koksma__fail_interrupted();
+        }
     }
     return KOKSMA_OK;
 }

@@ -3,8 +3,7 @@
  * XYZ is the sum, over whole nanometres from 360 to 830, of the spectrum times the colour-matching functions of the CIE
  * 1931 observer, by the fit of Wyman, Sloan & Shirley (2013): for spectra like those of the Cornell box channels are
  * within 1.2 % of the largest one of what the tables of the CIE give. D65 is linear between every 20 nm of its table. Linear
- * sRGB follows by the matrix
- * of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances in daylight, emission
+ * sRGB follows by the matrix of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances in daylight, emission
  * as it is, so that an even emission is reddish.
  */
 #include "scene/import_spectrum.h"

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Converts pbrt-v4's parameters. Spectra become red, green and blue: rgb values are used as they are, black
- * bodies by their chromaticity, metals by a table of names, and sampled spectra by the CIE 1931 observer (import_spectrum.c);
- * emission has luminance 1, as pbrt scales it. A texture becomes a colour, an image or a checkerboard; textures
- * that combine others become the mean colour.
+ * bodies by their chromaticity, metals by a table of names, and sampled spectra by the CIE 1931 observer
+ * (import_spectrum.c); emission has luminance 1, as pbrt scales it. A texture becomes a colour, an image or a
+ * checkerboard; textures that combine others become the mean colour.
  */
 #include "scene/pbrt_values.h"
 

@@ -29,6 +29,9 @@ static const struct {
     {4, {{400, 0.78}, {500, 0.78}, {600, 0.78}, {700, 0.78}}, false, {0.7764, 0.7798, 0.7760}},
     {4, {{400, 0}, {500, 8}, {600, 15.6}, {700, 18.4}}, true, {20.7108, 10.8546, 2.7712}},
     {2, {{360, 5}, {830, 5}}, true, {6.0240, 4.7415, 4.5446}},
+    {4, {{400, 0}, {500, 0.3}, {600, 0.8}, {700, 1.1}}, true, {1.127, 0.488, 0.088}},
+    {4, {{400, 0}, {500, 0.3}, {600, 0.8}, {700, 1.1}}, false, {0.971, 0.51, 0.109}},
+    {2, {{400, 0.78}, {700, 0.78}}, false, {0.776, 0.78, 0.776}},
 };
 
 static void colours_are_those_of_the_tables(void **state)
@@ -64,6 +67,8 @@ static void sums_are_complete(void **state)
         assert_near(rgb[k], 1, 1e-12);
         assert_near(other[k], 1, 1e-12);
     }
+    koksma__sampled_spectrum_emission(&two, rgb); /* an emission of 1 everywhere has luminance 1 */
+    assert_near(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 1, 1e-3);
     /* of luminance 1/107 where Y peaks, and none of it is blue */
     assert_true(koksma__sampled_spectrum_add(&narrow, 555, 0) && koksma__sampled_spectrum_add(&narrow, 556, 1) &&
                 koksma__sampled_spectrum_add(&narrow, 557, 0));

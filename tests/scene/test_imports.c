@@ -13,7 +13,6 @@
 
 #include "rendering.h"
 #include "scene/import.h"
-#include "scene/import_spectrum.h"
 
 static char folder[64];
 
@@ -347,45 +346,6 @@ static void alpha_zero_hides_a_shape_but_not_its_light(void **state)
     koksma_scene_close(scene);
 }
 
-static void spectrum_of(const double *pairs, size_t n, bool emits, double rgb[3])
-{
-    koksma__sampled_spectrum s = {0};
-    for (size_t i = 0; i < n; i++) {
-        assert_true(koksma__sampled_spectrum_add(&s, pairs[2 * i], pairs[2 * i + 1]));
-    }
-    (emits ? koksma__sampled_spectrum_emission : koksma__sampled_spectrum_reflectance)(&s, rgb);
-}
-
-/* Colours as Mitsuba 3.9.1 gives them (scalar_rgb): the light and the walls of the Cornell box, whose numbers are those of
-   its web page, and colours of narrow bands. The fit of the matching functions is good to about 1 %. */
-static void spectra_have_their_colours(void **state)
-{
-    static const struct {
-        bool emits;
-        size_t n;
-        double pairs[8], wanted[3];
-    } cases[] = {{true, 4, {400, 0, 500, 8, 600, 15.6, 700, 18.4}, {20.711, 10.855, 2.771}},
-                 {true, 4, {400, 0, 500, 0.3, 600, 0.8, 700, 1.1}, {1.127, 0.488, 0.088}},
-                 {false, 4, {400, 0, 500, 0.3, 600, 0.8, 700, 1.1}, {0.971, 0.51, 0.109}},
-                 {false, 2, {400, 0.78, 700, 0.78}, {0.776, 0.78, 0.776}}};
-    double rgb[3];
-    (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const double largest = fmax(cases[i].wanted[0], fmax(cases[i].wanted[1], cases[i].wanted[2]));
-        spectrum_of(cases[i].pairs, cases[i].n, cases[i].emits, rgb);
-        for (int k = 0; k < 3; k++) {
-            assert_near(rgb[k], cases[i].wanted[k], 0.012 * largest);
-        }
-    }
-    static const double white[] = {360, 1, 830, 1};
-    for (int k = 0; k < 3; k++) {
-        spectrum_of(white, 2, false, rgb);
-        assert_near(rgb[k], 1, 1e-12);
-    }
-    spectrum_of(white, 2, true, rgb);
-    assert_near(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 1, 1e-3);
-}
-
 /* Mitsuba's texture coordinates, as its ray_intersect gives them: of a sphere the angle about z and that from +z, of a disk the
    radius and the angle, as fractions. */
 static void round_shapes_have_mitsubas_coordinates(void **state)
@@ -697,7 +657,6 @@ int main(void)
         cmocka_unit_test(the_screen_window_sets_the_angle),
         cmocka_unit_test(alpha_zero_hides_a_shape_but_not_its_light),
         cmocka_unit_test(round_shapes_have_mitsubas_coordinates),
-        cmocka_unit_test(spectra_have_their_colours),
         cmocka_unit_test(a_luminous_room_is_a_geometric_series),
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
         cmocka_unit_test(unknown_things_are_named),
