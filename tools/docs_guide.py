@@ -42,7 +42,7 @@ class Linker:
         """The address of a document or a picture; None for other files of the source."""
         if path in self.pages:
             return os.path.relpath(self.pages[path], self.here)
-        if path.endswith((".png", ".svg")) and (ROOT / path).is_file():
+        if path.endswith((".jpg", ".png", ".svg")) and (ROOT / path).is_file():
             copy = self.site.out / "files" / os.path.basename(path)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(ROOT / path, copy)

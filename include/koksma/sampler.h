@@ -202,11 +202,15 @@ KOKSMA_INLINE double koksma_to_unit(uint32_t high, uint32_t low)
 /* Returns x with its 32 bits in reverse order. */
 KOKSMA_INLINE uint32_t koksma_mirror(uint32_t x)
 {
+#if defined(__CUDA_ARCH__)
+    return __brev(x);
+#else
     x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
     x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
     x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
     x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
     return x << 16 | x >> 16;
+#endif
 }
 
 /* ---- Four words at once -------------------------------------------------------------------------------- */
@@ -232,7 +236,11 @@ typedef char koksma__bytes __attribute__((vector_size(16)));
 #endif
 #define KOKSMA_ALIGNED __attribute__((aligned(16)))
 #else
+#if defined(__CUDACC__)
+#define KOKSMA_ALIGNED __align__(16)
+#else
 #define KOKSMA_ALIGNED
+#endif
 typedef struct koksma__four {
     uint32_t word[4];
 } koksma__four;
@@ -435,6 +443,16 @@ KOKSMA_INLINE koksma__four koksma__row(const uint32_t *table, uint32_t width, ui
         const koksma__two_long half = {(uint64_t)row[1] << 32 | row[0], 0};
         return (koksma__four)half;
     }
+#elif defined(__CUDA_ARCH__)
+    if (width == 4) { /* koksma__sobol_four computes the first two words */
+        const uint2 half = *(const uint2 *)(row + 2);
+        const koksma__four x = {{0, 0, half.x, half.y}};
+        return x;
+    } else {
+        const uint2 half = *(const uint2 *)row;
+        const koksma__four x = {{half.x, half.y, 0, 0}};
+        return x;
+    }
 #else
     koksma__four x;
     uint32_t k;
@@ -565,7 +583,17 @@ KOKSMA_INLINE koksma__four koksma__sobol_four(uint32_t i, uint32_t order, koksma
         0x50000000u, 0x44444444u, 0x61610066u, 0x5a005005u, 0xd0000000u, 0xbbbbbbbbu, 0xcbcb00c5u, 0x9300f00fu,
         0x30000000u, 0x22222222u, 0x2f2f002du, 0x31002002u, 0xb0000000u, 0xddddddddu, 0x8585008eu, 0xf8008008u,
         0x70000000u, 0x77777777u, 0x5858005cu, 0x74006006u, 0xf0000000u, 0x88888888u, 0xf2f200ffu, 0xbd00c00cu};
+#if defined(__CUDA_ARCH__)
+    /* A GPU computes the index and its product with the Pascal matrix faster than it looks them up. */
+    const uint32_t upper = koksma_owen_hash(0, order) & 0xffffu;
+    const uint32_t index = koksma_mirror(koksma_owen_hash(koksma_mirror(i), order) ^ upper);
+    koksma__four x = koksma__digital(table, 4, i, order);
+    x.word[0] = index;
+    x.word[1] = koksma_pascal(index);
+    return koksma__scramble_four(x, seeds);
+#else
     return koksma__scramble_four(koksma__digital(table, 4, i, order), seeds);
+#endif
 }
 
 /* The seeds of the Sobol' sequence of a domain. Compute them once for a loop over many samples of the domain. */

@@ -6,18 +6,7 @@
 //     uvec2 pixel = koksma_domain_of_pixel(uvec2(seed, 0u), uint(gl_FragCoord.x), uint(gl_FragCoord.y));
 //     vec4 lens = koksma_to_float(koksma_sobol(koksma_domain_of_use(pixel, LENS), i));
 
-const uvec4 KOKSMA_SOBOL[32] = uvec4[32](
-    uvec4(0x1u, 0x1u, 0x1u, 0x1u), uvec4(0x2u, 0x3u, 0x3u, 0x3u), uvec4(0x4u, 0x5u, 0x6u, 0x4u),
-    uvec4(0x8u, 0xfu, 0x9u, 0xau), uvec4(0x10u, 0x11u, 0x17u, 0x1fu), uvec4(0x20u, 0x33u, 0x3au, 0x2eu),
-    uvec4(0x40u, 0x55u, 0x71u, 0x45u), uvec4(0x80u, 0xffu, 0xa3u, 0xc9u), uvec4(0x100u, 0x101u, 0x116u, 0x11bu),
-    uvec4(0x200u, 0x303u, 0x339u, 0x2a4u), uvec4(0x400u, 0x505u, 0x677u, 0x79au), uvec4(0x800u, 0xf0fu, 0x9aau, 0xb67u),
-    uvec4(0x1000u, 0x1111u, 0x1601u, 0x101eu), uvec4(0x2000u, 0x3333u, 0x3903u, 0x302du), uvec4(0x4000u, 0x5555u, 0x7706u, 0x4041u),
-    uvec4(0x8000u, 0xffffu, 0xaa09u, 0xa0c3u), uvec4(0x10000u, 0x10001u, 0x10117u, 0x1f104u), uvec4(0x20000u, 0x30003u, 0x3033au, 0x2e28au),
-    uvec4(0x40000u, 0x50005u, 0x60671u, 0x457dfu), uvec4(0x80000u, 0xf000fu, 0x909a3u, 0xc9baeu), uvec4(0x100000u, 0x110011u, 0x171616u, 0x11a105u),
-    uvec4(0x200000u, 0x330033u, 0x3a3939u, 0x2a7289u), uvec4(0x400000u, 0x550055u, 0x717777u, 0x79e7dbu), uvec4(0x800000u, 0xff00ffu, 0xa3aaaau, 0xb6dba4u),
-    uvec4(0x1000000u, 0x1010101u, 0x1170001u, 0x100011au), uvec4(0x2000000u, 0x3030303u, 0x33a0003u, 0x30002a7u), uvec4(0x4000000u, 0x5050505u, 0x6710006u, 0x400079eu),
-    uvec4(0x8000000u, 0xf0f0f0fu, 0x9a30009u, 0xa000b6du), uvec4(0x10000000u, 0x11111111u, 0x16160017u, 0x1f001001u), uvec4(0x20000000u, 0x33333333u, 0x3939003au, 0x2e003003u),
-    uvec4(0x40000000u, 0x55555555u, 0x77770071u, 0x45004004u), uvec4(0x80000000u, 0xffffffffu, 0xaaaa00a3u, 0xc900a00au));
+// Column b of the two dimensions of PMJ02: the digits of point 2^b, bits reversed.
 const uvec2 KOKSMA_PMJ02[32] = uvec2[32](
     uvec2(0x1u, 0x1u), uvec2(0x2u, 0x3u), uvec2(0x6u, 0x6u),
     uvec2(0xcu, 0xau), uvec2(0x14u, 0x14u), uvec2(0x28u, 0x3cu),
@@ -110,15 +99,51 @@ uint koksma_shuffled(uvec2 mixed, uint i)
     return hashes.x ^ (hashes.y & 0xffffu);
 }
 
+// The product of an index and the Pascal matrix: coordinate 2, bits reversed.
+uint koksma_pascal(uint i)
+{
+    i ^= (i & 0xaaaaaaaau) >> 1;
+    i ^= (i & 0xccccccccu) >> 2;
+    i ^= (i & 0xf0f0f0f0u) >> 4;
+    i ^= (i & 0xff00ff00u) >> 8;
+    return i ^ i >> 16;
+}
+
+// Coordinates 3 and 4, bits reversed. The columns of a coordinate's matrix obey the recurrence of its polynomial p: with E the
+// step to the next column and z the shift by deg p bits, p(E) = z. So an index, as a polynomial in E, is written in powers of p:
+// each step divides all parts by p^(2^k) = p(E^(2^k)) and leaves the quotients above the remainders. Its first line completes
+// the quotients, its second takes their products from the remainders. The last line has the first deg p columns.
+uint koksma_third(uint i) // p = E^2 + E + 1
+{
+    i ^= (i & 0xff000000u) >> 8;
+    i ^= i >> 16 ^ (i >> 8 & 0x0000ff00u);
+    i ^= (i & 0xf000f000u) >> 4;
+    i ^= (i >> 8 & 0x00ff00ffu) ^ (i >> 4 & 0x00f000f0u);
+    i ^= (i & 0xc0c0c0c0u) >> 2;
+    i ^= (i >> 4 & 0x0f0f0f0fu) ^ (i >> 2 & 0x0c0c0c0cu);
+    i ^= (i & 0x88888888u) >> 1;
+    i ^= (i >> 2 & 0x33333333u) ^ (i >> 1 & 0x22222222u);
+    return i ^ (i >> 1 & 0x55555555u);
+}
+
+uint koksma_fourth(uint i) // p = E^3 + E + 1; the quotient by p^8 is complete
+{
+    i ^= i >> 24 ^ (i >> 16 & 0x0000ff00u);
+    i ^= (i & 0x00f00000u) >> 8;
+    i ^= (i >> 12 & 0x00000fffu) ^ (i >> 8 & 0x00000ff0u);
+    i ^= (i & 0x00c00c00u) >> 4;
+    i ^= (i >> 6 & 0x0303f03fu) ^ (i >> 4 & 0x0c03c03cu);
+    i ^= (i & 0x20820820u) >> 2;
+    i ^= (i >> 3 & 0x071c71c7u) ^ (i >> 2 & 0x06186186u);
+    return i ^ (i >> 1 & 0x49249249u);
+}
+
 // Sample i: the words of koksma_sobol_4d.
 uvec4 koksma_sobol(uvec2 domain, uint i)
 {
     uvec2 mixed = koksma_mix(domain);
-    uint j = koksma_shuffled(mixed, i);
-    uvec4 x = uvec4(0u);
-    for (int b = 0; b < 32; b++) {
-        x ^= KOKSMA_SOBOL[b] * (j >> (31 - b) & 1u);
-    }
+    uint index = koksma_mirror(uvec4(koksma_shuffled(mixed, i))).x;
+    uvec4 x = uvec4(index, koksma_pascal(index), koksma_third(index), koksma_fourth(index));
     return koksma_mirror(koksma_owen_hash(x, koksma_seeds(mixed)));
 }
 

@@ -6,18 +6,7 @@
 //     let pixel = koksma_domain_of_pixel(vec2u(seed, 0u), id.x, id.y);
 //     let lens = koksma_to_float(koksma_sobol(koksma_domain_of_use(pixel, LENS), i));
 
-const KOKSMA_SOBOL = array<vec4u, 32>(
-    vec4u(0x1u, 0x1u, 0x1u, 0x1u), vec4u(0x2u, 0x3u, 0x3u, 0x3u), vec4u(0x4u, 0x5u, 0x6u, 0x4u),
-    vec4u(0x8u, 0xfu, 0x9u, 0xau), vec4u(0x10u, 0x11u, 0x17u, 0x1fu), vec4u(0x20u, 0x33u, 0x3au, 0x2eu),
-    vec4u(0x40u, 0x55u, 0x71u, 0x45u), vec4u(0x80u, 0xffu, 0xa3u, 0xc9u), vec4u(0x100u, 0x101u, 0x116u, 0x11bu),
-    vec4u(0x200u, 0x303u, 0x339u, 0x2a4u), vec4u(0x400u, 0x505u, 0x677u, 0x79au), vec4u(0x800u, 0xf0fu, 0x9aau, 0xb67u),
-    vec4u(0x1000u, 0x1111u, 0x1601u, 0x101eu), vec4u(0x2000u, 0x3333u, 0x3903u, 0x302du), vec4u(0x4000u, 0x5555u, 0x7706u, 0x4041u),
-    vec4u(0x8000u, 0xffffu, 0xaa09u, 0xa0c3u), vec4u(0x10000u, 0x10001u, 0x10117u, 0x1f104u), vec4u(0x20000u, 0x30003u, 0x3033au, 0x2e28au),
-    vec4u(0x40000u, 0x50005u, 0x60671u, 0x457dfu), vec4u(0x80000u, 0xf000fu, 0x909a3u, 0xc9baeu), vec4u(0x100000u, 0x110011u, 0x171616u, 0x11a105u),
-    vec4u(0x200000u, 0x330033u, 0x3a3939u, 0x2a7289u), vec4u(0x400000u, 0x550055u, 0x717777u, 0x79e7dbu), vec4u(0x800000u, 0xff00ffu, 0xa3aaaau, 0xb6dba4u),
-    vec4u(0x1000000u, 0x1010101u, 0x1170001u, 0x100011au), vec4u(0x2000000u, 0x3030303u, 0x33a0003u, 0x30002a7u), vec4u(0x4000000u, 0x5050505u, 0x6710006u, 0x400079eu),
-    vec4u(0x8000000u, 0xf0f0f0fu, 0x9a30009u, 0xa000b6du), vec4u(0x10000000u, 0x11111111u, 0x16160017u, 0x1f001001u), vec4u(0x20000000u, 0x33333333u, 0x3939003au, 0x2e003003u),
-    vec4u(0x40000000u, 0x55555555u, 0x77770071u, 0x45004004u), vec4u(0x80000000u, 0xffffffffu, 0xaaaa00a3u, 0xc900a00au));
+// Column b of the two dimensions of PMJ02: the digits of point 2^b, bits reversed.
 const KOKSMA_PMJ02 = array<vec2u, 32>(
     vec2u(0x1u, 0x1u), vec2u(0x2u, 0x3u), vec2u(0x6u, 0x6u),
     vec2u(0xcu, 0xau), vec2u(0x14u, 0x14u), vec2u(0x28u, 0x3cu),
@@ -91,15 +80,50 @@ fn koksma_shuffled(mixed: vec2u, i: u32) -> u32 {
     return hashes.x ^ (hashes.y & 0xffffu);
 }
 
+// The product of an index and the Pascal matrix: coordinate 2, bits reversed.
+fn koksma_pascal(index: u32) -> u32 {
+    var i = index;
+    i ^= (i & 0xaaaaaaaau) >> 1u;
+    i ^= (i & 0xccccccccu) >> 2u;
+    i ^= (i & 0xf0f0f0f0u) >> 4u;
+    i ^= (i & 0xff00ff00u) >> 8u;
+    return i ^ (i >> 16u);
+}
+
+// Coordinates 3 and 4, bits reversed. The columns of a coordinate's matrix obey the recurrence of its polynomial p: with E the
+// step to the next column and z the shift by deg p bits, p(E) = z. So an index, as a polynomial in E, is written in powers of p:
+// each step divides all parts by p^(2^k) = p(E^(2^k)) and leaves the quotients above the remainders. Its first line completes
+// the quotients, its second takes their products from the remainders. The last line has the first deg p columns.
+fn koksma_third(index: u32) -> u32 { // p = E^2 + E + 1
+    var i = index;
+    i ^= (i & 0xff000000u) >> 8u;
+    i ^= (i >> 16u) ^ ((i >> 8u) & 0x0000ff00u);
+    i ^= (i & 0xf000f000u) >> 4u;
+    i ^= ((i >> 8u) & 0x00ff00ffu) ^ ((i >> 4u) & 0x00f000f0u);
+    i ^= (i & 0xc0c0c0c0u) >> 2u;
+    i ^= ((i >> 4u) & 0x0f0f0f0fu) ^ ((i >> 2u) & 0x0c0c0c0cu);
+    i ^= (i & 0x88888888u) >> 1u;
+    i ^= ((i >> 2u) & 0x33333333u) ^ ((i >> 1u) & 0x22222222u);
+    return i ^ ((i >> 1u) & 0x55555555u);
+}
+
+fn koksma_fourth(index: u32) -> u32 { // p = E^3 + E + 1; the quotient by p^8 is complete
+    var i = index;
+    i ^= (i >> 24u) ^ ((i >> 16u) & 0x0000ff00u);
+    i ^= (i & 0x00f00000u) >> 8u;
+    i ^= ((i >> 12u) & 0x00000fffu) ^ ((i >> 8u) & 0x00000ff0u);
+    i ^= (i & 0x00c00c00u) >> 4u;
+    i ^= ((i >> 6u) & 0x0303f03fu) ^ ((i >> 4u) & 0x0c03c03cu);
+    i ^= (i & 0x20820820u) >> 2u;
+    i ^= ((i >> 3u) & 0x071c71c7u) ^ ((i >> 2u) & 0x06186186u);
+    return i ^ ((i >> 1u) & 0x49249249u);
+}
+
 // Sample i: the words of koksma_sobol_4d.
 fn koksma_sobol(domain: vec2u, i: u32) -> vec4u {
     let mixed = koksma_mix(domain);
-    let j = koksma_shuffled(mixed, i);
-    var columns = KOKSMA_SOBOL;
-    var x = vec4u(0u);
-    for (var b = 0u; b < 32u; b++) {
-        x = x ^ (columns[b] * ((j >> (31u - b)) & 1u));
-    }
+    let index = reverseBits(koksma_shuffled(mixed, i));
+    let x = vec4u(index, koksma_pascal(index), koksma_third(index), koksma_fourth(index));
     return reverseBits(koksma_owen_hash(x, koksma_seeds(mixed)));
 }
 
