@@ -146,7 +146,7 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out for file:PATH and poisson-disk-maximal:d=D)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {'p', "patterns", "PATTERN", "the pattern, instead of the operand"},
-    {0, "first", "I", "index of the first point, for patterns that have ranges (default: 0)"},
+    {0, "first", "I", "index of the first point, up to 2^51 - 1, for sequences that have ranges (default: 0)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
     {0, "density", "FILE.png|.exr|.pfm", "the points' density follows the luminance of this image"},

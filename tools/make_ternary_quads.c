@@ -24,16 +24,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_DIM = 128, COLUMNS = 20, QUAD = 4, STARTS = 96 };
+enum { MOST_DIM = 128, COLUMNS = 33, EARLY = 20, QUAD = 4, STARTS = 96, LATE_STARTS = 4 };
 
 /* A vector over GF(3): bit i of `one` or `two` is set where entry i is 1 or 2. */
 typedef struct trits {
-    uint32_t one, two;
+    uint64_t one, two;
 } trits;
 
 static trits sum(trits a, trits b)
 {
-    const uint32_t t = (a.one | b.two) ^ (a.two | b.one);
+    const uint64_t t = (a.one | b.two) ^ (a.two | b.one);
     const trits s = {(a.two | b.two) ^ t, (a.one | b.one) ^ t};
     return s;
 }
@@ -50,14 +50,14 @@ static unsigned at(trits a, int i)
 
 static trits with(trits a, int i, unsigned value)
 {
-    const uint32_t bit = UINT32_C(1) << i;
+    const uint64_t bit = UINT64_C(1) << i;
     return (trits){(a.one & ~bit) | (value == 1 ? bit : 0), (a.two & ~bit) | (value == 2 ? bit : 0)};
 }
 
 static unsigned dot(trits a, trits b)
 {
-    const int same = __builtin_popcount((a.one & b.one) | (a.two & b.two));
-    const int other = __builtin_popcount((a.one & b.two) | (a.two & b.one));
+    const int same = __builtin_popcountll((a.one & b.one) | (a.two & b.two));
+    const int other = __builtin_popcountll((a.one & b.two) | (a.two & b.one));
     return (unsigned)(same + 2 * other) % 3;
 }
 
@@ -99,7 +99,9 @@ static void make_quad(void)
         memcpy(series, next, sizeof series);
         for (int c = 0; c < COLUMNS; c++) {
             quad[3][2 * q] = with(quad[3][2 * q], c, series[c + 2]);
-            quad[3][2 * q + 1] = with(quad[3][2 * q + 1], c, series[c + 1]);
+            if (2 * q + 1 < COLUMNS) {
+                quad[3][2 * q + 1] = with(quad[3][2 * q + 1], c, series[c + 1]);
+            }
         }
     }
 }
@@ -123,17 +125,17 @@ static int n_shapes, n_conditions;
 static void add_system(int a, int first, int b, int k, int c, double weight)
 {
     const int m = c + 1;
-    const uint32_t mask = (UINT32_C(1) << c) - 1;
+    const uint64_t mask = (UINT64_C(1) << c) - 1;
     trits pivot[COLUMNS], track[COLUMNS];
     int has[COLUMNS] = {0};
     shape s = {n_conditions, 0, weight};
     for (int i = 0; i < m; i++) {
         trits row = i < k ? rows[a][i] : rows[first + b][i - k];
-        trits y = {UINT32_C(1) << i, 0};
+        trits y = {UINT64_C(1) << i, 0};
         row.one &= mask;
         row.two &= mask;
         while (row.one | row.two) {
-            const int top = 31 - __builtin_clz(row.one | row.two);
+            const int top = 63 - __builtin_clzll(row.one | row.two);
             if (!has[top]) {
                 const unsigned inverse = at(row, top);
                 pivot[top] = times(row, inverse);
@@ -181,9 +183,10 @@ static double value(trits n)
 
 static trits search(int c)
 {
+    const int starts = c < EARLY ? STARTS : LATE_STARTS;
     trits best = {0, 0};
     double least = 0;
-    for (int start = 0; start < STARTS; start++) {
+    for (int start = 0; start < starts; start++) {
         trits n = {0, 0};
         for (int i = 0; i < c; i++) {
             n = with(n, i, (unsigned)(draw() % 3));
@@ -234,6 +237,30 @@ static trits choose(int first, int c)
     return n;
 }
 
+/* Chooses columns from .. end - 1 for all groups, and prints those of the groups from the second on. The columns above
+   EARLY have fewer starts, because a search among so many rows takes long. */
+static void choose_columns(int dims, int from, int end)
+{
+    for (int first = 0; first < dims; first += QUAD) {
+        int length = 0;
+        for (int c = from; c < end; c++) {
+            const trits n = choose(first, c);
+            uint64_t number = 0;
+            for (int r = c - 1; r >= 0; r--) {
+                number = 3 * number + at(n, r);
+            }
+            if (first > 0 && c > 0) {
+                length += printf("%" PRIu64 ",", number);
+                if (length > 90 || c == end - 1) {
+                    length = 0;
+                    printf("\n");
+                }
+            }
+        }
+        fprintf(stderr, "%d\n", first);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const int dims = argc > 1 ? atoi(argv[1]) : MOST_DIM;
@@ -243,24 +270,9 @@ int main(int argc, char **argv)
         "/* For each group of four dimensions from the second on: columns 1 to %d of N above its diagonal, each the\n"
         "   number whose digits in base 3 are its entries, that of row 0 the lowest.\n"
         "   Made by tools/make_ternary_quads.c. */\n",
-        COLUMNS - 1);
-    for (int first = 0; first < dims; first += QUAD) {
-        int length = 0;
-        for (int c = 0; c < COLUMNS; c++) {
-            const trits n = choose(first, c);
-            uint64_t number = 0;
-            for (int r = c - 1; r >= 0; r--) {
-                number = 3 * number + at(n, r);
-            }
-            if (first > 0 && c > 0) {
-                length += printf("%" PRIu64 ",", number);
-                if (length > 90 || c == COLUMNS - 1) {
-                    length = 0;
-                    printf("\n");
-                }
-            }
-        }
-        fprintf(stderr, "%d\n", first);
-    }
+        EARLY - 1);
+    choose_columns(dims, 0, EARLY);
+    printf("/* Columns %d to %d, chosen after those of all groups. */\n", EARLY, COLUMNS - 1);
+    choose_columns(dims, EARLY, COLUMNS);
     return 0;
 }

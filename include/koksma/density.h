@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Points whose density follows an image, and points on the surface of a model. Part of libkoksma-lab. Four patterns
+ * Points whose density follows an image, and points on the surface of a model. Part of libkoksma-lab. These patterns
  * support both functions below:
  *
  *     random                   independent points that follow the density or area: the baseline
@@ -8,9 +8,11 @@
  *     progressive-elimination  the same, in an order whose prefixes are blue noise
  *     poisson-disk             dart throwing: no two points closer than d
  *     poisson-disk-maximal     dart throwing until nothing fits, at the d that gives n points or at the given one
+ *     dart-throwing            dart throwing: n points, no two closer than f times the distance in the densest packing
+ *     best-candidate           each point is the candidate furthest from all points before it (Mitchell 1991)
  *     gaussian-blue-noise      points that repel each other and are drawn to the density (Ahmed, Ren & Wonka 2022)
  *
- * The first four choose among independent candidates of the wanted density. Where the density is p times its mean,
+ * All but the last choose among independent candidates of the wanted density. Where the density is p times its mean,
  * distances are divided by sqrt(p); of the two points of a pair the smaller 1/sqrt(p) counts ("smaller disks", Mitchell
  * et al. 2012). gaussian-blue-noise has the cleanest low frequencies: its smoothed points come as close as they can to
  * the smoothed density. On a surface distances are those of space, as in Yuksel's paper, not those along the surface.

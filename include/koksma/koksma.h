@@ -300,8 +300,9 @@ KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
 /* Generates points first .. first + out->n - 1 of the set of koksma_generate, in the time and memory of out->n
    points.
      spec   a pattern that has ranges (koksma_has_ranges). A sequence (KOKSMA_CLAIM_SEQUENCE) accepts indices up to
-            KOKSMA_MAX_INDEX; sequences of 32-bit words end at index 2^32 - 1, and radical inverses in base b at the
-            largest power of b up to 2^53
+            KOKSMA_MAX_INDEX. halton and faure end before that in many dimensions: at the largest power of their
+            largest base up to 2^53, because a double has no more digits. Sequences in base 2 have coordinates of 32
+            binary digits below point 2^32, and of 53 beyond
      n      number of points of the whole set, whose last index is n - 1. Unused for a sequence
      first  index of the first point to generate, from 0
      out    points initialised by koksma_points_init with the number of points to generate

@@ -122,8 +122,10 @@ koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint
     KOKSMA__FAIL_IF(end > KOKSMA_MAX_INDEX + 1 || (!(p->claims & KOKSMA_CLAIM_SEQUENCE) && n > most), KOKSMA_N,
                     "%s: n = %llu: at most %llu points", p->name, (unsigned long long)n, (unsigned long long)most);
     KOKSMA__FAIL_IF(first > end || out->n > end - first, KOKSMA_N,
-                    "%s: first = %llu with %zu points ends beyond the last point, which has number %llu", p->name,
-                    (unsigned long long)first, out->n, (unsigned long long)end - 1);
+                    "%s: first = %llu with %zu points ends beyond the last %s, which has number %llu", p->name,
+                    (unsigned long long)first, out->n,
+                    p->claims & KOKSMA_CLAIM_SEQUENCE ? "point of all sequences" : "point",
+                    (unsigned long long)end - 1);
     return generate(spec, p, seed, n, first, run, out);
 }
 

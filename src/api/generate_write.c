@@ -55,10 +55,10 @@ koksma_status koksma_generate_write(const koksma_spec *spec, uint64_t seed, uint
                     KOKSMA_MAX_DIM);
     KOKSMA__FAIL_IF(!spec->pattern || n == 0, KOKSMA_ARGUMENT,
                     "%s: it takes the spec of a pattern, and n of 1 or more", __func__);
-    KOKSMA__FAIL_IF(n > KOKSMA_MAX_INDEX + 1 || first > KOKSMA_MAX_INDEX + 1 - n, KOKSMA_N,
-                    "%s: n = %llu from first = %llu ends beyond the last point, which has number %llu",
-                    spec->pattern->name, (unsigned long long)n, (unsigned long long)first,
-                    (unsigned long long)KOKSMA_MAX_INDEX);
+    KOKSMA__FAIL_IF(
+        n > KOKSMA_MAX_INDEX + 1 || first > KOKSMA_MAX_INDEX + 1 - n, KOKSMA_N,
+        "%s: n = %llu from first = %llu ends beyond the last point of all patterns, which has number %llu",
+        spec->pattern->name, (unsigned long long)n, (unsigned long long)first, (unsigned long long)KOKSMA_MAX_INDEX);
     KOKSMA__FAIL_IF(
         first && !(j.ranges && spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE), KOKSMA_UNSUPPORTED,
         "%s: first = %llu: only sequences that have ranges accept this, such as sobol, halton and r-sequence",

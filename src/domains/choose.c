@@ -8,8 +8,11 @@
  *                          plane times the root of the area; progressive order as there
  *   poisson-disk           candidates in turn, those too near to a kept one are rejected (dart_grid.c). After 20,000
  *                          rejections in a row it fails
+ *   best-candidate         of k * candidates + 1 candidates the one that is furthest from the k points before it. A query
+ *                          of dart_grid.c rejects a candidate that is nearer than the best one so far; the few others
+ *                          are compared with all points: O(n (most + n log most)) in the plane
  *
- * poisson-disk-maximal (maximal.c) and gaussian-blue-noise (gaussian.c) make points of their own. The distance of a pair
+ * poisson-disk-maximal, dart-throwing (maximal.c) and gaussian-blue-noise (gaussian.c) make points of their own. The distance of a pair
  * is in units of the smaller of both units of distance.
  */
 #include <math.h>
@@ -19,6 +22,7 @@
 #include "api/generate.h"
 #include "core/parallel.h"
 #include "core/status.h"
+#include "core/torus.h"
 #include "domains/choose.h"
 #include "domains/dart_grid.h"
 #include "domains/gaussian.h"
@@ -153,6 +157,67 @@ static koksma_status choose_darts(const choice *c)
     return status;
 }
 
+/* ---- Best candidates ------------------------------------------------------------------------------------- */
+
+/* Returns the square of the smallest distance to a point, in units of the smaller of both units of distance. */
+static double squared_room(const koksma__dart_grid *grid, const koksma__dart_query *q)
+{
+    const size_t dim = (size_t)grid->dim;
+    double least = INFINITY;
+    for (size_t i = 0; i < grid->n; i++) {
+        const double unit = fmin(q->unit, grid->units[i]);
+        double square = 0;
+        for (size_t k = 0; k < dim; k++) {
+            const double y = grid->xs[i * dim + k];
+            const double t = grid->torus ? koksma__torus_difference(y, q->x[k]) : q->x[k] - y;
+            square += t * t;
+        }
+        least = fmin(least, square / (unit * unit));
+    }
+    return least;
+}
+
+/* Adds the best of `count` candidates for the next point. */
+static koksma_status add_best(const choice *c, size_t count, koksma__dart_grid *grid, size_t *looks)
+{
+    const koksma__point_domain *domain = c->domain;
+    double best = -1, position[3] = {0}, unit = 0;
+    grid->d = 0;
+    for (size_t i = 0; i < count; i++) {
+        double x[3];
+        koksma__domain_point point;
+        domain->draw(domain->data, c->seed, (uint64_t)grid->n << 24 | i, &point);
+        domain->place(domain->data, &point, x);
+        const koksma__dart_query q = {.x = x, .unit = domain->unit_of(domain->data, point.part)};
+        const double room = koksma__dart_grid_meets(grid, &q) ? -1 : squared_room(grid, &q);
+        if (room > best) {
+            best = room;
+            grid->d = sqrt(best);
+            unit = q.unit;
+            memcpy(position, x, (size_t)grid->dim * sizeof *x);
+            c->points[grid->n] = point;
+        }
+        if (++*looks % LOOK_EVERY == 0 && !koksma__keep_going(c->run, (double)grid->n / (double)c->n)) {
+            return koksma__fail_interrupted();
+        }
+    }
+    koksma__dart_grid_add(grid, position, unit);
+    return KOKSMA_OK;
+}
+
+static koksma_status choose_best(const choice *c)
+{
+    koksma__dart_grid grid;
+    size_t looks = 0;
+    koksma_status status = koksma__dart_grid_init(&grid, c->domain, c->domain->torus, c->n,
+                                                  sqrt(c->domain->area / (double)c->n)); /* the cells' width */
+    for (size_t i = 0; i < c->n && !status; i++) {
+        status = add_best(c, (size_t)fmin(c->params[0] * (double)i + 1, c->params[1]), &grid, &looks);
+    }
+    koksma__dart_grid_fini(&grid);
+    return status;
+}
+
 /* ---- The table ------------------------------------------------------------------------------------------- */
 
 /* The patterns that can place points on a domain. A method reads the pattern's parameters by their order in its
@@ -166,6 +231,8 @@ static const struct {
     {"progressive-elimination", choose_progressive},
     {"poisson-disk", choose_darts},
     {"poisson-disk-maximal", koksma__choose_maximal},
+    {"dart-throwing", koksma__choose_fraction},
+    {"best-candidate", choose_best},
     {"gaussian-blue-noise", koksma__choose_gaussian},
 };
 
@@ -189,7 +256,7 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     }
     return koksma__fail(
         KOKSMA_UNSUPPORTED,
-        "%s: no form %s; random, sample-elimination, progressive-elimination, poisson-disk, poisson-disk-maximal and "
-        "gaussian-blue-noise have one",
+        "%s: no form %s; random, best-candidate, dart-throwing, sample-elimination, progressive-elimination, "
+        "poisson-disk, poisson-disk-maximal and gaussian-blue-noise have one",
         p->name, domain->what);
 }

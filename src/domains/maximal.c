@@ -9,6 +9,9 @@
  * four, and covered quarters are dropped. No piece is left when the set is maximal; pieces of 2^-30 of a part's side are
  * ignored. A dart that misses all points is one of dart throwing on the whole domain, whose other darts would conflict.
  *
+ * dart-throwing throws darts in the same way, but until there are n points. A set that becomes maximal before is
+ * discarded and thrown again, at most 200 times.
+ *
  * d=0 searches for the distance at which exactly n points are maximal (patterns/shared/maximal_search.h), from a
  * distance that is scaled by the root of found over wanted until at most n points fit.
  *
@@ -26,8 +29,9 @@
 #include "core/status.h"
 #include "domains/dart_grid.h"
 #include "patterns/shared/maximal_search.h"
+#include "patterns/shared/packing.h"
 
-enum { DEEPEST = 30, LOOK_EVERY = 1 << 14, ESTIMATES = 30, SEARCHES = 8 };
+enum { DEEPEST = 30, LOOK_EVERY = 1 << 14, ESTIMATES = 30, SEARCHES = 8, RESTARTS = 200 };
 
 #define PER_AREA 0.6965 /* mean points of a maximal set times d^2, on the torus */
 
@@ -234,18 +238,39 @@ static koksma_status by_distance(maximal *m)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__choose_maximal(const koksma__choice *c)
+/* Throws n points at the distance of the grid. */
+static koksma_status by_fraction(maximal *m)
 {
-    const double d = c->params[0] * c->domain->unit;
-    const size_t capacity = 4 * c->n + 1024;
+    const size_t n = m->c->n;
+    const double d = m->grid.d;
+    size_t most = 0;
+    for (uint32_t restart = 0; restart < RESTARTS; restart++) {
+        m->seed = restart ? koksma__random_seed(m->c->seed, restart, KOKSMA__PURPOSE_DART) : m->c->seed;
+        m->darts = 0;
+        koksma__dart_grid_reset(&m->grid, 0, d);
+        KOKSMA__TRY(fill(m, n));
+        if (m->grid.n == n) {
+            return KOKSMA_OK;
+        }
+        most = m->grid.n > most ? m->grid.n : most;
+        if (restart >= 5 && (double)most < 0.97 * (double)n - 1) {
+            break; /* further tries would end far from n points, too */
+        }
+    }
+    return koksma__fail(KOKSMA_IMPOSSIBLE, "dart-throwing: f=%g jams at %zu of %zu points %s; a smaller f would do",
+                        m->c->params[0], most, n, m->c->domain->what);
+}
+
+/* Makes the points of a choice by a method, with the distance d for which the grid is laid out. */
+static koksma_status choose(const koksma__choice *c, size_t capacity, double d, koksma_status (*method)(maximal *m))
+{
     maximal m = {.c = c};
-    koksma_status status = koksma__dart_grid_init(&m.grid, c->domain, c->domain->torus, capacity,
-                                                  d > 0 ? d : sqrt(PER_AREA * c->domain->area / (double)c->n));
+    koksma_status status = koksma__dart_grid_init(&m.grid, c->domain, c->domain->torus, capacity, d);
     if (!status) {
         m.points = malloc(capacity * sizeof *m.points);
         status = m.points ? KOKSMA_OK : koksma__fail_memory(capacity * sizeof *m.points);
     }
-    status = status ? status : d > 0 ? by_distance(&m) : by_number(&m);
+    status = status ? status : method(&m);
     if (!status) {
         memcpy(c->points, m.points, c->n * sizeof *c->points);
     }
@@ -254,4 +279,17 @@ koksma_status koksma__choose_maximal(const koksma__choice *c)
     free(m.pieces);
     free(m.sums);
     return status;
+}
+
+koksma_status koksma__choose_maximal(const koksma__choice *c)
+{
+    const double d = c->params[0] * c->domain->unit;
+    return choose(c, 4 * c->n + 1024, d > 0 ? d : sqrt(PER_AREA * c->domain->area / (double)c->n),
+                  d > 0 ? by_distance : by_number);
+}
+
+koksma_status koksma__choose_fraction(const koksma__choice *c)
+{
+    const double densest = koksma__packing_distance(c->n, 2, true) * sqrt(c->domain->area);
+    return choose(c, c->n, c->params[0] * densest, by_fraction);
 }

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* poisson-disk-maximal on a domain. */
+/* poisson-disk-maximal and dart-throwing on a domain. */
 #ifndef KOKSMA_DOMAINS_MAXIMAL_H
 #define KOKSMA_DOMAINS_MAXIMAL_H
 
 #include "domains/domain.h"
 
 koksma_status koksma__choose_maximal(const koksma__choice *choice);
+
+/* Throws darts until there are n points, none closer than the parameter f times the distance of n points in the densest
+   packing of the plane, times the root of the domain's area. */
+koksma_status koksma__choose_fraction(const koksma__choice *choice);
 
 #endif

@@ -41,7 +41,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             directions[k][b] = koksma__digital_start(next, index) & ~(0xffffffffu >> m);
         }
     }
-    const koksma_status status = koksma__range_columns(args, out, koksma__digital_column, directions);
+    const koksma__digital_columns columns = {.directions = (const uint32_t(*)[32])directions};
+    const koksma_status status = koksma__range_columns(args, out, koksma__digital_column, &columns);
     free(directions);
     return status;
 }

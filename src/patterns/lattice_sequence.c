@@ -7,24 +7,33 @@
  * tools/make_lattice_sequence.py makes the vector component by component: it chooses each component so that for every
  * m the lattice of 2^m points is nearly as good as with the best multiplier for this m. If n is not a power of two,
  * the points consist of shifted lattices with 2^m points each and a part of another lattice. The vector was optimised
- * for up to 2^20 points, but can be used for up to 2^32.
+ * for up to 2^20 points, but can be used for more. Multiples of 2^32 added to z_k change no point below 2^32; without
+ * them the points beyond would lie on few lines. late_bits therefore draws bits 32 to 52 of each z_k but the first from
+ * a hash, so that pairs of coordinates of 2^33 to 2^51 points are as even as those of a random vector
+ * (docs/decisions/0055).
  * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000; embedded lattices: Cools, Kuo & Nuyens 2006; the weights are
  * those of lattice-rank1. For 2^m points, m = 4 to 12, l2-wraparound is at most 1.4 times that of lattice-rank1 in 2
  * to 10 dimensions (tests/patterns/test_lattices.c).
  */
 #include <koksma/sampler.h>
 
-#include "core/status.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
+#include "patterns/shared/parts.h"
 
 static const uint32_t z[] = {
 #include "patterns/shared/lattice_sequence.inc"
 };
 
+/* Returns bits 32 to 52 of z_k, as a multiple of 2^32. */
+static uint64_t late_bits(int k)
+{
+    return k ? koksma_mix(koksma_mix((uint64_t)k + 1)) >> 43 << 32 : 0;
+}
+
 /* Computes one coordinate modulo 2^32: bit b of i contributes z 2^(31 - b), as in a digital sequence, but the
    contributions are added with carries. */
-static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
+static void early_column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     (void)context;
     for (size_t i = 0; i < count; i++) {
@@ -32,11 +41,27 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
     }
 }
 
+/* Does the same beyond point 2^32, modulo 2^53. */
+static void late_column(const void *context, int k, uint64_t first, size_t count, double *xs)
+{
+    const uint64_t part = *(const uint64_t *)context, wide = z[k] + late_bits(k);
+    const uint64_t late = koksma_mirror((uint32_t)part);
+    for (size_t i = 0; i < count; i++) {
+        const uint64_t mirrored = (uint64_t)koksma_mirror((uint32_t)(first + i)) << 32 | late;
+        xs[i] = (double)(int64_t)(mirrored * wide >> 11) * 0x1p-53;
+    }
+}
+
+static koksma_status generate_part(const void *context, uint64_t part, const koksma_args *args, koksma_points *out)
+{
+    (void)context;
+    return koksma__range_columns(args, out, part ? late_column : early_column, &part);
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
-    KOKSMA__TRY(koksma__range_fits("lattice-sequence", args, out));
-    return koksma__range_columns(args, out, column, NULL);
+    return koksma__range_parts(args, out, generate_part, NULL);
 }
 
 const koksma_pattern koksma__pattern_lattice_sequence = {

@@ -17,7 +17,7 @@
  *
  * Source: Niederreiter 1992; formats: L'Ecuyer et al. 2022, Joe & Kuo 2008.
  *
- * Point i does not depend on n, and there are b^k points. A coordinate has as many digits as fit into a double (53 in
+ * Point i does not depend on n, and there are b^k points; k is 53 for Sobol' numbers. A coordinate has as many digits as fit into a double (53 in
  * base 2); further digits are cut off. The modifier owen-base=b scrambles the points in base b.
  */
 #include <stdlib.h>
@@ -28,11 +28,12 @@
 #include "patterns/shared/columns.h"
 #include "patterns/shared/number_lines.h"
 
-enum { MOST_COLUMNS = 64, MOST_DIGITS = 53, LARGEST_BASE = 256, SOBOL_COLUMNS = 32, LARGEST_DEGREE = 31 };
+enum { MOST_COLUMNS = 64, MOST_DIGITS = 53, LARGEST_BASE = 256, SOBOL_COLUMNS = 53, LARGEST_DEGREE = 31 };
 
 typedef struct matrices {
     uint32_t base;
     int columns, digits;                         /* columns and rows (digits) of each matrix */
+    uint64_t end;                                /* number of points that are needed */
     uint8_t (*digit)[MOST_COLUMNS][MOST_DIGITS]; /* [k][c][l]: row l + 1, column c of C_k */
 } matrices;
 
@@ -245,9 +246,9 @@ static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrice
     return KOKSMA_OK;
 }
 
-/* Computes the columns of one dimension from its line of Sobol' numbers: v[c] is column c as a 32-bit number. */
+/* Computes the columns of one dimension from its line of Sobol' numbers: v[c] is column c as a 53-bit number. */
 static koksma_status sobol_columns(const koksma__number_lines *lines, int k, const uint64_t *numbers, size_t count,
-                                   uint32_t *v)
+                                   uint64_t *v)
 {
     const uint64_t degree = count > 1 ? numbers[1] : 0, a = count > 2 ? numbers[2] : 0;
     KOKSMA__FAIL_IF(count < 4 || numbers[0] != (uint64_t)k + 1 || degree != count - 3, KOKSMA_MALFORMED,
@@ -259,7 +260,7 @@ static koksma_status sobol_columns(const koksma__number_lines *lines, int k, con
             KOKSMA__FAIL_IF(number % 2 == 0 || number >> (c + 1), KOKSMA_MALFORMED,
                             "%s: line %zu: %llu is not odd and below %llu", lines->name, lines->number,
                             (unsigned long long)number, 1ULL << (c + 1));
-            v[c] = (uint32_t)number << (31 - c);
+            v[c] = number << (SOBOL_COLUMNS - 1 - c);
             continue;
         }
         v[c] = v[c - (int)degree] ^ v[c - (int)degree] >> degree;
@@ -272,18 +273,20 @@ static koksma_status sobol_columns(const koksma__number_lines *lines, int k, con
 
 static koksma_status read_sobol(koksma__number_lines *lines, int dim, matrices *m)
 {
-    *m = (matrices){.base = 2, .columns = SOBOL_COLUMNS, .digits = SOBOL_COLUMNS, .digit = m->digit};
+    /* Points below 2^32 have 32 digits and need no further columns, which would take time. */
+    m->base = 2;
+    m->columns = m->digits = m->end > UINT64_C(1) << 32 ? SOBOL_COLUMNS : 32;
     for (int k = 0; k < dim; k++) {
         uint64_t numbers[3 + LARGEST_DEGREE];
-        uint32_t v[SOBOL_COLUMNS];
+        uint64_t v[SOBOL_COLUMNS];
         size_t count = 1;
         if (k) {
             KOKSMA__TRY(koksma__number_lines_next(lines, 3 + LARGEST_DEGREE, numbers, &count));
             KOKSMA__TRY(count ? sobol_columns(lines, k, numbers, count, v) : check_dims(lines, (uint64_t)k, dim));
         }
-        for (int c = 0; c < SOBOL_COLUMNS; c++) {
-            for (int l = 0; l < SOBOL_COLUMNS; l++) {
-                m->digit[k][c][l] = k ? v[c] >> (31 - l) & 1 : l == c;
+        for (int c = 0; c < m->columns; c++) {
+            for (int l = 0; l < m->digits; l++) {
+                m->digit[k][c][l] = k ? v[c] >> (SOBOL_COLUMNS - 1 - l) & 1 : l == c;
             }
         }
     }
@@ -307,26 +310,26 @@ static koksma_status read_matrices(koksma__number_lines *lines, int dim, matrice
                         lines->name);
 }
 
-static koksma_status check_count(const koksma__number_lines *lines, const matrices *m, uint64_t n)
+static koksma_status check_count(const koksma__number_lines *lines, const matrices *m)
 {
     uint64_t points = 1;
-    for (int c = 0; c < m->columns && points < n; c++) {
-        points *= m->base; /* a number below 2^32 times the base */
+    for (int c = 0; c < m->columns && points < m->end; c++) {
+        points *= m->base; /* a number up to 2^51 times the base */
     }
-    KOKSMA__FAIL_IF(points < n, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name, (unsigned long long)points,
-                    (unsigned long long)n);
+    KOKSMA__FAIL_IF(points < m->end, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name,
+                    (unsigned long long)points, (unsigned long long)m->end);
     return KOKSMA_OK;
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
-    matrices m = {.digit = calloc((size_t)out->dim, sizeof *m.digit)};
+    matrices m = {.digit = calloc((size_t)out->dim, sizeof *m.digit), .end = args->first + out->n};
     koksma__number_lines lines;
     KOKSMA__REQUIRE_MEMORY(m.digit, (size_t)out->dim * sizeof *m.digit);
     koksma_status status = koksma__number_lines_open("net-file", args->path, &lines);
     status = status ? status : read_matrices(&lines, out->dim, &m);
-    status = status ? status : check_count(&lines, &m, args->first + out->n);
+    status = status ? status : check_count(&lines, &m);
     status = status ? status : koksma__range_columns(args, out, column, &m);
     koksma__number_lines_close(&lines);
     free(m.digit);

@@ -14,13 +14,15 @@
  *
  * koksma_pmj02_2d of koksma/sampler.h computes single points of the set with shuffle=1.
  */
+#include <koksma/sampler.h>
+
 #include "core/random.h"
-#include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
 #include "patterns/shared/grow.h"
 #include "patterns/shared/hash_owen.h"
+#include "patterns/shared/parts.h"
 
 /* Computes the columns of the matrix of coordinate k: column l follows from point 2^l, which is in the empty half of
    the stratum of its partner. */
@@ -34,24 +36,75 @@ static void directions_of(int k, uint32_t *directions)
     }
 }
 
+/* Computes the columns of the matrix of coordinate k for all 53 digits, from its definition: column n has in row r the
+   Stirling number of the first kind of n + k and r + k, modulo 2. They count the powers in x (x + 1) ... (x + n - 1),
+   which is x^ceil(n/2) (x + 1)^floor(n/2) modulo 2. */
+static void columns_of(int k, uint64_t columns[KOKSMA__DIGITS])
+{
+    uint64_t product = 1; /* bit r: the coefficient of x^r */
+    for (int n = 0; n < KOKSMA__DIGITS + k; n++) {
+        columns[n < k ? 0 : n - k] = koksma__mirror_digits(product >> k);
+        product = product << 1 ^ (n % 2 ? product : 0);
+    }
+}
+
+/* The points of one part (patterns/shared/parts.h). */
+typedef struct job {
+    uint64_t seed, part;
+    bool shuffle;
+    uint64_t sums[2]; /* digits that all points of the part have in common */
+} job;
+
 static void shuffled(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
 {
-    const uint64_t *seed = context;
+    const job *j = context;
     uint32_t index[KOKSMA__COLUMN_BLOCK], v[KOKSMA__COLUMN_BLOCK], directions[32];
-    koksma__hash_owen_order(*seed, first, count, index);
+    koksma__hash_owen_order(j->seed, j->part, first, count, index);
     for (int c = 0; c < some; c++) {
+        const uint32_t common = koksma_mirror(koksma__early_digits(j->sums[k + c]));
         directions_of(k + c, directions);
         koksma__mirror_directions(directions, directions);
         koksma__kernels()->digital_at(count, index, directions, v);
-        koksma__hash_owen_scramble(*seed, k + c, count, v, xs[c]);
+        for (size_t i = 0; common && i < count; i++) {
+            v[i] ^= common;
+        }
+        koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
+        if (j->part) {
+            koksma__hash_owen_late(j->seed, k + c, (uint32_t)(j->sums[k + c] & KOKSMA__LATE_MASK), count, v, xs[c]);
+        }
     }
+}
+
+static koksma_status generate_first(const job *j, const koksma_args *args, koksma_points *out)
+{
+    return j->shuffle ? koksma__range_blocks(args, out, shuffled, j)
+                      : koksma__grow_range(j->seed, KOKSMA__PURPOSE_POINT, koksma__pmj02_partners, NULL, args, out);
+}
+
+static koksma_status generate_part(const void *context, uint64_t part, const koksma_args *args, koksma_points *out)
+{
+    job j = *(const job *)context;
+    uint64_t columns[KOKSMA__DIGITS], late[2 * KOKSMA__LATE_DIGITS];
+    const koksma__grow_part grow_part = {part, late};
+    if (!part) {
+        return generate_first(&j, args, out);
+    }
+    j.part = part;
+    for (int k = 0; k < 2; k++) {
+        columns_of(k, columns);
+        j.sums[k] = koksma__part_sum(columns, part);
+        koksma__late_partners(columns, late + (size_t)k * KOKSMA__LATE_DIGITS);
+    }
+    return j.shuffle
+               ? koksma__range_blocks(args, out, shuffled, &j)
+               : koksma__grow_range(j.seed, KOKSMA__PURPOSE_POINT, koksma__pmj02_partners, &grow_part, args, out);
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    KOKSMA__TRY(koksma__range_fits("pmj02", args, out));
-    return args->params[0] != 0 ? koksma__range_blocks(args, out, shuffled, &seed)
-                                : koksma__grow_range(seed, KOKSMA__PURPOSE_POINT, koksma__pmj02_partners, args, out);
+    const job j = {.seed = seed, .shuffle = args->params[0] != 0};
+    return koksma__in_first_part(args, out) ? generate_first(&j, args, out)
+                                            : koksma__range_parts(args, out, generate_part, &j);
 }
 
 static const koksma_param params[] = {

@@ -7,9 +7,10 @@
  * Source: Roberts 2018. For dim = 1, g is the golden ratio 1.618…, for dim = 2 the plastic number 1.3247…. Sums are
  * computed in integers modulo 2^64, so that rounding errors do not accumulate.
  *
- *     shuffle=1    a hash shuffles the 32-bit index i by a nested uniform permutation
+ *     shuffle=1    a hash shuffles the lower 32 bits of the index i by a nested uniform permutation, a different one
+ *                  for each value of the higher bits
  *
- * With shuffle=1 every aligned block of 2^m points is a run of 2^m consecutive points of the sequence, and the points
+ * With shuffle=1 every aligned block of 2^m points, m <= 32, is a run of 2^m consecutive points of the sequence, and the points
  * of two seeds are paired at random. If n is not a power of two, the first n points consist of several runs, one for
  * each bit 1 of n; docs/decisions/0014 gives the resulting loss of quality.
  *
@@ -18,10 +19,10 @@
  */
 #include <koksma/sampler.h>
 
-#include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
+#include "patterns/shared/parts.h"
 
 enum { MAX_DIM = 64 };
 
@@ -61,8 +62,8 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
 }
 
 typedef struct shuffled {
+    uint64_t seed, part;
     const uint64_t *alphas;
-    uint32_t order;
 } shuffled;
 
 static void shuffled_columns(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
@@ -72,13 +73,21 @@ static void shuffled_columns(const void *context, int k, int some, uint64_t firs
     for (size_t i = 0; i < count; i++) {
         index[i] = (uint32_t)(first + i);
     }
-    koksma__kernels()->owen_hash(count, index, true, true, s->order, index);
+    koksma__kernels()->owen_hash(count, index, true, true, koksma_order(s->seed, (uint32_t)s->part), index);
     for (int c = 0; c < some; c++) {
+        const uint64_t alpha = s->alphas[k + c], start = ((uint64_t)1 << 63) + ((s->part << 32) + 1) * alpha;
         for (size_t i = 0; i < count; i++) {
-            const uint64_t x = ((uint64_t)1 << 63) + ((uint64_t)index[i] + 1) * s->alphas[k + c];
+            const uint64_t x = start + index[i] * alpha;
             xs[c][i] = (double)(int64_t)(x >> 11) * 0x1p-53;
         }
     }
+}
+
+static koksma_status generate_part(const void *context, uint64_t part, const koksma_args *args, koksma_points *out)
+{
+    shuffled s = *(const shuffled *)context;
+    s.part = part;
+    return koksma__range_blocks(args, out, shuffled_columns, &s);
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
@@ -94,9 +103,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         }
     }
     if (args->params[0] != 0) {
-        const shuffled s = {alphas, koksma_order(seed, 0)};
-        KOKSMA__TRY(koksma__range_fits("r-sequence", args, out));
-        return koksma__range_blocks(args, out, shuffled_columns, &s);
+        const shuffled s = {.seed = seed, .alphas = alphas};
+        return koksma__range_parts(args, out, generate_part, &s);
     }
     return koksma__range_columns(args, out, column, alphas);
 }

@@ -2,8 +2,9 @@
 /*
  * sobol: the digital sequence of Sobol', in natural order. Dimensions 1 and 2 are a (0,2)-sequence in base 2.
  *
- *     x_k = 2^-32 (the sum modulo 2 of the columns V_b of dimension k over the set bits b of i)
+ *     x_k = 2^-53 (the sum modulo 2 of the columns V_b of dimension k over the set bits b of i)
  *
+ * The generator matrices are upper triangular, so that points below 2^32 are multiples of 2^-32.
  * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008; with numbers=bratley-fox those of Bratley & Fox 1988,
  * which GSL uses; with numbers=groups our own, found by a search for even projections on dimensions 2 k and 2 k + 1
  * and on dimensions 4 k .. 4 k + 3 of the first 2^4 .. 2^12 points (tools/make_sobol_groups.c). Options for
@@ -20,8 +21,15 @@
  *     shuffle=1               with hash-owen: the hash scrambles the order of the points, too; the first 2^m points
  *                             are still an aligned block of the sequence
  *
+ * The first 2^32 points are scrambled in 32 digits. Every map of digits 33 to 53 keeps the string of 21 digits 0, so
+ * that all points together are a scrambled sequence: digital-shift leaves these digits alone, lms multiplies them by a
+ * random lower triangular matrix, owen and hash-owen permute them at every node of the tree of digits that has no point
+ * below 2^32. With shuffle=1 the points of each aligned block of 2^32 have a random order; the blocks are in order.
+ *
  * Known exactly, 2D, n = 16: D* = 0.171875, L2 star = 0.047766231 (no scrambling).
  */
+#include <koksma/sampler.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,6 +40,7 @@
 #include "patterns/shared/columns.h"
 #include "patterns/shared/grow.h"
 #include "patterns/shared/hash_owen.h"
+#include "patterns/shared/parts.h"
 #include "patterns/shared/sobol_table.h"
 
 enum { NONE, DIGITAL_SHIFT, LMS, OWEN, HASH_OWEN };
@@ -44,7 +53,15 @@ typedef struct job {
     int scramble, numbers;
     bool shuffle;
     const uint32_t (*matrices)[32]; /* only with lms: the scrambled direction numbers of all dimensions */
+    uint64_t part;                  /* the points are 2^32 part + args->first, ... (patterns/shared/parts.h) */
+    const uint64_t *sums;           /* NULL in part 0: the digits that `part` adds to each dimension */
 } job;
+
+/* Returns the first 32 digits that all points of the part have in common. */
+static uint32_t early_of(const job *j, int k)
+{
+    return j->sums ? koksma__early_digits(j->sums[k]) : 0;
+}
 
 static const uint32_t *directions_of(const job *j, int k)
 {
@@ -64,7 +81,7 @@ static void digital(const void *context, int k, int some, uint64_t first, size_t
     uint32_t v[KOKSMA__COLUMN_BLOCK];
     for (int c = 0; c < some; c++) {
         const uint32_t *directions = directions_of(j, k + c);
-        uint32_t start = koksma__digital_start(directions, first);
+        uint32_t start = koksma__digital_start(directions, first) ^ early_of(j, k + c);
         if (j->scramble) {
             start ^= seed_of(j, k + c);
         }
@@ -77,14 +94,29 @@ static koksma_status fill_digital(const job *j, const koksma_args *args, koksma_
 {
     const uint32_t *directions[KOKSMA__DIGITAL_DIM];
     uint32_t starts[KOKSMA__DIGITAL_DIM];
+    koksma_status status;
     if (out->dim > KOKSMA__DIGITAL_DIM) {
-        return koksma__range_blocks(args, out, digital, j);
+        status = koksma__range_blocks(args, out, digital, j);
+    } else {
+        for (int k = 0; k < out->dim; k++) {
+            directions[k] = directions_of(j, k);
+            starts[k] = early_of(j, k) ^ (j->scramble ? seed_of(j, k) : 0);
+        }
+        status = koksma__range_digital(args, directions, starts, out);
     }
-    for (int k = 0; k < out->dim; k++) {
-        directions[k] = directions_of(j, k);
-        starts[k] = j->scramble ? seed_of(j, k) : 0;
+    return status || !j->sums ? status : koksma__add_late_digits(args->run, j->sums, out);
+}
+
+/* Scrambles coordinate k of points beyond 2^32, whose first 32 digits within the part are in v, with their bits
+   reversed. */
+static void scramble_late(const job *j, int k, size_t count, uint32_t *v, double *xs)
+{
+    const uint32_t common = koksma_mirror(koksma__early_digits(j->sums[k]));
+    for (size_t i = 0; common && i < count; i++) {
+        v[i] ^= common;
     }
-    return koksma__range_digital(args, directions, starts, out);
+    koksma__hash_owen_scramble(j->seed, k, count, v, xs);
+    koksma__hash_owen_late(j->seed, k, (uint32_t)(j->sums[k] & KOKSMA__LATE_MASK), count, v, xs);
 }
 
 static void hash_owen(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
@@ -93,7 +125,7 @@ static void hash_owen(const void *context, int k, int some, uint64_t first, size
     const koksma__kernel_table *kernels = koksma__kernels();
     uint32_t index[KOKSMA__COLUMN_BLOCK], v[KOKSMA__COLUMN_BLOCK], directions[32];
     if (j->shuffle) {
-        koksma__hash_owen_order(j->seed, first, count, index);
+        koksma__hash_owen_order(j->seed, j->part, first, count, index);
     } else {
         for (size_t i = 0; i < count; i++) {
             index[i] = (uint32_t)(first + i);
@@ -112,29 +144,63 @@ static void hash_owen(const void *context, int k, int some, uint64_t first, size
                 kernels->digital(count, directions, koksma__digital_start(directions, first), v);
             }
         }
-        koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
+        if (j->sums) {
+            scramble_late(j, k + c, count, v, xs[c]);
+        } else {
+            koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
+        }
     }
+}
+
+/* Computes the partners of levels 32 to 52, 21 for each dimension, for points beyond 2^32. */
+static koksma_status late_partners(const job *j, int dim, uint64_t **out)
+{
+    uint64_t columns[KOKSMA__DIGITS];
+    const size_t bytes = (size_t)dim * KOKSMA__LATE_DIGITS * sizeof **out;
+    *out = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(*out, bytes);
+    for (int k = 0; k < dim; k++) {
+        koksma__sobol_columns(k, j->numbers, columns);
+        koksma__late_partners(columns, *out + (size_t)k * KOKSMA__LATE_DIGITS);
+    }
+    return KOKSMA_OK;
 }
 
 static koksma_status generate_owen(const job *j, const koksma_args *args, koksma_points *out)
 {
     uint32_t few[8 * 32], *partners = few;
+    uint64_t *late = NULL;
     if (out->dim > 8) {
         partners = malloc((size_t)out->dim * 32 * sizeof *partners);
         KOKSMA__REQUIRE_MEMORY(partners, (size_t)out->dim * 32 * sizeof *partners);
     }
-    int levels = args->first ? 32 : 1;
+    int levels = args->first || j->part ? 32 : 1;
     while ((uint64_t)1 << levels < out->n) {
         levels++;
     }
     for (int k = 0; k < out->dim; k++) {
         koksma__partners(directions_of(j, k), levels, partners + 32 * k);
     }
-    const koksma_status status = koksma__grow_range(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, args, out);
+    koksma_status status = j->part ? late_partners(j, out->dim, &late) : KOKSMA_OK;
+    if (!status) {
+        const koksma__grow_part part = {j->part, late};
+        status = koksma__grow_range(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, late ? &part : NULL, args, out);
+    }
+    free(late);
     if (partners != few) {
         free(partners);
     }
     return status;
+}
+
+/* Returns row r of the random lower triangular matrix of dimension k, from its highest bit on. Rows 32 to 52 are rows 0
+   to 20 of a second matrix. */
+static uint32_t random_row(const job *j, int k, int r)
+{
+    const uint32_t own = 0x80000000u >> r % 32;
+    const uint32_t word =
+        koksma__random(j->seed, KOKSMA__PURPOSE_SCRAMBLE, (uint64_t)r / 4, 1 + (uint32_t)k).w[r % 4];
+    return (word & ~(own | (own - 1))) | own;
 }
 
 /* Multiplies each column by a random lower triangular matrix: output bit r is the sum modulo 2 of input bit r and of
@@ -146,14 +212,23 @@ static void scramble_matrix(const job *j, int k, uint32_t *matrix)
         matrix[b] = 0;
     }
     for (int r = 0; r < 32; r++) {
-        const uint32_t own = 0x80000000u >> r;
-        const uint32_t word =
-            koksma__random(j->seed, KOKSMA__PURPOSE_SCRAMBLE, (uint64_t)r / 4, 1 + (uint32_t)k).w[r % 4];
-        const uint32_t row = (word & ~(own | (own - 1))) | own;
+        const uint32_t own = 0x80000000u >> r, row = random_row(j, k, r);
         for (int b = 0; b < 32; b++) {
             matrix[b] |= __builtin_parity(directions[b] & row) ? own : 0;
         }
     }
+}
+
+/* Multiplies the digits that the part adds to dimension k by the same matrix of 32 rows, and digits 33 to 53 by a
+   matrix of 21 rows. */
+static uint64_t scramble_sum(const job *j, int k, uint64_t sum)
+{
+    uint64_t product = 0;
+    for (int r = 0; r < KOKSMA__DIGITS; r++) {
+        const uint32_t digits = r < 32 ? koksma__early_digits(sum) : (uint32_t)(sum << (32 - KOKSMA__LATE_DIGITS));
+        product = product << 1 | (unsigned)__builtin_parity(digits & random_row(j, k, r));
+    }
+    return product;
 }
 
 static koksma_status generate_lms(job *j, const koksma_args *args, koksma_points *out)
@@ -174,6 +249,31 @@ static koksma_status generate_lms(job *j, const koksma_args *args, koksma_points
     return status;
 }
 
+static koksma_status generate_with(job *j, const koksma_args *args, koksma_points *out)
+{
+    if (j->scramble == OWEN) {
+        return generate_owen(j, args, out);
+    }
+    if (j->scramble == LMS) {
+        return generate_lms(j, args, out);
+    }
+    return j->scramble == HASH_OWEN ? koksma__range_blocks(args, out, hash_owen, j) : fill_digital(j, args, out);
+}
+
+static koksma_status generate_part(const void *context, uint64_t part, const koksma_args *args, koksma_points *out)
+{
+    job j = *(const job *)context;
+    uint64_t columns[KOKSMA__DIGITS], sums[KOKSMA__SOBOL_DIM];
+    j.part = part;
+    for (int k = 0; part && k < out->dim; k++) {
+        koksma__sobol_columns(k, j.numbers, columns);
+        sums[k] = koksma__part_sum(columns, part);
+        sums[k] = j.scramble == LMS ? scramble_sum(&j, k, sums[k]) : sums[k];
+        j.sums = sums;
+    }
+    return generate_with(&j, args, out);
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     job j = {.seed = seed,
@@ -185,14 +285,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
                     koksma__sobol_dim(j.numbers), out->dim, KOKSMA__SOBOL_DIM);
     KOKSMA__FAIL_IF(j.shuffle && j.scramble != HASH_OWEN, KOKSMA_ARGUMENT,
                     "sobol: shuffle=1 needs scramble=hash-owen");
-    KOKSMA__TRY(koksma__range_fits("sobol", args, out));
-    if (j.scramble == OWEN) {
-        return generate_owen(&j, args, out);
-    }
-    if (j.scramble == LMS) {
-        return generate_lms(&j, args, out);
-    }
-    return j.scramble == HASH_OWEN ? koksma__range_blocks(args, out, hash_owen, &j) : fill_digital(&j, args, out);
+    return koksma__in_first_part(args, out) ? generate_with(&j, args, out)
+                                            : koksma__range_parts(args, out, generate_part, &j);
 }
 
 static const koksma_param params[] = {

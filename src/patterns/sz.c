@@ -22,6 +22,8 @@
  * and so on. Multiplying all matrices from the right by the same upper triangular matrix only permutes the indices
  * within aligned blocks. The first two dimensions are the (0,2)-sequence of Sobol'.
  *
+ * Coordinates have 53 digits: beyond point 2^48 the last three of 56 are cut off.
+ *
  * Known exactly: in 2D the points are those of the pattern sobol. The modifier owen scrambles the points and
  * preserves the nets in all four bases.
  */
@@ -32,8 +34,9 @@
 #include "core/status.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
+#include "patterns/shared/parts.h"
 
-enum { BITS = 32, MOST_DIM = 256 };
+enum { MOST_DIM = 256 };
 
 /* Returns the product of two nimbers of q bits, where q is a power of two. The recursion uses F F = F + F/2 with F =
    2^(q/2). */
@@ -50,44 +53,70 @@ static uint32_t product(uint32_t a, uint32_t b, int q)
 }
 
 /* Returns the product of the matrix Q(q, a) and the bit vector z, whose bit r belongs to row r. */
-static uint32_t multiply(int q, uint32_t a, uint32_t z)
+static uint64_t multiply(int q, uint32_t a, uint64_t z)
 {
     const uint32_t digit = (1u << q) - 1;
-    uint32_t sum = z;
-    for (int c = 1; a && c < BITS / q; c++) {
-        uint32_t term = z >> c * q & digit;
+    uint64_t sum = z;
+    for (int c = 1; a && z >> c * q; c++) {
+        uint32_t term = (uint32_t)(z >> c * q) & digit;
         for (int r = c - 1; term && r >= 0; r--) {
             term = product(term, a, q);
-            sum ^= (r & ~c) ? 0 : term << r * q;
+            sum ^= (r & ~c) ? 0 : (uint64_t)term << r * q;
         }
     }
     return sum;
 }
 
-/* Returns column b of the matrix of dimension d; the highest bit is the first row. */
-static uint32_t column_of(int d, int b)
+/* Returns the product of the last three matrices of dimension d and the bits z of an index. */
+static uint64_t multiply_three(int d, uint64_t z)
 {
     const uint32_t k = (uint32_t)d;
-    uint32_t z = multiply(2, k & 2, multiply(4, k & 12, multiply(8, k & 240, 1u << b)));
-    if (d & 1) {
-        z = koksma_pascal(z);
+    return k < 2 ? z : multiply(2, k & 2, multiply(4, k & 12, multiply(8, k & 240, z)));
+}
+
+/* Returns column b < 32 of the matrix of dimension d; the highest bit is the first row. */
+static uint32_t column_of(int d, int b)
+{
+    const uint32_t z = (uint32_t)multiply_three(d, (uint64_t)1 << b);
+    return koksma_mirror(d & 1 ? koksma_pascal(z) : z);
+}
+
+/* Returns the digits that all points of a part have in common (patterns/shared/parts.h). */
+static uint64_t sum_of(int d, uint64_t part)
+{
+    return koksma__mirror_digits(multiply(1, d & 1, multiply_three(d, part << 32)));
+}
+
+static koksma_status generate_part(const void *context, uint64_t part, const koksma_args *args, koksma_points *out)
+{
+    koksma__digital_columns j = *(const koksma__digital_columns *)context;
+    uint64_t sums[MOST_DIM];
+    uint32_t starts[MOST_DIM];
+    for (int d = 0; part && d < out->dim; d++) {
+        sums[d] = sum_of(d, part);
+        starts[d] = koksma__early_digits(sums[d]);
+        j.starts = starts;
     }
-    return koksma_mirror(z);
+    KOKSMA__TRY(koksma__range_columns(args, out, koksma__digital_column, &j));
+    return part ? koksma__add_late_digits(args->run, sums, out) : KOKSMA_OK;
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
-    KOKSMA__TRY(koksma__range_fits("sz", args, out));
-    const size_t bytes = (size_t)out->dim * BITS * sizeof(uint32_t);
-    uint32_t(*directions)[BITS] = calloc(1, bytes);
+    const uint64_t last = args->first + out->n - 1;
+    const size_t bytes = (size_t)out->dim * sizeof(uint32_t[32]);
+    uint32_t(*directions)[32] = calloc(1, bytes);
     KOKSMA__REQUIRE_MEMORY(directions, bytes);
-    for (int d = 0; d < out->dim; d++) { /* compute the columns that indices below first + n need */
-        for (int b = 0; b < BITS && (args->first + out->n - 1) >> b; b++) {
+    for (int d = 0; d < out->dim; d++) { /* compute the columns that indices up to the last need */
+        for (int b = 0; b < 32 && last >> b; b++) {
             directions[d][b] = column_of(d, b);
         }
     }
-    const koksma_status status = koksma__range_columns(args, out, koksma__digital_column, directions);
+    const koksma__digital_columns columns = {.directions = (const uint32_t(*)[32])directions};
+    const koksma_status status = koksma__in_first_part(args, out)
+                                     ? koksma__range_columns(args, out, koksma__digital_column, &columns)
+                                     : koksma__range_parts(args, out, generate_part, &columns);
     free(directions);
     return status;
 }

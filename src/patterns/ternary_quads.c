@@ -25,8 +25,8 @@
  *
  * Multiplying the matrices of a group from the right by the same upper triangular matrix only permutes the indices
  * below each power of 3, so all groups have these properties. The N_g were found by a search
- * (tools/make_ternary_quads.c) for even projections on pairs of dimensions of different groups. There are 3^20
- * points.
+ * (tools/make_ternary_quads.c) for even projections on pairs of dimensions of different groups. There are 3^33
+ * points, because 33 ternary digits fit into a double.
  *
  * Known exactly: the first three coordinates are those of faure in three dimensions.
  *
@@ -38,11 +38,19 @@
 #include "patterns/shared/owen_sequence.h"
 
 enum { NONE, OWEN };
-enum { BASE = 3, DIGITS = 20, QUAD = 4, MOST_DIM = 128 };
+enum { BASE = 3, DIGITS = 33, EARLY = 20, QUAD = 4, MOST_DIM = 128, GROUPS = MOST_DIM / QUAD - 1 };
 
-static const uint32_t searched[(MOST_DIM / QUAD - 1) * (DIGITS - 1)] = {
+/* Columns 1 to 19 of all groups, then columns 20 to 32, which points from 3^20 on need. */
+static const uint64_t searched[GROUPS * (DIGITS - 1)] = {
 #include "patterns/shared/ternary_quads.inc"
 };
+
+/* Returns column c > 0 of N_g above its diagonal, g > 0: its entries are the digits of a number in base 3. */
+static uint64_t searched_column(int g, int c)
+{
+    return c < EARLY ? searched[(g - 1) * (EARLY - 1) + c - 1]
+                     : searched[GROUPS * (EARLY - 1) + (g - 1) * (DIGITS - EARLY) + c - EARLY];
+}
 
 /* Computes the rows of C_3. From s_i, the coefficients of 1/p^q, those of 1/p^(q+1) follow by long division: s'_i =
    s_(i-2) + s'_(i-1) + s'_(i-2). */
@@ -71,9 +79,10 @@ static void multiply(int g, int digits, uint32_t *matrix)
 {
     for (int c = digits - 1; g > 0 && c > 0; c--) {
         for (int r = 0; r <= c; r++) {
-            uint32_t sum = matrix[r * digits + c], number = searched[(g - 1) * (DIGITS - 1) + c - 1];
+            uint32_t sum = matrix[r * digits + c];
+            uint64_t number = searched_column(g, c);
             for (int i = 0; i < c; i++, number /= BASE) {
-                sum += matrix[r * digits + i] * (number % BASE);
+                sum += matrix[r * digits + i] * (uint32_t)(number % BASE);
             }
             matrix[r * digits + c] = sum % BASE;
         }

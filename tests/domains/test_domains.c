@@ -9,9 +9,14 @@
 
 #include "test.h"
 
-static const char *const forms[] = {"random", "sample-elimination", "progressive-elimination:length=2000",
-                                    "poisson-disk:d=0.008,torus=1"};
-enum { FORMS = sizeof forms / sizeof *forms };
+static const char *const forms[] = {"random",
+                                    "sample-elimination",
+                                    "progressive-elimination:length=2000",
+                                    "poisson-disk:d=0.008,torus=1",
+                                    "dart-throwing",
+                                    "dart-throwing:f=0.5",
+                                    "best-candidate:most=200"};
+enum { FORMS = sizeof forms / sizeof *forms, EVEN = 3, DARTS = 4, BEST = 6 };
 
 static koksma_spec spec_of(const char *text)
 {
@@ -104,8 +109,8 @@ static double smallest(const double *xs, size_t n, size_t width, size_t dim, boo
     return sqrt(best);
 }
 
-/* Distances are in proportion to 1 / sqrt(density): in each quarter elimination keeps the relative radius of its even
-   sets, dart throwing d over the root of the density, in units of its mean. */
+/* Distances are in proportion to 1 / sqrt(density): in each quarter elimination and best candidates keep the relative
+   radius of their even sets, dart throwing d over the root of the density, in units of its mean. */
 static void distances_follow_the_density(void **state)
 {
     (void)state;
@@ -116,12 +121,47 @@ static void distances_follow_the_density(void **state)
         for (int q = 0; q < 4; q++) {
             const double density = (double)values[q] / 3.75, found = smallest(p.xs, p.n, 2, 2, true, q);
             const double radius = found / sqrt(2 / (sqrt(3) * 2000 * density));
-            if (f < 3 ? !(radius > 0.6 && radius < 0.8) : !(found >= 0.008 / sqrt(density) * (1 - 1e-7))) {
+            const double least = f < EVEN    ? 0.6
+                                 : f == EVEN ? 0.008 / sqrt(2 / (sqrt(3) * 2000))
+                                 : f == BEST ? 0.5
+                                             : spec_of(forms[f]).params[0];
+            if (!(radius >= least * (1 - 1e-7)) || (f < EVEN && !(radius < 0.8))) {
                 fail_msg("%s: quarter %d: relative radius %g, smallest distance %g", forms[f], q, radius, found);
             }
         }
         koksma_points_fini(&p);
     }
+    koksma_image_fini(&map);
+}
+
+/* Best candidates: with an even density the mean relative radius is that of the pattern itself in as many sets. The first
+   points do not depend on n. */
+static void best_candidates_are_those_of_the_pattern(void **state)
+{
+    (void)state;
+    enum { SETS = 16, N = 300 };
+    const float values[4] = {5, 5, 5, 5}, others[4] = {1, 4, 4, 1};
+    koksma_image even = quarters(values), map = quarters(others);
+    double sums[2] = {0}, squares[2] = {0};
+    for (uint64_t seed = 0; seed < SETS; seed++) {
+        koksma_points sets[2] = {with_density("best-candidate", &even, N, seed),
+                                 test_points("best-candidate", N, 2, seed)};
+        for (int s = 0; s < 2; s++) {
+            const double radius = smallest(sets[s].xs, N, 2, 2, true, -1) / sqrt(2 / (sqrt(3) * N));
+            sums[s] += radius / SETS;
+            squares[s] += radius * radius / SETS;
+            koksma_points_fini(&sets[s]);
+        }
+    }
+    const double sd = sqrt((squares[0] - sums[0] * sums[0] + squares[1] - sums[1] * sums[1]) / SETS);
+    print_message("best-candidate: relative radius %.4f, of the pattern %.4f, +- %.4f\n", sums[0], sums[1], sd);
+    assert_near(sums[0], sums[1], 4 * sd);
+    koksma_points all = with_density("best-candidate", &map, N, 3),
+                  p = with_density("best-candidate", &map, N / 3, 3);
+    assert_memory_equal(p.xs, all.xs, 2 * p.n * sizeof *p.xs);
+    koksma_points_fini(&all);
+    koksma_points_fini(&p);
+    koksma_image_fini(&even);
     koksma_image_fini(&map);
 }
 
@@ -254,7 +294,10 @@ static void areas_are_even(void **state)
     } rows[] = {{"random", 40000},
                 {"sample-elimination", 4000},
                 {"progressive-elimination:length=3000", 3000},
-                {"poisson-disk:d=0.02", 4000}};
+                {"poisson-disk:d=0.02", 4000},
+                {"dart-throwing", 4000},
+                {"dart-throwing:f=0.3", 4000},
+                {"best-candidate:most=200", 3000}};
     const double df = BINS - 1, cube = 1 - 2 / (9 * df) + 4.753 * sqrt(2 / (9 * df));
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         koksma_points p = on_model(rows[r].spec, rows[r].n, 7, 5);
@@ -292,6 +335,12 @@ static void points_on_models_keep_distances(void **state)
     koksma_points p = on_model("poisson-disk:d=0.08", 600, 3, 2);
     assert_true(smallest(p.xs, p.n, 3, 3, false, -1) >= 0.08 * (1 - 1e-9));
     koksma_points_fini(&p);
+    p = on_model("dart-throwing:f=0.7", 600, 3, 2);
+    assert_true(smallest(p.xs, p.n, 3, 3, false, -1) >= 0.7 * sqrt(2 * area / (sqrt(3) * 600)) * (1 - 1e-9));
+    koksma_points_fini(&p);
+    p = on_model("best-candidate", 600, 3, 2);
+    assert_true(smallest(p.xs, p.n, 3, 3, false, -1) >= 0.5 * sqrt(2 * area / (sqrt(3) * 600)));
+    koksma_points_fini(&p);
     p = on_model("sample-elimination", 600, 3, 2);
     assert_near(smallest(p.xs, p.n, 3, 3, false, -1) / sqrt(2 * area / (sqrt(3) * 600)), 0.68, 0.06);
     koksma_points normals = on_model("sample-elimination", 600, 6, 2);
@@ -327,6 +376,8 @@ static void wrong_inputs_are_refused(void **state)
         {"poisson-disk:d=0.1,torus=1", "no torus", NULL, 16, 3, KOKSMA_ARGUMENT},
         {"poisson-disk:d=0.2", "or less, or a smaller d, would do", some, 500, 2, KOKSMA_IMPOSSIBLE},
         {"poisson-disk:d=0.9", "or less, or a smaller d, would do", NULL, 500, 3, KOKSMA_IMPOSSIBLE},
+        {"dart-throwing:f=0.95", "points with a density; a smaller f would do", some, 500, 2, KOKSMA_IMPOSSIBLE},
+        {"dart-throwing:f=1", "points on a model; a smaller f would do", NULL, 500, 3, KOKSMA_IMPOSSIBLE},
         {"progressive-elimination:length=64", "n = 64 or less", some, 65, 2, KOKSMA_N},
     };
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
@@ -376,6 +427,7 @@ int main(void)
         cmocka_unit_test(counts_follow_the_density),
         cmocka_unit_test(distances_follow_the_density),
         cmocka_unit_test(even_densities_are_even),
+        cmocka_unit_test(best_candidates_are_those_of_the_pattern),
         cmocka_unit_test(prefixes_are_blue),
         cmocka_unit_test(areas_are_even),
         cmocka_unit_test(points_on_models_keep_distances),

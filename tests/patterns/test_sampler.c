@@ -84,6 +84,26 @@ static void samples_are_the_librarys(void **state)
     }
 }
 
+/* r-sequence and koksma_r_2d are the same also beyond point 2^32, where each part has another order. */
+static void late_samples_are_the_librarys(void **state)
+{
+    (void)state;
+    static const uint64_t firsts[] = {((uint64_t)1 << 32) - 300, ((uint64_t)7 << 40) + 12345, KOKSMA_MAX_INDEX - N};
+    const koksma_domain domain = koksma_domain_of_pixel(9, 3, 4);
+    koksma_points points = test_points("r-sequence:shuffle=1,shift=1", N, 2, 0);
+    koksma_spec spec;
+    assert_ok(koksma_pattern_spec("r-sequence:shuffle=1,shift=1", &spec));
+    for (size_t f = 0; f < sizeof firsts / sizeof *firsts; f++) {
+        assert_ok(koksma_generate_range(&spec, domain.key, 0, firsts[f], NULL, &points));
+        for (size_t i = 0; i < N; i++) {
+            double xs[2];
+            koksma_r_2d(domain, firsts[f] + i, xs);
+            assert_memory_equal(xs, points.xs + 2 * i, sizeof xs);
+        }
+    }
+    koksma_points_fini(&points);
+}
+
 static void z_ranks_are_a_permutation(void **state)
 {
     (void)state;
@@ -234,10 +254,15 @@ static void masks_are_permutations(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_are_the_librarys),    cmocka_unit_test(samples_are_the_librarys),
-        cmocka_unit_test(z_ranks_are_a_permutation), cmocka_unit_test(permutations_are_permutations),
-        cmocka_unit_test(all_arguments_serve),       cmocka_unit_test(floats_stay_below_one),
-        cmocka_unit_test(masks_are_permutations),    cmocka_unit_test(pairs_of_places_are_nearly_uniform),
+        cmocka_unit_test(words_are_the_librarys),
+        cmocka_unit_test(samples_are_the_librarys),
+        cmocka_unit_test(late_samples_are_the_librarys),
+        cmocka_unit_test(z_ranks_are_a_permutation),
+        cmocka_unit_test(permutations_are_permutations),
+        cmocka_unit_test(all_arguments_serve),
+        cmocka_unit_test(floats_stay_below_one),
+        cmocka_unit_test(masks_are_permutations),
+        cmocka_unit_test(pairs_of_places_are_nearly_uniform),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

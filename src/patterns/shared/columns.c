@@ -134,9 +134,11 @@ uint32_t koksma__digital_start(const uint32_t *directions, uint64_t first)
 
 void koksma__digital_column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
-    const uint32_t(*directions)[32] = context;
+    const koksma__digital_columns *j = context;
+    const uint32_t *directions = j->directions[k];
+    const uint32_t start = koksma__digital_start(directions, first);
     uint32_t v[KOKSMA__COLUMN_BLOCK];
-    koksma__kernels()->digital(count, directions[k], koksma__digital_start(directions[k], first), v);
+    koksma__kernels()->digital(count, directions, j->starts ? start ^ j->starts[k] : start, v);
     koksma__kernels()->fractions(count, v, xs);
 }
 
@@ -168,15 +170,6 @@ koksma_status koksma__range_digital(const koksma_args *args, const uint32_t *con
     digital_job j = {directions, starts, args->first, out};
     const size_t n_groups = groups_of(j.first, out->n);
     return n_groups == 1 ? group_of_digits(&j, 0) : koksma__parallel(args->run, n_groups, group_of_digits, &j);
-}
-
-koksma_status koksma__range_fits(const char *name, const koksma_args *args, const koksma_points *out)
-{
-    const uint64_t most = (uint64_t)1 << 32;
-    KOKSMA__FAIL_IF(args->first > most - out->n, KOKSMA_N,
-                    "%s: point %llu: with these parameters the last point has number 2^32 - 1", name,
-                    (unsigned long long)(args->first + out->n - 1));
-    return KOKSMA_OK;
 }
 
 typedef struct whole {

@@ -31,12 +31,15 @@ koksma_status koksma__range_digital(const koksma_args *args, const uint32_t *con
 /* Returns the exclusive or of directions[b] over all bits b that are set in `first`. */
 uint32_t koksma__digital_start(const uint32_t *directions, uint64_t first);
 
-/* A koksma__column of a digital sequence in base 2 of any number of dimensions: context is an array uint32_t[dim][32],
-   the directions of each coordinate. */
-void koksma__digital_column(const void *context, int k, uint64_t first, size_t count, double *xs);
+/* The context of koksma__digital_column: the directions of each coordinate, and the word to which the directions are
+   added; NULL: 0. */
+typedef struct koksma__digital_columns {
+    const uint32_t (*directions)[32];
+    const uint32_t *starts;
+} koksma__digital_columns;
 
-/* Fails with KOKSMA_N if a point's index is 2^32 or more, for sequences whose indices have 32 bits. */
-koksma_status koksma__range_fits(const char *name, const koksma_args *args, const koksma_points *out);
+/* A koksma__column of a digital sequence in base 2 of any number of dimensions. */
+void koksma__digital_column(const void *context, int k, uint64_t first, size_t count, double *xs);
 
 /* Computes all coordinates of points first .. first + count - 1 of `out`, with `first` a multiple of 32768; `stream`:
    whether to bypass the caches with streaming stores. */

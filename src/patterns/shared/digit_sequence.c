@@ -107,8 +107,11 @@ koksma_status koksma__digit_sequence(const char *name, uint32_t base, int most_d
     for (; j.whole < end && j.digits < most_digits; j.digits++) {
         j.whole *= base;
     }
-    KOKSMA__FAIL_IF(j.whole < end, KOKSMA_N, "%s: point %.0f: in base %u all points have numbers below %.0f", name,
-                    end - 1, base, j.whole);
+    KOKSMA__FAIL_IF(
+        j.whole < end, KOKSMA_N,
+        "%s: point %.0f: the digits of coordinates in base %u fit into the 53 bits of a double up to point "
+        "%.0f; fewer dimensions have smaller bases, and sobol has points up to 2^51 - 1",
+        name, end - 1, base, j.whole - 1);
     uint32_t few[FEW];
     const size_t entries = (size_t)out->dim * (size_t)(j.digits * j.digits);
     j.matrices = entries <= FEW ? few : malloc(entries * sizeof *j.matrices);

@@ -15,6 +15,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/shared/columns.h"
+#include "patterns/shared/parts.h"
 
 enum { COLUMNS = 8, FEW = 256, WORDS = 1024, BLOCK = 1 << 16, LEAST_BLOCK = 64, FAR_BLOCK = 4096 };
 
@@ -135,20 +136,54 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
 
 /* ---- Ranges ---------------------------------------------------------------------------------------------- */
 
-/* Computes the points that begin at args->first, in aligned blocks of g->n points, a power of two. The index of a
-   partner is an exclusive or, which maps aligned blocks to aligned blocks. grow_columns computes block 0. */
+/* Computes the points of a part that begin at number `first` of it, in aligned blocks of g->n points, a power of two. The
+   index of a partner is an exclusive or, which maps aligned blocks to aligned blocks. grow_columns computes block 0. */
 typedef struct range {
     const growth *g; /* its members n and v describe block 0 */
+    const koksma__grow_part *part;
     uint64_t first;
     koksma_points *out;
 } range;
 
+/* A block of points, of which a chain of partners is followed: point i of the first block has point i ^ turn of `block`
+   as its ancestor. */
+typedef struct ancestors {
+    uint64_t block;
+    uint32_t turn;
+} ancestors;
+
+/* Follows the chain of column c down to the first 2^32 points. late[i] receives digits 33 to 53 of point i of the block.
+   Those of the ancestor below 2^32 are 0. */
+static void grow_late(const range *r, int c, ancestors *chain, uint32_t *late)
+{
+    const growth *g = r->g;
+    const uint64_t *partners = r->part->late_partners + (size_t)KOKSMA__LATE_DIGITS * (size_t)(g->k + c);
+    const uint64_t inside = g->n - 1;
+    uint32_t word[FAR_BLOCK], above = KOKSMA__LATE_MASK, flips = 0;
+    memset(late, 0, g->n * sizeof *late);
+    while (chain->block >> 32) {
+        const int level = 63 - __builtin_clzll(chain->block), below = KOKSMA__DIGITS - 1 - level;
+        const uint32_t own = ((uint32_t)1 << below) - 1, bits = above & own;
+        koksma__kernels()->words(g->seed, g->purpose, chain->block / 4, (uint32_t)(g->k + c), g->n / 4, word);
+        for (uint32_t i = 0; i <= inside; i++) {
+            late[i] ^= word[i ^ chain->turn] >> (32 - below) & bits;
+        }
+        above &= ~own;
+        flips ^= own + 1;
+        chain->turn ^= (uint32_t)(partners[level - 32] & inside);
+        chain->block = (chain->block ^ (uint64_t)1 << level ^ partners[level - 32]) & ~inside;
+    }
+    for (uint32_t i = 0; i <= inside; i++) {
+        late[i] ^= flips;
+    }
+}
+
 /* Computes column c of the points block .. block + n - 1. A point takes its upper bits from its partner, which takes
    its upper bits from its own partner, and so on down to block 0; this chain is followed for the whole block at once. */
-static void grow_far(const growth *g, int c, uint32_t block, uint32_t *v)
+static void grow_far(const growth *g, int c, ancestors from, uint32_t *v)
 {
     const uint32_t *partners = g->partners + 32 * (g->k + c), inside = (uint32_t)g->n - 1;
-    uint32_t word[FAR_BLOCK], above = 0xffffffffu, turn = 0, flips = 0;
+    uint32_t word[FAR_BLOCK], above = 0xffffffffu, flips = 0, block = (uint32_t)from.block, turn = from.turn;
     memset(v, 0, g->n * sizeof *v);
     while (block) {
         const int level = 31 - __builtin_clz(block);
@@ -168,29 +203,45 @@ static void grow_far(const growth *g, int c, uint32_t block, uint32_t *v)
     }
 }
 
+static void add_late(const range *r, int c, const uint32_t *late, uint64_t at, uint64_t stop)
+{
+    const size_t dim = (size_t)r->out->dim;
+    double *x = r->out->xs + (size_t)(at - r->first) * dim + (size_t)(r->g->k + c);
+    for (; at < stop; at++, x += dim) {
+        *x += late[at % r->g->n] * 0x1p-53;
+    }
+}
+
 static koksma_status grow_range_block(void *context, size_t b)
 {
     const range *r = context;
     const growth *g = r->g;
     const uint64_t block = (r->first / g->n + b) * g->n, end = r->first + r->out->n;
-    uint32_t v[COLUMNS][FAR_BLOCK];
+    const uint64_t first = block < r->first ? r->first : block, stop = block + g->n < end ? block + g->n : end;
+    uint32_t v[COLUMNS][FAR_BLOCK], late[COLUMNS][FAR_BLOCK];
     for (int c = 0; c < g->dim; c++) {
-        grow_far(g, c, (uint32_t)block, v[c]);
+        ancestors chain = {block, 0};
+        if (r->part) {
+            chain.block += r->part->part << 32;
+            grow_late(r, c, &chain, late[c]);
+        }
+        grow_far(g, c, chain, v[c]);
     }
-    uint64_t at = block < r->first ? r->first : block;
-    const uint64_t stop = block + g->n < end ? block + g->n : end;
-    for (size_t count; at < stop; at += count) {
-        count = stop - at < KOKSMA__COLUMN_BLOCK ? (size_t)(stop - at) : KOKSMA__COLUMN_BLOCK;
-        store(g, v[0] + (at - block), FAR_BLOCK, r->out, (size_t)(at - r->first), count);
+    for (uint64_t at = first, count; at < stop; at += count) {
+        count = stop - at < KOKSMA__COLUMN_BLOCK ? stop - at : KOKSMA__COLUMN_BLOCK;
+        store(g, v[0] + (at - block), FAR_BLOCK, r->out, (size_t)(at - r->first), (size_t)count);
+    }
+    for (int c = 0; r->part && c < g->dim; c++) {
+        add_late(r, c, late[c], first, stop);
     }
     return KOKSMA_OK;
 }
 
-koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_args *args,
-                                 koksma_points *out)
+koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners,
+                                 const koksma__grow_part *part, const koksma_args *args, koksma_points *out)
 {
     growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = LEAST_BLOCK};
-    if (args->first == 0) {
+    if (args->first == 0 && !part) {
         return koksma__grow(seed, purpose, partners, args->run, out);
     }
     while (g.n < FAR_BLOCK && g.n < out->n) {
@@ -198,7 +249,7 @@ koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t
     }
     g.v = malloc(COLUMNS * g.n * sizeof *g.v);
     KOKSMA__REQUIRE_MEMORY(g.v, COLUMNS * g.n * sizeof *g.v);
-    const range r = {&g, args->first, out};
+    const range r = {&g, part, args->first, out};
     const size_t blocks = (size_t)((args->first + out->n - 1) / g.n - args->first / g.n + 1);
     koksma_status status = KOKSMA_OK;
     for (g.k = 0; g.k < out->dim && !status; g.k += COLUMNS) {

@@ -7,10 +7,11 @@
 #include <koksma/sampler.h>
 
 #include "kernels/kernels.h"
+#include "patterns/shared/parts.h"
 
-void koksma__hash_owen_order(uint64_t seed, size_t first, size_t count, uint32_t *index)
+void koksma__hash_owen_order(uint64_t seed, uint64_t part, uint64_t first, size_t count, uint32_t *index)
 {
-    const uint32_t order = koksma_seed_of_order(seed);
+    const uint32_t order = part ? koksma_order(seed, (uint32_t)part) : koksma_seed_of_order(seed);
     const uint32_t shift = koksma_mirror(koksma_owen_hash(0, order)) & 0xffff0000u;
     for (size_t i = 0; i < count; i++) {
         index[i] = (uint32_t)(first + i);
@@ -25,6 +26,17 @@ void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v,
 {
     koksma__kernels()->owen_hash(count, v, false, true, koksma_seed_of(seed, (uint32_t)k), v);
     koksma__kernels()->fractions(count, v, xs);
+}
+
+void koksma__hash_owen_late(uint64_t seed, int k, uint32_t late, size_t count, const uint32_t *v, double *xs)
+{
+    const uint32_t digits = koksma_mirror(late) >> (32 - KOKSMA__LATE_DIGITS); /* digit 33 is bit 0 */
+    const uint64_t key = (uint64_t)koksma_seed_of(seed, (uint32_t)k) << 32;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t s = (uint32_t)(koksma_mix(koksma_mix(key | v[i])) >> 32);
+        const uint32_t scrambled = koksma_owen_hash(digits, s) ^ koksma_owen_hash(0, s);
+        xs[i] += (koksma_mirror(scrambled) >> (32 - KOKSMA__LATE_DIGITS)) * 0x1p-53;
+    }
 }
 
 void koksma__mirror_directions(const uint32_t *directions, uint32_t *mirrored)

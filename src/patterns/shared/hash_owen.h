@@ -6,12 +6,17 @@
 
 #include <koksma/koksma.h>
 
-/* Computes index[i], the index of the point at position first + i in the random order for this seed. */
-void koksma__hash_owen_order(uint64_t seed, size_t first, size_t count, uint32_t *index);
+/* Computes index[i], the index of the point at position first + i in the random order for this seed, where both are
+   numbers within a part (patterns/shared/parts.h). Each part has an order of its own; the parts are not shuffled. */
+void koksma__hash_owen_order(uint64_t seed, uint64_t part, uint64_t first, size_t count, uint32_t *index);
 
 /* Scrambles coordinate k of `count` points. v[i] has the coordinate with its bits reversed and is overwritten; xs[i]
    receives the scrambled coordinate. */
 void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v, double *xs);
+
+/* Scrambles digits 33 to 53 of coordinate k, which are `late` for all points of a part, and adds them to xs[i]; v[i] has
+   the 32 scrambled digits before them. In each string of 32 digits, 21 digits 0 stay 0, as in the points below 2^32. */
+void koksma__hash_owen_late(uint64_t seed, int k, uint32_t late, size_t count, const uint32_t *v, double *xs);
 
 /* Reverses the bits of the 32 direction numbers, because the hash takes words with bits reversed. */
 void koksma__mirror_directions(const uint32_t *directions, uint32_t *mirrored);

@@ -100,9 +100,11 @@ koksma_status koksma__radicals_init(koksma__radicals *r, int count, uint64_t n, 
     for (int k = 0; k < count; k++) {
         measure(&one, koksma__prime(k), n, digit != NULL);
         const double last = digit ? 0x1p53 / one.base : one.whole <= 0x1p53 ? one.whole : one.whole / one.base;
-        KOKSMA__FAIL_IF((double)n > last, KOKSMA_N,
-                        "point %llu: radical inverses in base %u are exact up to point %.0f",
-                        (unsigned long long)(n - 1), one.base, floor(last) - 1);
+        KOKSMA__FAIL_IF(
+            (double)n > last, KOKSMA_N,
+            "point %llu: the digits of radical inverses in base %u fit into the 53 bits of a double up to "
+            "point %.0f; fewer dimensions have smaller bases, and sobol has points up to 2^51 - 1",
+            (unsigned long long)(n - 1), one.base, floor(last) - 1);
         entries += one.size;
     }
     double *table = r->room;

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/visibility.h"
+#include "patterns/shared/parts.h"
 
 enum { KOKSMA__SOBOL_DIM = 1111 };
 
@@ -17,6 +18,10 @@ KOKSMA__LAB int koksma__sobol_dim(int set);
 /* Returns the generator matrix of dimension k, counted from 0: word b is column b, whose first row is the highest bit.
    k is below koksma__sobol_dim(set). */
 KOKSMA__LAB const uint32_t *koksma__sobol_directions(int k, int set);
+
+/* Computes the whole generator matrix of dimension k for indices below 2^53: bit 52 of columns[b] is row 1. The first 32
+   columns are koksma__sobol_directions(k, set), with zeros in rows 33 to 53. */
+void koksma__sobol_columns(int k, int set, uint64_t columns[KOKSMA__DIGITS]);
 
 /* Computes partners[l], l < levels, for the digital sequence with these directions, an upper triangular matrix: for
    i < 2^l, points 2^l + i and i ^ partners[l] have the same first l bits. */
