@@ -101,43 +101,59 @@ static koksma_status add_boxes(koksma__source_tree *t, size_t n)
     return KOKSMA_OK;
 }
 
+/* A box of sources first .. end - 1, before it is extended by them. */
+static koksma__source_box empty_box(size_t first, size_t end)
+{
+    const double least = -INFINITY, most = INFINITY;
+    return (koksma__source_box){
+        .low = {most, most, most}, .high = {least, least, least}, .first = (uint32_t)first, .end = (uint32_t)end};
+}
+
+/* Extends a box by another one. */
+static void extend(koksma__source_box *box, const koksma__source_box *by)
+{
+    for (int k = 0; k < 3; k++) {
+        box->low[k] = by->low[k] < box->low[k] ? by->low[k] : box->low[k];
+        box->high[k] = by->high[k] > box->high[k] ? by->high[k] : box->high[k];
+    }
+    box->square = by->square > box->square ? by->square : box->square;
+}
+
+static void extend_by_sources(const koksma__source_tree *t, koksma__source_box *box)
+{
+    for (size_t i = box->first; i < box->end; i++) {
+        const double x = t->columns[0][i], y = t->columns[1][i], z = t->columns[2][i];
+        extend(box, &(koksma__source_box){.low = {x, y, z}, .high = {x, y, z}, .square = t->columns[3][i]});
+    }
+}
+
 /* Divides box number b, at a depth, as far as it has many sources. */
 static koksma_status divide(koksma__source_tree *t, size_t b, int depth)
 {
     const int bits = t->dim == 2 ? DEEPEST : 10, ways = 1 << t->dim, shift = 32 + (bits - 1 - depth) * t->dim;
-    const koksma__source_box box = t->boxes[b];
-    double square = 0;
-    for (size_t i = box.first; i < box.end && (box.end - box.first <= LEAF || depth == bits); i++) {
-        square = fmax(square, t->columns[3][i]);
-    }
-    t->boxes[b].square = square;
+    koksma__source_box box = t->boxes[b];
     if (box.end - box.first <= LEAF || depth == bits) {
+        extend_by_sources(t, &t->boxes[b]);
         return KOKSMA_OK;
     }
-    const size_t child = t->n_boxes;
+    box.child = (uint32_t)t->n_boxes;
     KOKSMA__TRY(add_boxes(t, (size_t)ways));
-    t->boxes[b].child = (uint32_t)child;
-    uint32_t n = 0, at = box.first;
+    uint32_t at = box.first;
     for (int w = 0; w < ways; w++) {
         uint32_t end = at;
         while (end < box.end && (int)(t->keys[end] >> shift & (uint64_t)(ways - 1)) == w) {
             end++;
         }
         if (end > at) {
-            koksma__source_box *c = &t->boxes[child + n++];
-            *c = (koksma__source_box){.side = box.side / 2, .first = at, .end = end};
-            for (int k = 0; k < t->dim; k++) {
-                c->low[k] = box.low[k] + (w >> (t->dim - 1 - k) & 1 ? c->side : 0);
-            }
+            t->boxes[box.child + box.children++] = empty_box(at, end);
         }
         at = end;
     }
-    t->boxes[b].children = n;
-    for (uint32_t i = 0; i < n; i++) {
-        KOKSMA__TRY(divide(t, child + i, depth + 1));
-        square = fmax(square, t->boxes[child + i].square);
+    for (uint32_t i = 0; i < box.children; i++) {
+        KOKSMA__TRY(divide(t, box.child + i, depth + 1));
+        extend(&box, &t->boxes[box.child + i]);
     }
-    t->boxes[b].square = square;
+    t->boxes[b] = box;
     return KOKSMA_OK;
 }
 
@@ -175,7 +191,7 @@ koksma_status koksma__source_tree_build(koksma__source_tree *t,
     }
     t->n_boxes = 0;
     KOKSMA__TRY(add_boxes(t, 1));
-    t->boxes[0] = (koksma__source_box){.side = 1, .end = (uint32_t)t->n};
+    t->boxes[0] = empty_box(0, t->n);
     KOKSMA__TRY(divide(t, 0, 0));
     t->n_groups = 0;
     add_groups(t, &t->boxes[0]);
@@ -238,9 +254,9 @@ static double gap(double low, double high, double from, double to)
 /* Adds the leaves below a box that are in reach. In the plane the third coordinate is 0, and so is that distance. */
 static void visit(walk *w, const koksma__source_box *box)
 {
-    const double x = gap(w->from[0], w->to[0], box->low[0], box->low[0] + box->side);
-    const double y = gap(w->from[1], w->to[1], box->low[1], box->low[1] + box->side);
-    const double z = gap(w->from[2], w->to[2], box->low[2], box->low[2] + box->side);
+    const double x = gap(w->from[0], w->to[0], box->low[0], box->high[0]);
+    const double y = gap(w->from[1], w->to[1], box->low[1], box->high[1]);
+    const double z = gap(w->from[2], w->to[2], box->low[2], box->high[2]);
     if (x * x + y * y + z * z > CUT2 * (w->square + box->square)) {
         return;
     }

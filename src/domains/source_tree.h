@@ -5,9 +5,9 @@
 
 #include "domains/field.h"
 
-/* A box of the tree: its sources, its children, and the largest squared width inside. */
+/* A box of the tree: the smallest about its sources, these, its children, and the largest squared width inside. */
 typedef struct koksma__source_box {
-    double low[3], side, square;
+    double low[3], high[3], square;
     uint32_t first, end, child, children; /* children == 0: a leaf */
 } koksma__source_box;
 
