@@ -22,8 +22,8 @@ typedef struct box {
 struct koksma__nearest {
     const koksma__point_domain *domain;
     size_t n;
-    uint32_t *order; /* triangles by leaves */
-    box *boxes;      /* node i has the children 2 i + 1 and 2 i + 2 */
+    uint32_t *order;             /* triangles by leaves */
+    box *boxes;                  /* node i has the children 2 i + 1 and 2 i + 2 */
     double *centroids, *corners; /* three and nine coordinates of each triangle */
 };
 
