@@ -6,6 +6,7 @@
 #ifdef WITH_OPENQMC
 #include <oqmc/oqmc.h>
 #endif
+#include <koksma/keys.h>
 #include <koksma/sampler.h>
 
 #include <algorithm>
@@ -29,10 +30,20 @@ template <class T> static inline void keep(const T &x)
 }
 
 #ifdef WITH_OPENQMC
-static char *cache;
+// The tables of a sampler.
+template <class Sampler> static char *cache_of()
+{
+    char *cache = static_cast<char *>(std::malloc(Sampler::cacheSize));
+    if (!cache) {
+        std::exit(4);
+    }
+    Sampler::initialiseCache(cache);
+    return cache;
+}
 
 template <class Sampler, int dim> static void theirs()
 {
+    static char *const cache = cache_of<Sampler>();
     for (int p = 0; p < PIXELS; p++) {
         for (int i = 0; i < SPP; i++) {
             const Sampler pixel(p % 64, p / 64, 0, i, cache);
@@ -80,6 +91,21 @@ static void r_2d(koksma_domain domain, uint32_t i, double *xs)
     koksma_r_2d(domain, i, xs);
 }
 
+// Ranking keys: a pair of dimensions for each use.
+static void with_keys()
+{
+    for (uint32_t p = 0; p < PIXELS; p++) {
+        for (uint32_t use = 0; use < USES; use++) {
+            const koksma_keys pixel = koksma_keys_of(0, p % 64, p / 64, use, SPP);
+            for (uint32_t i = 0; i < SPP; i++) {
+                float xs[2];
+                koksma_keys_2f(&pixel, i, xs);
+                keep(xs);
+            }
+        }
+    }
+}
+
 struct row {
     const char *name;
     void (*run)();
@@ -93,6 +119,7 @@ int main()
         {"openqmc-sobol-2d", theirs<oqmc::SobolSampler, 2>, {}},
         {"openqmc-sobol-4d", theirs<oqmc::SobolSampler, 4>, {}},
         {"openqmc-pmj-2d", theirs<oqmc::PmjSampler, 2>, {}},
+        {"openqmc-sobol-bn-2d", theirs<oqmc::SobolBnSampler, 2>, {}},
 #endif
         {"koksma_sobol_2d", ours<double, 2, koksma_sobol_2d>, {}},
         {"koksma_sobol_4d", ours<double, 4, koksma_sobol_4d>, {}},
@@ -100,14 +127,11 @@ int main()
         {"koksma_r_2d", ours<double, 2, r_2d>, {}},
         {"koksma_sobol_at_2d", with_kept_seeds<2, koksma_sobol_at_2d>, {}},
         {"koksma_sobol_at_4d", with_kept_seeds<4, koksma_sobol_at_4d>, {}},
+        {"koksma_keys_2f", with_keys, {}},
     };
-#ifdef WITH_OPENQMC
-    cache = static_cast<char *>(std::malloc(oqmc::PmjSampler::cacheSize));
-    if (!cache) {
-        return 4;
+    for (row &r : rows) { // the first call makes tables
+        r.run();
     }
-    oqmc::PmjSampler::initialiseCache(cache);
-#endif
     for (int round = 0; round < ROUNDS; round++) {
         for (row &r : rows) {
             const double start = seconds();

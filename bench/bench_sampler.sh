@@ -34,6 +34,7 @@ for compiler in g++ clang++; do
         peer["koksma_sobol_2d"] = "openqmc-sobol-2d"
         peer["koksma_sobol_4d"] = "openqmc-sobol-4d"
         peer["koksma_pmj02_2d"] = "openqmc-pmj-2d"
+        peer["koksma_keys_2f"] = "openqmc-sobol-bn-2d" # blue noise beside blue noise
         for (k = 1; k <= count; k++) {
           printf "  %-22s %7.2f ns", names[k], best[names[k]]
           if (names[k] in peer && peer[names[k]] in best) {

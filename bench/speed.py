@@ -12,6 +12,9 @@ older commit, which is built on the first run (build/speed/base, 3 minutes):
     DANDY, HELMER, OPENQMC   folders of their sources (jakobbossek/dandy, Andrew-Helmer/stochastic-generation,
                              AcademySoftwareFoundation/openqmc, all on GitHub)
     CYCODEBASE               the folder of cySampleElim.h (cemyuksel/cyCodeBase on GitHub)
+    QUADS, VOID_CLUSTER, GAUSSIAN, UTK
+                             folders of liris-origami/Quad-Optimized-LDS, Atrix256/BlueNoiseDitherPatternGeneration,
+                             Atrix256/GaussianBlueNoise and utk-team/utk (all on GitHub), for bench/bench_authors.cpp
     GSL                      a prefix with include/gsl and a library, where pkg-config knows none
     KOKSMA_BENCH_BASE        a folder in which c86c5f3 is built (build/release); "none": no older program
     KOKSMA_BENCH_POINTS      points of the large file (10^8)
@@ -136,10 +139,35 @@ def build_peers(base):
     if os.environ.get("CYCODEBASE"):
         peers["cyCodeBase"] = compiled("row-elimination", ["c++", "-O3", "-march=native", "-w", "-I" + os.environ["CYCODEBASE"],
                                                            os.path.join(ROOT, "bench/bench_elimination.cpp")])
+    peers.update(build_authors())
     prefix = os.environ.get("GSL")
     gsl = ["-I%s/include" % prefix, "-L%s/lib" % prefix] if prefix else []
     peers["gsl"] = compiled("row-gsl", ["cc", *FLAGS, "-DWITH_GSL", ours, *gsl, ROW, *LINK, "-lgsl", "-lgslcblas", "-lm"])
     return {name: path for name, path in peers.items() if path}
+
+
+def build_authors():
+    """Programs of the authors of patterns, by bench/bench_authors.cpp."""
+    flags = ["c++", "-std=c++17", "-O3", "-march=native", "-w"]
+    for header in ("cstdint", "cstddef", "cstring", "cfloat", "cmath", "limits", "algorithm", "string"):
+        flags += ["-include", header]
+    source, found = os.path.join(ROOT, "bench/bench_authors.cpp"), {}
+    for name, word, options in (("quads", "QUADS", lambda folder: ['-DAUTHORS_DATA="%s/initIrreducibleGF3.dat"' % folder, "-I" + folder]),
+                                ("void-cluster", "VOID_CLUSTER", lambda folder: ["-I" + folder]),
+                                ("gaussian", "GAUSSIAN", lambda folder: ["-I" + WORK]),
+                                ("cascade", "UTK", lambda folder: ['-DUTK_DATA_PATH="%s/data"' % folder, "-I" + folder + "/include"])):
+        folder = os.environ.get(word)
+        if folder:
+            folder = os.path.abspath(folder)
+            if name == "gaussian":  # the kernel alone
+                with open(os.path.join(folder, "gbn-toroidal.cu"), encoding="utf-8") as file:
+                    text = file.read()
+                start = text.index("__global__\nvoid gbn0(")
+                with open(os.path.join(WORK, "gbn0.h"), "w", encoding="utf-8") as file:
+                    file.write(text[start:text.index("// ----", start)])
+            define = "-DWITH_" + {"cascade": "CASCADE"}.get(name, word)
+            found[name] = compiled("row-" + name, [*flags, define, *options(folder), source])
+    return found
 
 
 # ---- Rows -------------------------------------------------------------------------------------------------------
@@ -316,6 +344,63 @@ def patterns(table, peers):
                  1.52)  # 2.5 times UTK, which took 1.64 times as long as c86c5f3 elsewhere
 
 
+def authors_patterns(table, peers):
+    """The patterns of 2026, beside the programs of their authors or of others. A row without a program has its own time."""
+    part, row, small = "6 patterns", peers["koksma"], 3 ** 10
+
+    def ours(pattern, n, dim):
+        return lambda: timed(row, "generate", pattern, n, dim)[0]
+
+    def beside(what, pattern, n, dim, peer, name, *words, goal=1):
+        if peer in peers:
+            table.versus(part, what, ours(pattern, n, dim), lambda: timed(peers[peer], *words)[0], name, goal)
+        else:
+            table.alone(part, what, ours(pattern, n, dim))
+    table.alone(part, "void-and-cluster 256 x 256", ours("void-and-cluster:size=256", 1 << 16, 2), 2000, rounds=1)
+    beside("void-and-cluster 64 x 64", "void-and-cluster:size=64", 1 << 12, 2, "void-cluster", "demofox's program", "void-cluster", 64)
+    # NVIDIA's program for masks in time (SpatiotemporalBlueNoiseSDK) needs submodules that its archive lacks: no peer
+    table.alone(part, "void-and-cluster-3d 32 x 32 x 16", ours("void-and-cluster-3d:size=32,frames=16", 1 << 14, 3), 5000)
+    beside("gaussian-blue-noise 2D 1024, to rest; theirs 1,000 steps", "gaussian-blue-noise", 1024, 2, "gaussian", "Ahmed's program, 1 core",
+           "gaussian", 1024)
+    beside("ternary-quads 4D 3^10", "ternary-quads", small, 4, "quads", "Ostromoukhov's program", "quads", small, 4)
+    beside("ternary-quads:scramble=owen 4D 3^10", "ternary-quads:scramble=owen", small, 4, "quads", "Ostromoukhov's program", "owen-quads",
+           small, 4)
+    beside("cascaded-sobol:owen=1 4D 64k, 53 digits; theirs 32", "cascaded-sobol:owen=1", 1 << 16, 4, "cascade", "UTK", "cascade", 1 << 16, 4)
+    for pattern in ("sz", "cascaded-sobol"):  # the program of the authors of sz was not to be had
+        table.versus(part, pattern + " 4D 1M", ours(pattern, 1 << 20, 4), ours("sobol", 1 << 20, 4), "our sobol")
+    density = os.path.join(WORK, "bell.pfm")
+    side, what = 128, "gaussian-blue-noise 2D 1000 with a density, 1 core"
+    if table.has(part, what):
+        with open(density, "wb") as file:
+            file.write(b"Pf\n%d %d\n-1.0\n" % (side, side) + array.array("f", [
+                .02 + math.exp(-20 * ((x / side - .5) ** 2 + (y / side - .5) ** 2)) for y in range(side) for x in range(side)]).tobytes())
+    table.alone(part, what, lambda: run(KOKSMA, "generate", "gaussian-blue-noise", "-n", "1000", "--density", density, "--threads", "1", "-q",
+                                        "-o", os.path.join(WORK, "bell.txt")), rounds=1)
+
+
+def qmcpy_files(table, row, qmcpy, seconds):
+    """Matrices and vectors of the user: Joe & Kuo's matrices of two dimensions, and a vector for 2^20 points. Ours are read from
+    files; QMCPy's own files are elsewhere in its package, so that it gets the same numbers as arrays."""
+    import numpy
+    part, n = "6 patterns", 1 << 16
+    net, lattice = os.path.join(WORK, "net.txt"), os.path.join(WORK, "lattice.txt")
+    column, rows, vector = 1 << 31, [[], []], [1, 182667]
+    for c in range(32):
+        rows[0].append(1 << 31 - c)
+        rows[1].append(column)
+        column ^= column >> 1
+    with open(net, "w", encoding="utf-8") as file:
+        file.write("# dnet\n2\n2\n32\n32\n" + "".join(" ".join(map(str, line)) + "\n" for line in rows))
+    with open(lattice, "w", encoding="utf-8") as file:
+        file.write("# lattice\n2\n1048576\n" + "".join("%d\n" % z for z in vector))
+    matrices, z = numpy.array(rows, dtype=numpy.uint64), numpy.array(vector, dtype=numpy.uint64)
+    for what, spec, make in (
+            ("net-file 2D 64k", "net-file:" + net, lambda: qmcpy.DigitalNetB2(2, randomize="FALSE", generating_matrices=matrices, msb=True, t=32)),
+            ("lattice-file 2D 64k", "lattice-file:" + lattice, lambda: qmcpy.Lattice(2, randomize="FALSE", generating_vector=z, m_max=20))):
+        table.versus(part, what, lambda s=spec: timed(row, "generate", s, n, 2)[0],
+                     lambda m=make: seconds(lambda: m().gen_samples(n, warn=False)), "QMCPy " + qmcpy.__version__, 1)
+
+
 def python_peers(table, row):
     part = "6 patterns"
     try:
@@ -334,6 +419,9 @@ def python_peers(table, row):
                           ("n-rooks", lambda: qmc.LatinHypercube(2))):
         table.versus(part, pattern + " 2D 1M", lambda p=pattern: timed(row, "generate", p, n, 2)[0],
                      lambda m=make: seconds(lambda: m().random(n)), "scipy " + scipy.__version__)
+    for pattern in ("sz", "cascaded-sobol"):
+        table.versus(part, pattern + " 4D 1M", lambda p=pattern: timed(row, "generate", p, n, 4)[0],
+                     lambda: seconds(lambda: qmc.Sobol(4, scramble=False).random(n)), "scipy's Sobol' " + scipy.__version__, 1)
     table.versus(part, "halton:scramble=owen 2D 64k", lambda: timed(row, "generate", "halton:scramble=owen", 1 << 16, 2)[0],
                  lambda: seconds(lambda: qmc.Halton(2, seed=1).random(1 << 16)), "scipy " + scipy.__version__, 1)
     for dim, count, radius in ((2, 2000, 0.0187), (3, 1000, 0.0885)):  # its sets have about as many points, and room for more
@@ -365,6 +453,7 @@ def python_peers(table, row):
                           ("interlaced-sobol", lambda: qmcpy.DigitalNetB2(2, randomize="FALSE", alpha=2))):
         table.versus(part, pattern + " 2D 64k", lambda p=pattern: timed(row, "generate", p, 1 << 16, 2)[0],
                      lambda m=make: seconds(lambda: m().gen_samples(1 << 16, warn=False)), "QMCPy " + qmcpy.__version__, 1)
+    qmcpy_files(table, row, qmcpy, seconds)
 
 
 def start_up(table, row, base):
@@ -589,6 +678,7 @@ def main():
     measure_limits(table, peers["koksma"])
     row = peers["koksma"]
     for part in (lambda: start_up(table, row, base), lambda: measures(table, peers), lambda: patterns(table, peers),
+                 lambda: authors_patterns(table, peers),
                  lambda: renders(table, base), lambda: large_data(table, row, base), lambda: python_peers(table, row),
                  lambda: sampler(table), lambda: threads(table, row), lambda: renderers(table), lambda: kernels(table),
                  lambda: extremes(table, row)):

@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,30 +17,34 @@
 #include <unistd.h>
 
 #include <koksma/plot.h>
+#include <koksma/study.h>
 
 static const char default_patterns[] = "random,jittered,n-rooks,sobol:scramble=owen";
 
-static void put_characters(FILE *out, const char *text)
+/* Prints at most `count` characters of a text as those of a JSON string. */
+static void put_characters(FILE *out, const char *text, size_t count)
 {
-    for (; *text; text++) {
+    for (; *text && count > 0; text++, count--) {
         fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
     }
 }
 
-/* Prints a pattern, measure or scene in quotes. A relative path in the text becomes an absolute path from the current
-   directory. */
+/* Prints a pattern, measure or scene in quotes. Relative paths in the text become absolute, from the current directory. */
 static void put_item(FILE *out, const char *item, bool is_scene)
 {
     char here[PATH_MAX];
-    const char *path = !strncmp(item, "file:", 5) ? item + 5 : is_scene && strpbrk(item, "/.") ? item : NULL;
+    size_t at = is_scene ? 0 : koksma_plan_path(item, 0), printed = 0;
     fputc('"', out);
-    if (path && *path != '/' && getcwd(here, sizeof here)) {
-        fprintf(out, "%.*s", (int)(path - item), item);
-        put_characters(out, here);
-        fputc('/', out);
-        item = path;
+    for (bool path = is_scene ? strpbrk(item, "/.") != NULL : at > 0; path; path = !is_scene && at > 0) {
+        put_characters(out, item + printed, at - printed);
+        printed = at;
+        if (item[at] != '/' && getcwd(here, sizeof here)) {
+            put_characters(out, here, SIZE_MAX);
+            fputc('/', out);
+        }
+        at = koksma_plan_path(item, at);
     }
-    put_characters(out, item);
+    put_characters(out, item + printed, SIZE_MAX);
     fputc('"', out);
 }
 
@@ -112,9 +117,9 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
     fputs("{\n  \"comment\": \"Made by koksma study quick; studies/README.md has all fields.\",\n"
           "  \"name\": \"quick\",\n  \"title\": \"Patterns by ",
           out);
-    put_characters(out, measures);
+    put_characters(out, measures, SIZE_MAX);
     fputs(scenes ? ", and in " : "", out);
-    put_characters(out, scenes ? scenes : "");
+    put_characters(out, scenes ? scenes : "", SIZE_MAX);
     fputs("\",\n  \"discrepancies\": [\n    {", out);
     put_patterns(out, patterns);
     fputs(",\n     ", out);

@@ -38,7 +38,7 @@ MAY_USE = {
     "modules": "core",
     "image": "core kernels stats modules",
     "meshes": "core json image",
-    "domains": "core patterns warps api image meshes",
+    "domains": "core kernels patterns warps api image meshes",
     "plot": "core patterns measures image api modules",
     "render": "core modules json kernels stats patterns warps image meshes api",
     "scene": "core json image meshes warps render",

@@ -4,12 +4,15 @@
 
     pairs_and_quadruples.py KOKSMA evenness|scrambled|ternary|all-pairs|integrals
     pairs_and_quadruples.py KOKSMA images STUDY
+    pairs_and_quadruples.py KOKSMA authors FILE
 
 Evenness: D* and t of the coordinates 2k, 2k + 1 (24 pairs) and 4k .. 4k + 3 (12 quadruples) of 48 dimensions, mean and worst,
 as `koksma measure` gives them. Scrambled: D* of SETS Owen scramblings, the mean over groups with its standard error over sets,
 and the worst. Ternary: the same, plain and scrambled, at powers of 3, and t in base 3 of `ternary-quads`. All pairs: t of all 1,128 pairs of 48 dimensions, by ranks of matrices. Integrals: RMS errors of `koksma integrate`
 in two and four coordinates, Owen-scrambled. Images: root mean square errors of the study's images, those of Joe & Kuo's
-numbers and the differences of the others from them with 95 % intervals; the last row has the geometric means.
+numbers and the differences of the others from them with 95 % intervals; the last row has the geometric means. Authors: 44
+dimensions of `ternary-quads` beside those of Ostromoukhov et al. 2024, made from their file of initial numbers,
+initIrreducibleGF3.dat (github.com/liris-origami/Quad-Optimized-LDS).
 """
 import csv
 import io
@@ -45,12 +48,12 @@ def summary(numbers):
     return f"{sum(numbers) / len(numbers):.4g}, {max(numbers):.4g}"
 
 
-def groups(folder, pattern, n, group, *options):
+def groups(folder, pattern, n, group, *options, dim=DIM):
     """Writes the coordinates of each group of one set to a file of its own and returns the files."""
-    text = run("generate", pattern, "-d", str(DIM), "-n", str(n), "-q", *options)
+    text = run("generate", pattern, "-d", str(dim), "-n", str(n), "-q", *options)
     rows = [line.split() for line in text.splitlines() if line[:1] != "#"]
     files = []
-    for k in range(0, DIM, group):
+    for k in range(0, dim, group):
         files.append(os.path.join(folder, f"{k}.txt"))
         with open(files[-1], "w", encoding="ascii") as out:
             out.writelines(" ".join(row[k:k + group]) + "\n" for row in rows)
@@ -106,6 +109,38 @@ def ternary(folder):
                 cells.append(f"{summary(measured(groups(folder, pattern, n, group), 'star'))}; "
                              f"{mean_and_error([sum(stars) / len(stars) for stars in sets])}")
             print(f"| {n} | {' | '.join(cells)} |", flush=True)
+
+
+def authors_columns(degree, polynomial, numbers, count):
+    """Columns of a generator matrix in base 3: column c has c + 1 digits, the first row's the highest. Each is, digit by digit,
+    the sum of the column `degree` before and of the last ones, shifted down and times -a_j of the primitive polynomial."""
+    def digits(x, length):
+        return [x // 3 ** i % 3 for i in range(length)]
+
+    a, columns = digits(polynomial, degree + 1), list(numbers)
+    for c in range(degree, count):
+        terms = [columns[c - degree]] + [3 ** j * sum(d * -a[degree - j] % 3 * 3 ** i for i, d in enumerate(digits(columns[c - j], c)))
+                                         for j in range(1, degree + 1)]
+        columns.append(sum(sum(digits(term, c + 1)[i] for term in terms) % 3 * 3 ** i for i in range(c + 1)))
+    return [x * 3 ** (count - 1 - c) for c, x in enumerate(columns)]
+
+
+def authors(folder):
+    digits, dims, net = 7, 44, os.path.join(folder, "net.txt")
+    with open(sys.argv[3], encoding="ascii") as file:
+        lines = [[int(word) for word in line.split()] for line in file if line.strip() and line[0] != "d"][:dims]
+    with open(net, "w", encoding="ascii") as file:
+        file.write(f"# dnet\n3\n{dims}\n{digits}\n{digits}\n")
+        for _, degree, polynomial, *numbers in lines:
+            file.write(" ".join(map(str, authors_columns(degree, polynomial, numbers, digits))) + "\n")
+    print("\n| group | n | theirs, t in base 3; D* | `ternary-quads`, t in base 3; D* |\n|---|---|---|---|")
+    for group, most in (2, 2187), (4, 729):
+        for n in 27, 81, 243, 729, 2187:
+            cells = []
+            for pattern in "net-file:" + net, "ternary-quads":
+                files = groups(folder, pattern, n, group, dim=dims)
+                cells.append(summary(measured(files, "t-value:base=3")) + ("; " + summary(measured(files, "star")) if n <= most else ""))
+            print(f"| {group} | {n} | {' | '.join(cells)} |", flush=True)
 
 
 def t_of_pair(a, b, m):
@@ -188,4 +223,4 @@ def percent(log, variance):
 
 
 with tempfile.TemporaryDirectory() as work:
-    {"evenness": evenness, "scrambled": scrambled, "ternary": ternary, "all-pairs": all_pairs, "integrals": integrals, "images": images}[sys.argv[2]](work)
+    {"evenness": evenness, "scrambled": scrambled, "ternary": ternary, "all-pairs": all_pairs, "integrals": integrals, "images": images, "authors": authors}[sys.argv[2]](work)

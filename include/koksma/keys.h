@@ -54,12 +54,16 @@ typedef struct koksma_keys {
 KOKSMA_INLINE uint32_t koksma__shuffled_by_octaves(uint32_t i, uint32_t order)
 {
     uint32_t m = 0;
+    if (i < 2) {
+        return i;
+    }
+#if defined(__GNUC__) && !defined(__CUDACC__)
+    m = 31u - (uint32_t)__builtin_clz(i);
+#else
     while (i >> m > 1) {
         m++;
     }
-    if (m == 0) {
-        return i;
-    }
+#endif
     return 1u << m | koksma_shuffled(i << (32 - m), order + m * 0x9e3779b9u) >> (32 - m);
 }
 
@@ -104,31 +108,36 @@ KOKSMA_INLINE koksma_keys koksma_keys_of(uint64_t seed, uint32_t x, uint32_t y, 
     return keys;
 }
 
-/* Computes sample i of a pixel and pair of dimensions as 32-bit fractions. */
-KOKSMA_INLINE void koksma__keys_words(const koksma_keys *keys, uint32_t i, uint32_t words[2])
+/* Returns two words and zeros. */
+KOKSMA_INLINE koksma__four koksma__two_words(uint32_t a, uint32_t b)
+{
+#if defined(KOKSMA_VECTOR)
+    const koksma__four x = {a, b, 0, 0};
+#else
+    const koksma__four x = {{a, b, 0, 0}};
+#endif
+    return x;
+}
+
+/* Returns sample i of a pixel and pair of dimensions as 32-bit fractions, the first two of four words. */
+KOKSMA_INLINE koksma__four koksma__keys_four(const koksma_keys *keys, uint32_t i)
 {
     const uint32_t index = keys->key ^ (keys->ordered ? koksma__shuffled_by_octaves(i, keys->order) : i);
-    words[0] = koksma_mirror(koksma_owen_hash(index, keys->seeds[0]));
-    words[1] = koksma_mirror(koksma_owen_hash(koksma_pascal(index), keys->seeds[1]));
+    return koksma__scramble_four(koksma__two_words(index, koksma_pascal(index)),
+                                 koksma__two_words(keys->seeds[0], keys->seeds[1]));
 }
 
 /* Computes sample i of a pixel and pair of dimensions, in [0,1)^2. The points equal those of the pattern
    `ranking-keys`. */
 KOKSMA_INLINE void koksma_keys_2d(const koksma_keys *keys, uint32_t i, double xy[2])
 {
-    uint32_t words[2];
-    koksma__keys_words(keys, i, words);
-    xy[0] = koksma_fraction(words[0]);
-    xy[1] = koksma_fraction(words[1]);
+    koksma__to_doubles(koksma__keys_four(keys, i), 2, xy);
 }
 
 /* Computes sample i as floats: the doubles of koksma_keys_2d rounded down to multiples of 2^-24. */
 KOKSMA_INLINE void koksma_keys_2f(const koksma_keys *keys, uint32_t i, float xy[2])
 {
-    double exact[2];
-    koksma_keys_2d(keys, i, exact);
-    xy[0] = koksma_to_float(exact[0]);
-    xy[1] = koksma_to_float(exact[1]);
+    koksma__to_floats(koksma__keys_four(keys, i), 2, xy);
 }
 
 #endif

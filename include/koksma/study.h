@@ -30,6 +30,14 @@ typedef struct koksma_study koksma_study;
 /* Returns the name of plan i of the library, or NULL past the last plan. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
+/* Returns the position in a pattern's text, after `from`, at which the next path begins: after the colon of a pattern whose
+   operand is a file, a program or a library, as in "exec:PATH" or in a group of uses, "jittered;lens=net-file:PATH". A plan's
+   relative paths start at the folder of the plan.
+     text  a pattern, or a group of uses with their patterns
+     from  characters to leave out
+   Returns 0 if no path begins after `from`. */
+KOKSMA_API size_t koksma_plan_path(const char *text, size_t from);
+
 /* Sets *out to question type i of those that a plan may contain, or to section i of the report; returns false past
    the last one. The title is the heading in the report. */
 KOKSMA_API bool koksma_question_at(size_t i, koksma_entry *out);

@@ -23,13 +23,14 @@
  */
 #include "core/modifiers.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #include "core/permutation.h"
 #include "core/random.h"
 #include "core/status.h"
 
-enum { DIGITS = 53, LEVELS = 7, MOST_BASE = 64 };
+enum { DIGITS = 53, LEVELS = 7, SPARE = 3, MOST_BASE = 64 }; /* DIGITS + SPARE is a multiple of LEVELS */
 
 #define ON_TORUS                                                                                                     \
     (KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |                \
@@ -51,22 +52,53 @@ static uint64_t digits_of(double x)
     return (uint64_t)(x * 0x1p53);
 }
 
+/* The random words of the node of `top` digits of x. */
+static koksma__words words_of_node(uint64_t seed, uint64_t x, int top, uint32_t k)
+{
+    return koksma__random(seed, KOKSMA__PURPOSE_NESTED, (uint64_t)1 << top | x >> (DIGITS - top), k);
+}
+
+/* The random bits of the nodes on the path of LEVELS = 7 digits, the lowest of `path`, below a node with these words:
+   bit 2^j + (the first j digits) of the words belongs to level j. */
+static uint64_t flips_of(koksma__words r, uint64_t path)
+{
+    const uint64_t low = r.w[0] | (uint64_t)r.w[1] << 32, high = r.w[2] | (uint64_t)r.w[3] << 32;
+    const uint64_t p = path & 127;
+    return (low >> 1 & 1) << 6 | (low >> (2 | p >> 6) & 1) << 5 | (low >> (4 | p >> 5) & 1) << 4 |
+           (low >> (8 | p >> 4) & 1) << 3 | (low >> (16 | p >> 3) & 1) << 2 | (low >> (32 | p >> 2) & 1) << 1 |
+           (high >> (p >> 1) & 1);
+}
+
+/* Scrambles one coordinate of all points. The nodes of 0 and of LEVELS digits, which many points share, are kept. */
+static void scramble_column(uint64_t seed, uint32_t k, koksma_points *points)
+{
+    koksma__words first[1 << LEVELS];
+    bool known[1 << LEVELS] = {false};
+    const koksma__words root = words_of_node(seed, 0, 0, k);
+    for (size_t i = 0; i < points->n; i++) {
+        double *at = points->xs + i * (size_t)points->dim + k;
+        const uint64_t x = digits_of(*at);
+        const size_t node_of_first = (size_t)(x >> (DIGITS - LEVELS));
+        if (!known[node_of_first]) {
+            first[node_of_first] = words_of_node(seed, x, LEVELS, k);
+            known[node_of_first] = true;
+        }
+        uint64_t flips = flips_of(root, x >> (DIGITS - LEVELS)) << LEVELS |
+                         flips_of(first[node_of_first], x >> (DIGITS - 2 * LEVELS));
+        for (int top = 2 * LEVELS; top < DIGITS; top += LEVELS) { /* the last LEVELS digits end in three zeros */
+            flips = flips << LEVELS |
+                    flips_of(words_of_node(seed, x, top, k), x << SPARE >> (DIGITS + SPARE - LEVELS - top));
+        }
+        flips >>= SPARE;
+        *at = (double)(x ^ flips) * 0x1p-53;
+    }
+}
+
 static void scramble(uint64_t seed, double value, koksma_points *points)
 {
     (void)value;
-    const size_t dim = (size_t)points->dim;
-    for (size_t c = 0; c < points->n * dim; c++) {
-        const uint64_t x = digits_of(points->xs[c]);
-        uint64_t flips = 0;
-        for (int top = 0; top < DIGITS; top += LEVELS) {
-            const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_NESTED,
-                                                   (uint64_t)1 << top | x >> (DIGITS - top), (uint32_t)(c % dim));
-            for (int level = top; level < DIGITS && level < top + LEVELS; level++) {
-                const uint64_t one = (uint64_t)1 << (level - top), node = one | (x >> (DIGITS - level) & (one - 1));
-                flips = flips << 1 | (r.w[node / 32] >> node % 32 & 1);
-            }
-        }
-        points->xs[c] = (double)(x ^ flips) * 0x1p-53;
+    for (int k = 0; k < points->dim; k++) {
+        scramble_column(seed, (uint32_t)k, points);
     }
 }
 

@@ -33,7 +33,7 @@
 #include "domains/field.h"
 #include "domains/source_tree.h"
 
-enum { BLOCK = 64, SETTLING = 128, LOCKED = 400, LEAST_STEPS = 600, MOST_STEPS = 2000, PATIENCE = 200 };
+enum { BLOCK = 8, SETTLING = 128, LOCKED = 400, LEAST_STEPS = 600, MOST_STEPS = 2000, PATIENCE = 200 };
 
 #define TOLERANCE 1e-4
 
@@ -65,32 +65,40 @@ static koksma__field_node source_of(const void *context, size_t i)
     return source;
 }
 
-/* Moves the points among one block of sources. */
+/* Moves point number i by its force. */
+static void move_point(descent *d, size_t i, double force[3])
+{
+    const size_t dim = (size_t)d->domain->dim;
+    double *x = d->xs + i * dim, *move = d->moves + i * dim, to[3], square = 0;
+    d->field.along(d->field.data, &d->c->points[i], force);
+    for (size_t k = 0; k < dim; k++) {
+        square += force[k] * force[k];
+        to[k] = x[k] + d->momentum * move[k] + d->step * force[k];
+    }
+    d->squares[i] = square / (d->widths[i] * d->widths[i]);
+    const double before[3] = {x[0], x[1], dim > 2 ? x[2] : 0};
+    const bool settled = d->field.settle(d->field.data, to, &d->c->points[i]);
+    for (size_t k = 0; k < dim; k++) {
+        x[k] = settled ? to[k] : x[k];
+        move[k] = !settled ? 0 : d->domain->torus ? koksma__torus_difference(before[k], x[k]) : x[k] - before[k];
+    }
+    if (d->update) {
+        d->widths[i] = d->field.width(d->field.data, x);
+    }
+}
+
+/* Moves the points of one block of groups. */
 static koksma_status move_block(void *context, size_t block)
 {
     descent *d = context;
-    const size_t dim = (size_t)d->domain->dim, end = (block + 1) * BLOCK;
-    for (size_t at = block * BLOCK; at < end && at < d->tree.n; at++) {
-        if (d->tree.order[at] < d->field.n_nodes) {
-            continue;
-        }
-        const size_t i = d->tree.order[at] - d->field.n_nodes;
-        double *x = d->xs + i * dim, *move = d->moves + i * dim, to[3], force[3], square = 0;
-        koksma__source_force(&d->tree, x, d->widths[i] * d->widths[i], force);
-        d->field.along(d->field.data, &d->c->points[i], force);
-        for (size_t k = 0; k < dim; k++) {
-            square += force[k] * force[k];
-            to[k] = x[k] + d->momentum * move[k] + d->step * force[k];
-        }
-        d->squares[i] = square / (d->widths[i] * d->widths[i]);
-        const double before[3] = {x[0], x[1], dim > 2 ? x[2] : 0};
-        const bool settled = d->field.settle(d->field.data, to, &d->c->points[i]);
-        for (size_t k = 0; k < dim; k++) {
-            x[k] = settled ? to[k] : x[k];
-            move[k] = !settled ? 0 : d->domain->torus ? koksma__torus_difference(before[k], x[k]) : x[k] - before[k];
-        }
-        if (d->update) {
-            d->widths[i] = d->field.width(d->field.data, x);
+    const koksma__source_tree *t = &d->tree;
+    for (size_t group = block * BLOCK; group < (block + 1) * BLOCK && group < t->n_groups; group++) {
+        double force[KOKSMA__SOURCE_GROUP][3];
+        koksma__source_forces(t, group, d->field.n_nodes, force);
+        for (uint32_t at = t->groups[group]; at < t->groups[group + 1]; at++) {
+            if (t->order[at] >= d->field.n_nodes) {
+                move_point(d, t->order[at] - d->field.n_nodes, force[at - t->groups[group]]);
+            }
         }
     }
     return KOKSMA_OK;
@@ -118,7 +126,7 @@ static koksma_status descend(descent *d)
         d->momentum = t < SETTLING ? 0.5 : t < LOCKED ? 0.9 : 0.95;
         d->update = t < SETTLING || (t <= LOCKED && t % 100 == 0);
         KOKSMA__TRY(koksma__source_tree_build(&d->tree, source_of, d));
-        KOKSMA__TRY(koksma__parallel(&quiet, (d->tree.n + BLOCK - 1) / BLOCK, move_block, d));
+        KOKSMA__TRY(koksma__parallel(&quiet, (d->tree.n_groups + BLOCK - 1) / BLOCK, move_block, d));
         if (!koksma__keep_going(d->c->run, (double)t / steps)) {
             return koksma__fail_interrupted();
         }

@@ -22,9 +22,9 @@ typedef struct box {
 struct koksma__nearest {
     const koksma__point_domain *domain;
     size_t n;
-    uint32_t *order; /* triangles by leaves */
-    box *boxes;      /* node i has the children 2 i + 1 and 2 i + 2 */
-    double *centroids;
+    uint32_t *order;             /* triangles by leaves */
+    box *boxes;                  /* node i has the children 2 i + 1 and 2 i + 2 */
+    double *centroids, *corners; /* three and nine coordinates of each triangle */
 };
 
 static void corners_of(const koksma__point_domain *domain, uint32_t part, double corners[3][3])
@@ -106,16 +106,18 @@ koksma_status koksma__nearest_open(const koksma__point_domain *domain, koksma__n
         n_boxes = 2 * n_boxes + 1;
     }
     const size_t n = domain->n_parts, bytes = sizeof(koksma__nearest) + n_boxes * sizeof(box) +
-                                              3 * n * sizeof(double) + n * sizeof(uint32_t);
+                                              12 * n * sizeof(double) + n * sizeof(uint32_t);
     koksma__nearest *s = malloc(bytes);
     KOKSMA__REQUIRE_MEMORY(s, bytes);
     *s = (koksma__nearest){.domain = domain, .n = n, .boxes = (box *)(s + 1)};
     s->centroids = (double *)(s->boxes + n_boxes);
-    s->order = (uint32_t *)(s->centroids + 3 * n);
+    s->corners = s->centroids + 3 * n;
+    s->order = (uint32_t *)(s->corners + 9 * n);
     for (size_t i = 0; i < n; i++) {
         const koksma__domain_point centre = {(uint32_t)i, {1.0 / 3, 1.0 / 3}};
         s->order[i] = (uint32_t)i;
         domain->place(domain->data, &centre, s->centroids + 3 * i);
+        corners_of(domain, (uint32_t)i, (double(*)[3])(s->corners + 9 * i));
     }
     build(s, 0, 0, n);
     *out = s;
@@ -184,9 +186,9 @@ typedef struct hunt {
 
 static void try_triangle(hunt *h, uint32_t part)
 {
-    double corners[3][3], square = 0;
+    const double(*corners)[3] = (const double(*)[3])(h->s->corners + 9 * (size_t)part);
+    double square = 0;
     koksma__domain_point p = {.part = part};
-    corners_of(h->s->domain, part, corners);
     nearest_on(corners, h->x, p.at);
     for (int k = 0; k < 3; k++) {
         const double y =
@@ -203,8 +205,8 @@ static double to_box(const box *b, const double *x)
 {
     double square = 0;
     for (int k = 0; k < 3; k++) {
-        const double t = fmax(fmax(b->low[k] - x[k], x[k] - b->high[k]), 0);
-        square += t * t;
+        const double below = b->low[k] - x[k], above = x[k] - b->high[k], most = below > above ? below : above;
+        square += most > 0 ? most * most : 0;
     }
     return square;
 }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A quadtree or octree of sources, rebuilt in every step of a descent: sources are sorted by the interleaved bits of
- * their coordinates (Morton 1966) with a radix sort, so that a box is a range of them. A sum descends to the boxes that
- * the wider of both widths can reach. Pairs are cut off by a rule that is the same for both, so that their forces stay
- * those of an energy. Time: building n, a sum about log n and the sources in reach. The order of a sum depends on the
- * sources alone.
+ * their coordinates (Morton 1966) with a radix sort, so that a box is a range of them. Neighbours have one walk down the
+ * tree together: a group is a box with at most 16 sources whose parent has more. The walk collects the ranges of the
+ * leaves that the wider of both widths can reach from the smallest box about the group's points, and the kernel
+ * source_force sums over these ranges for each point. The kernel cuts pairs off by a rule that is the same for both
+ * points, so that their forces stay those of an energy. Time: building n, a sum about log n and the sources in reach.
+ * The order of a sum depends on the sources alone.
  */
 #include "domains/source_tree.h"
 
@@ -12,10 +14,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/elementary.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 
-enum { LEAF = 8, DEEPEST = 16 };
+enum { LEAF = 8, DEEPEST = 16, PADDING = 8 };
+
+/* Ranges of sources that are summed at once, and the largest gap between two that become one: the kernel takes eight
+   sources at a time, and those of a gap are out of reach. */
+enum { RUNS = 128, GAP = 8 };
 
 /* The weight exp(-d^2 / v) - exp(-CUT2) ends at d^2 = CUT2 v without a step, which points would bounce off. */
 #define CUT2 12.0
@@ -23,19 +29,25 @@ enum { LEAF = 8, DEEPEST = 16 };
 
 koksma_status koksma__source_tree_init(koksma__source_tree *t, int dim, bool torus, size_t n)
 {
-    const size_t bytes = n * (sizeof *t->sources + 2 * sizeof *t->keys + sizeof *t->order);
+    const size_t length = n + PADDING; /* the kernel reads beyond the last source */
+    const size_t bytes =
+        5 * length * sizeof(double) + n * (2 * sizeof *t->keys + 2 * sizeof *t->order) + sizeof *t->order;
     *t = (koksma__source_tree){.dim = dim, .torus = torus, .n = n};
-    t->sources = malloc(bytes);
-    KOKSMA__REQUIRE_MEMORY(t->sources, bytes);
-    t->keys = (uint64_t *)(t->sources + n);
+    t->columns[0] = calloc(1, bytes);
+    KOKSMA__REQUIRE_MEMORY(t->columns[0], bytes);
+    for (int c = 1; c < 5; c++) {
+        t->columns[c] = t->columns[c - 1] + length;
+    }
+    t->keys = (uint64_t *)(t->columns[4] + length);
     t->spare = t->keys + n;
     t->order = (uint32_t *)(t->spare + n);
+    t->groups = t->order + n;
     return KOKSMA_OK;
 }
 
 void koksma__source_tree_fini(koksma__source_tree *t)
 {
-    free(t->sources);
+    free(t->columns[0]);
     free(t->boxes);
     *t = (koksma__source_tree){0};
 }
@@ -89,44 +101,74 @@ static koksma_status add_boxes(koksma__source_tree *t, size_t n)
     return KOKSMA_OK;
 }
 
+/* A box of sources first .. end - 1, before it is extended by them. */
+static koksma__source_box empty_box(size_t first, size_t end)
+{
+    const double least = -INFINITY, most = INFINITY;
+    return (koksma__source_box){
+        .low = {most, most, most}, .high = {least, least, least}, .first = (uint32_t)first, .end = (uint32_t)end};
+}
+
+/* Extends a box by another one. */
+static void extend(koksma__source_box *box, const koksma__source_box *by)
+{
+    for (int k = 0; k < 3; k++) {
+        box->low[k] = by->low[k] < box->low[k] ? by->low[k] : box->low[k];
+        box->high[k] = by->high[k] > box->high[k] ? by->high[k] : box->high[k];
+    }
+    box->square = by->square > box->square ? by->square : box->square;
+}
+
+static void extend_by_sources(const koksma__source_tree *t, koksma__source_box *box)
+{
+    for (size_t i = box->first; i < box->end; i++) {
+        const double x = t->columns[0][i], y = t->columns[1][i], z = t->columns[2][i];
+        extend(box, &(koksma__source_box){.low = {x, y, z}, .high = {x, y, z}, .square = t->columns[3][i]});
+    }
+}
+
 /* Divides box number b, at a depth, as far as it has many sources. */
 static koksma_status divide(koksma__source_tree *t, size_t b, int depth)
 {
     const int bits = t->dim == 2 ? DEEPEST : 10, ways = 1 << t->dim, shift = 32 + (bits - 1 - depth) * t->dim;
-    const koksma__source_box box = t->boxes[b];
-    double square = 0;
-    for (size_t i = box.first; i < box.end && (box.end - box.first <= LEAF || depth == bits); i++) {
-        square = fmax(square, t->sources[i].square);
-    }
-    t->boxes[b].square = square;
+    koksma__source_box box = t->boxes[b];
     if (box.end - box.first <= LEAF || depth == bits) {
+        extend_by_sources(t, &t->boxes[b]);
         return KOKSMA_OK;
     }
-    const size_t child = t->n_boxes;
+    box.child = (uint32_t)t->n_boxes;
     KOKSMA__TRY(add_boxes(t, (size_t)ways));
-    t->boxes[b].child = (uint32_t)child;
-    uint32_t n = 0, at = box.first;
+    uint32_t at = box.first;
     for (int w = 0; w < ways; w++) {
         uint32_t end = at;
         while (end < box.end && (int)(t->keys[end] >> shift & (uint64_t)(ways - 1)) == w) {
             end++;
         }
         if (end > at) {
-            koksma__source_box *c = &t->boxes[child + n++];
-            *c = (koksma__source_box){.side = box.side / 2, .first = at, .end = end};
-            for (int k = 0; k < t->dim; k++) {
-                c->low[k] = box.low[k] + (w >> (t->dim - 1 - k) & 1 ? c->side : 0);
-            }
+            t->boxes[box.child + box.children++] = empty_box(at, end);
         }
         at = end;
     }
-    t->boxes[b].children = n;
-    for (uint32_t i = 0; i < n; i++) {
-        KOKSMA__TRY(divide(t, child + i, depth + 1));
-        square = fmax(square, t->boxes[child + i].square);
+    for (uint32_t i = 0; i < box.children; i++) {
+        KOKSMA__TRY(divide(t, box.child + i, depth + 1));
+        extend(&box, &t->boxes[box.child + i]);
     }
-    t->boxes[b].square = square;
+    t->boxes[b] = box;
     return KOKSMA_OK;
+}
+
+/* Adds the groups of a box. A leaf with more sources than a group may have, many of them at one position, has several. */
+static void add_groups(koksma__source_tree *t, const koksma__source_box *box)
+{
+    if (box->end - box->first <= KOKSMA__SOURCE_GROUP || !box->children) {
+        for (uint32_t at = box->first; at < box->end; at += KOKSMA__SOURCE_GROUP) {
+            t->groups[t->n_groups++] = at;
+        }
+        return;
+    }
+    for (uint32_t i = 0; i < box->children; i++) {
+        add_groups(t, &t->boxes[box->child + i]);
+    }
 }
 
 koksma_status koksma__source_tree_build(koksma__source_tree *t,
@@ -140,72 +182,129 @@ koksma_status koksma__source_tree_build(koksma__source_tree *t,
     sort_keys(t);
     for (size_t i = 0; i < t->n; i++) {
         t->order[i] = (uint32_t)t->keys[i];
-        t->sources[i] = source(context, t->order[i]);
+        const koksma__field_node node = source(context, t->order[i]);
+        for (int k = 0; k < 3; k++) {
+            t->columns[k][i] = k < t->dim ? node.x[k] : 0;
+        }
+        t->columns[3][i] = node.square;
+        t->columns[4][i] = node.mass;
     }
     t->n_boxes = 0;
     KOKSMA__TRY(add_boxes(t, 1));
-    t->boxes[0] = (koksma__source_box){.side = 1, .end = (uint32_t)t->n};
-    return divide(t, 0, 0);
+    t->boxes[0] = empty_box(0, t->n);
+    KOKSMA__TRY(divide(t, 0, 0));
+    t->n_groups = 0;
+    add_groups(t, &t->boxes[0]);
+    t->groups[t->n_groups] = (uint32_t)t->n;
+    return KOKSMA_OK;
 }
 
-/* A sum at x, of the sources' image that is visited. */
-typedef struct sum {
+/* The walk of a group: the box about its points, its image moved by `offset`, the largest square of their widths, and the
+   ranges of sources that were found and not summed yet. */
+typedef struct walk {
     const koksma__source_tree *t;
-    double x[3], square, force[3];
-} sum;
+    size_t count;
+    uint32_t points[KOKSMA__SOURCE_GROUP], start;              /* sorted numbers; that of the group's first source */
+    double low[3], high[3], square, offset[3], from[3], to[3]; /* from, to: the image of low, high */
+    size_t n_runs;
+    uint32_t runs[2 * RUNS];
+    double (*force)[3];
+} walk;
 
-static void add_leaf(sum *s, const koksma__source_box *box)
+/* Sums over the ranges found. */
+static void sum_runs(walk *w)
 {
-    const int dim = s->t->dim;
-    for (uint32_t j = box->first; j < box->end; j++) {
-        const koksma__field_node *source = &s->t->sources[j];
-        double t[3] = {0}, distance = 0;
-        for (int k = 0; k < dim && k < 3; k++) {
-            t[k] = s->x[k] - source->x[k];
-            distance += t[k] * t[k];
+    for (size_t i = 0; i < w->count && w->n_runs; i++) {
+        const uint32_t at = w->points[i];
+        double x[3], part[3], *force = w->force[at - w->start];
+        for (int k = 0; k < 3; k++) {
+            x[k] = w->t->columns[k][at] + w->offset[k];
         }
-        const double v = s->square + source->square;
-        if (distance < CUT2 * v) {
-            const double inverse = 1 / v, ratio = 2 * s->square * inverse;
-            const double w = source->mass * ratio * ratio * (koksma__exp(-distance * inverse) - AT_CUT);
-            for (int k = 0; k < 3; k++) {
-                s->force[k] += w * t[k];
-            }
+        koksma__kernels()->source_force(w->n_runs, w->runs, (const double *const *)w->t->columns, x,
+                                        w->t->columns[3][at], CUT2, AT_CUT, part);
+        for (int k = 0; k < 3; k++) {
+            force[k] += part[k];
         }
     }
+    w->n_runs = 0;
 }
 
-static void visit(sum *s, const koksma__source_box *box)
+static void add_run(walk *w, uint32_t first, uint32_t end)
 {
-    double distance = 0;
-    for (int k = 0; k < s->t->dim && k < 3; k++) {
-        const double below = box->low[k] - s->x[k], above = -below - box->side;
-        const double gap = below > 0 ? below : above > 0 ? above : 0;
-        distance += gap * gap;
+    uint32_t *last = w->runs + 2 * (w->n_runs - 1);
+    if (w->n_runs && first - last[1] <= GAP) { /* boxes are visited in the order of their sources */
+        last[1] = end;
+        return;
     }
-    if (distance > CUT2 * (s->square + box->square)) {
+    if (w->n_runs == RUNS) {
+        sum_runs(w);
+    }
+    w->runs[2 * w->n_runs] = first;
+    w->runs[2 * w->n_runs + 1] = end;
+    w->n_runs++;
+}
+
+/* The distance between two intervals; 0 if they meet. */
+static double gap(double low, double high, double from, double to)
+{
+    const double below = from - high, above = low - to, most = below > above ? below : above;
+    return most > 0 ? most : 0;
+}
+
+/* Adds the leaves below a box that are in reach. In the plane the third coordinate is 0, and so is that distance. */
+static void visit(walk *w, const koksma__source_box *box)
+{
+    const double x = gap(w->from[0], w->to[0], box->low[0], box->high[0]);
+    const double y = gap(w->from[1], w->to[1], box->low[1], box->high[1]);
+    const double z = gap(w->from[2], w->to[2], box->low[2], box->high[2]);
+    if (x * x + y * y + z * z > CUT2 * (w->square + box->square)) {
         return;
     }
     if (!box->children) {
-        add_leaf(s, box);
+        add_run(w, box->first, box->end);
     }
+    const koksma__source_box *child = w->t->boxes + box->child;
     for (uint32_t i = 0; i < box->children; i++) {
-        visit(s, &s->t->boxes[box->child + i]);
+        visit(w, &child[i]);
     }
 }
 
-void koksma__source_force(const koksma__source_tree *t, const double *x, double square, double force[3])
+/* Collects the points of a group. */
+static void gather(walk *w, size_t group, size_t first)
 {
-    sum s = {.t = t, .square = square};
-    const double reach = sqrt(CUT2 * (square + t->boxes[0].square));
+    const koksma__source_tree *t = w->t;
+    for (uint32_t at = w->start; at < t->groups[group + 1]; at++) {
+        if (t->order[at] < first) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            const double x = t->columns[k][at];
+            w->low[k] = w->count && w->low[k] < x ? w->low[k] : x;
+            w->high[k] = w->count && w->high[k] > x ? w->high[k] : x;
+            w->force[at - w->start][k] = 0;
+        }
+        w->square = fmax(w->square, t->columns[3][at]);
+        w->points[w->count++] = at;
+    }
+}
+
+void koksma__source_forces(const koksma__source_tree *t, size_t group, size_t first,
+                           double force[KOKSMA__SOURCE_GROUP][3])
+{
+    walk w = {.t = t, .start = t->groups[group], .force = force};
+    gather(&w, group, first);
+    const double reach = sqrt(CUT2 * (w.square + t->boxes[0].square));
     const int images = t->torus ? (int)ceil(fmax(reach, 0.5) - 0.5) + 1 : 0;
-    for (int i = -images; i <= images; i++) {
+    for (int i = -images; i <= images && w.count; i++) {
         for (int j = -images; j <= images; j++) {
-            s.x[0] = x[0] + i;
-            s.x[1] = x[1] + j;
-            s.x[2] = t->dim > 2 ? x[2] : 0;
-            visit(&s, &t->boxes[0]);
+            w.offset[0] = i;
+            w.offset[1] = j;
+            for (int k = 0; k < 3; k++) {
+                w.from[k] = w.low[k] + w.offset[k];
+                w.to[k] = w.high[k] + w.offset[k];
+            }
+            visit(&w, &t->boxes[0]);
+            sum_runs(&w);
         }
     }
-    memcpy(force, s.force, sizeof s.force);
 }

@@ -176,6 +176,20 @@ static inline lanes64_u lanes64_upper_words(lanes64_u even, lanes64_u odd)
 #endif
 }
 
+/* Returns whether the mask is set in any lane. */
+static inline bool lanes64_any(lanes64_i mask)
+{
+#if defined(__AVX512F__)
+    return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+#elif defined(__AVX2__)
+    return !_mm256_testz_si256((__m256i)mask, (__m256i)mask);
+#elif defined(__SSE2__)
+    return _mm_movemask_epi8((__m128i)mask) != 0;
+#else
+    return (mask[0] | mask[1]) != 0;
+#endif
+}
+
 /* Returns the lanes of x where the mask is set, and 0 in the other lanes. */
 static inline lanes64_d lanes64_masked(lanes64_i mask, lanes64_d x)
 {

@@ -4,9 +4,9 @@
  *
  *     x_i,k = {phi_b(i) z_k},   phi_b the radical inverse in base b
  *
- * The file has one of two formats. The format `lattice` of LatNet Builder and LDData has a line "# lattice", the
- * number of dimensions, the number of points N, and z_1, z_2, ... on one line each; comments follow a #. Kuo's format
- * has no header, and one line "k z_k" (or only z_k) for each dimension. If N = b^m with b prime and m > 1, the points
+ * The file has one of three formats. The format `lattice` of LDData has a line "# lattice", the number of dimensions,
+ * the number of points N, and z_1, z_2, ... on one line each; comments follow a #. LatNet Builder's output has the
+ * heading "# Parameters for a lattice rule" in place of the first line, below other comments. Kuo's format has no header, and one line "k z_k" (or only z_k) for each dimension. If N = b^m with b prime and m > 1, the points
  * are a lattice sequence: for any power n of b the first n points are the lattice {i z / n}, and more points can
  * follow. Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector
  * should be used only with the numbers of points listed in the comments of its file.

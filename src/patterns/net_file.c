@@ -4,7 +4,7 @@
  *
  *     x_i,k = sum_l y_l b^-l,   y = C_k a modulo b,   i = sum_c a_c b^c   (l = 1, 2, ..., c = 0, 1, ...)
  *
- * The file is in one of these formats of LatNet Builder and LDData, or in that of Joe & Kuo; comments follow a #:
+ * The file is in one of these formats of the collection LDData, or in that of Joe & Kuo; comments follow a #:
  *
  *     # dnet      base b, dimensions s, columns k (or b^k), digits r; then a line for each dimension: the k columns of
  *                 C, each as a whole number whose highest digit, that of b^(r-1), is the entry of row 1. Interlaced
@@ -14,6 +14,13 @@
  *                 z^-(l+c) in q/Q (Niederreiter 1992)
  *     # soboljk   lines "k degree a m_1 ... m_degree" from dimension k = 2 on; the matrix of dimension 1 is the
  *                 identity (Joe & Kuo 2008, whose own files begin with the line "d s a m_i" in place of "# soboljk")
+ *
+ * LatNet Builder writes the same files with the heading "# Parameters for ..." among the first comments in place of the
+ * kind and the line of the base. Its Sobol' points have the number of dimensions in a line of their own, and by default
+ * only m_1 ... m_degree in each line ("# Parameters m_{j,c} ..."): the polynomials are then the primitive ones in Joe &
+ * Kuo's order, by degree and then by a. If its digital net has the line "# Interlacing factor", d, there are d matrices for
+ * each dimension, and row l of the j-th of them (j = 0 .. d - 1) is row l d + j, counted from 0, of the dimension's matrix
+ * (Dick 2008).
  *
  * Source: Niederreiter 1992; formats: L'Ecuyer et al. 2022, Joe & Kuo 2008.
  *
@@ -149,30 +156,69 @@ static koksma_status count_columns(const koksma__number_lines *lines, uint64_t b
     return KOKSMA_OK;
 }
 
+static koksma_status take_base(koksma__number_lines *lines, uint64_t *base)
+{
+    if (!lines->base) {
+        return take(lines, "the base", 2, LARGEST_BASE, base);
+    }
+    *base = lines->base;
+    KOKSMA__FAIL_IF(*base < 2 || *base > LARGEST_BASE, KOKSMA_MALFORMED, "%s: the base is %llu; it takes 2 to %d",
+                    lines->name, (unsigned long long)*base, LARGEST_BASE);
+    return KOKSMA_OK;
+}
+
+/* Reads the two lines that only interlaced nets of LatNet Builder have. */
+static koksma_status take_interlacing(koksma__number_lines *lines, uint64_t dims, uint64_t *factor)
+{
+    uint64_t components;
+    *factor = 1;
+    if (!lines->base || !strstr(lines->text, "# Interlacing factor")) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(take(lines, "the interlacing factor", 1, MOST_DIGITS, factor));
+    KOKSMA__TRY(take(lines, "the number of components", 1, UINT64_MAX, &components));
+    KOKSMA__FAIL_IF(components != dims * *factor, KOKSMA_MALFORMED,
+                    "%s: line %zu: %llu components, not %llu times %llu", lines->name, lines->number,
+                    (unsigned long long)components, (unsigned long long)dims, (unsigned long long)*factor);
+    return KOKSMA_OK;
+}
+
+/* Reads the matrix of one component: its row l becomes row l step + first of a matrix of m->digits rows. */
+static koksma_status read_matrix(koksma__number_lines *lines, uint64_t rows, int step, int first, const matrices *m,
+                                 uint8_t (*digit)[MOST_DIGITS])
+{
+    uint64_t numbers[MOST_COLUMNS];
+    KOKSMA__TRY(koksma__number_lines_take(lines, "a matrix", (size_t)m->columns, numbers));
+    for (int c = 0; c < m->columns; c++) {
+        uint64_t left = numbers[c];
+        for (int l = (int)rows - 1; l >= 0; l--, left /= m->base) {
+            if (l * step + first < m->digits) {
+                digit[c][l * step + first] = (uint8_t)(left % m->base);
+            }
+        }
+        KOKSMA__FAIL_IF(left, KOKSMA_MALFORMED, "%s: line %zu: %llu has more than %llu digits in base %llu",
+                        lines->name, lines->number, (unsigned long long)numbers[c], (unsigned long long)rows,
+                        (unsigned long long)m->base);
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status read_dnet(koksma__number_lines *lines, int dim, matrices *m)
 {
-    uint64_t base, dims, columns, rows, numbers[MOST_COLUMNS];
-    KOKSMA__TRY(take(lines, "the base", 2, LARGEST_BASE, &base));
+    uint64_t base, dims, factor, columns, rows;
+    KOKSMA__TRY(take_base(lines, &base));
     KOKSMA__TRY(take(lines, "the number of dimensions", 1, UINT32_MAX, &dims));
     KOKSMA__TRY(check_dims(lines, dims, dim));
+    KOKSMA__TRY(take_interlacing(lines, dims, &factor));
     KOKSMA__TRY(take(lines, "the number of columns", 1, UINT64_MAX, &columns));
     KOKSMA__TRY(count_columns(lines, base, columns, &m->columns));
     KOKSMA__TRY(take(lines, "the number of digits", 1, 64, &rows));
-    const int kept = digits_in_double(base);
+    const int kept = digits_in_double(base), step = (int)factor, all = (int)rows * step;
     m->base = (uint32_t)base;
-    m->digits = (int)rows < kept ? (int)rows : kept;
+    m->digits = all < kept ? all : kept;
     for (int k = 0; k < dim; k++) {
-        KOKSMA__TRY(koksma__number_lines_take(lines, "a matrix", (size_t)m->columns, numbers));
-        for (int c = 0; c < m->columns; c++) {
-            uint64_t left = numbers[c];
-            for (int l = (int)rows - 1; l >= 0; l--, left /= base) {
-                if (l < m->digits) {
-                    m->digit[k][c][l] = (uint8_t)(left % base);
-                }
-            }
-            KOKSMA__FAIL_IF(left, KOKSMA_MALFORMED, "%s: line %zu: %llu has more than %llu digits in base %llu",
-                            lines->name, lines->number, (unsigned long long)numbers[c], (unsigned long long)rows,
-                            (unsigned long long)base);
+        for (int j = 0; j < step; j++) {
+            KOKSMA__TRY(read_matrix(lines, rows, step, j, m, m->digit[k]));
         }
     }
     return KOKSMA_OK;
@@ -218,7 +264,7 @@ static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrice
 {
     uint64_t base, dims, columns, value;
     uint32_t modulus[MOST_COLUMNS + 1], q[MOST_COLUMNS + 1];
-    KOKSMA__TRY(take(lines, "the base", 2, LARGEST_BASE, &base));
+    KOKSMA__TRY(take_base(lines, &base));
     for (uint64_t d = 2; d * d <= base; d++) {
         KOKSMA__FAIL_IF(base % d == 0, KOKSMA_MALFORMED, "%s: line %zu: the base is %llu, which is not a prime",
                         lines->name, lines->number, (unsigned long long)base);
@@ -271,17 +317,90 @@ static koksma_status sobol_columns(const koksma__number_lines *lines, int k, con
     return KOKSMA_OK;
 }
 
+/* x^exponent modulo a polynomial over GF(2) of the given degree; bit d of a number is the coefficient of x^d. */
+static uint64_t power_of_x(uint64_t exponent, uint64_t modulus, int degree)
+{
+    uint64_t power = 1;
+    for (int bit = 63; bit >= 0; bit--) {
+        uint64_t square = 0;
+        for (int d = degree - 1; d >= 0; d--) { /* square = power^2, by Horner's rule */
+            square = square << 1 ^ (power >> d & 1 ? power : 0);
+            square ^= square >> degree & 1 ? modulus : 0;
+        }
+        power = square;
+        if (exponent >> bit & 1) {
+            power <<= 1;
+            power ^= power >> degree & 1 ? modulus : 0;
+        }
+    }
+    return power;
+}
+
+/* Whether a polynomial with the coefficient 1 of x^0 is primitive: x has the order 2^degree - 1, and no smaller one. */
+static bool is_primitive(uint64_t polynomial, int degree)
+{
+    const uint64_t order = (UINT64_C(1) << degree) - 1;
+    uint64_t left = order;
+    if (degree == 1) {
+        return true; /* x + 1 */
+    }
+    bool primitive = power_of_x(order, polynomial, degree) == 1;
+    for (uint64_t p = 3; primitive && left > 1; p += 2) {
+        p = p * p > left ? left : p;
+        if (left % p == 0) {
+            primitive = power_of_x(order / p, polynomial, degree) != 1;
+            while (left % p == 0) {
+                left /= p;
+            }
+        }
+    }
+    return primitive;
+}
+
+/* Goes to the next primitive polynomial x^degree + ... + 1: a has the inner coefficients. */
+static void next_polynomial(uint64_t *degree, uint64_t *a)
+{
+    do {
+        if (++*a >> (*degree - 1)) {
+            ++*degree;
+            *a = 0;
+        }
+    } while (!is_primitive(UINT64_C(1) << *degree | *a << 1 | 1, (int)*degree));
+}
+
+/* Reads the line of dimension k, counted from 0, as dimension, degree, a and m_1, m_2, ...; *count is 0 at the end. */
+static koksma_status next_sobol_line(koksma__number_lines *lines, int k, uint64_t *numbers, size_t *count)
+{
+    const bool short_form = !strcmp(lines->kind, "sobol");
+    uint64_t *const at = numbers + (short_form ? 3 : 0), most = (uint64_t)(LARGEST_DEGREE + (short_form ? 0 : 3));
+    KOKSMA__TRY(koksma__number_lines_next(lines, most, at, count));
+    if (k == 1 && lines->base && *count == 1 && *at != 1) { /* the number of dimensions */
+        KOKSMA__TRY(koksma__number_lines_next(lines, most, at, count));
+    }
+    if (short_form && *count) {
+        if (k == 1) {
+            numbers[1] = 1;
+            numbers[2] = 0;
+        } else {
+            next_polynomial(&numbers[1], &numbers[2]);
+        }
+        numbers[0] = (uint64_t)k + 1;
+        *count += 3;
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status read_sobol(koksma__number_lines *lines, int dim, matrices *m)
 {
+    uint64_t numbers[3 + LARGEST_DEGREE] = {0};
     /* Points below 2^32 have 32 digits and need no further columns, which would take time. */
     m->base = 2;
     m->columns = m->digits = m->end > UINT64_C(1) << 32 ? SOBOL_COLUMNS : 32;
     for (int k = 0; k < dim; k++) {
-        uint64_t numbers[3 + LARGEST_DEGREE];
         uint64_t v[SOBOL_COLUMNS];
         size_t count = 1;
         if (k) {
-            KOKSMA__TRY(koksma__number_lines_next(lines, 3 + LARGEST_DEGREE, numbers, &count));
+            KOKSMA__TRY(next_sobol_line(lines, k, numbers, &count));
             KOKSMA__TRY(count ? sobol_columns(lines, k, numbers, count, v) : check_dims(lines, (uint64_t)k, dim));
         }
         for (int c = 0; c < m->columns; c++) {
@@ -298,16 +417,17 @@ static koksma_status read_matrices(koksma__number_lines *lines, int dim, matrice
     static const struct {
         const char *kind;
         koksma_status (*read)(koksma__number_lines *lines, int dim, matrices *m);
-    } kinds[] = {{"dnet", read_dnet}, {"plattice", read_plattice}, {"soboljk", read_sobol}};
+    } kinds[] = {{"dnet", read_dnet}, {"plattice", read_plattice}, {"soboljk", read_sobol}, {"sobol", read_sobol}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         if (!strcmp(lines->kind, kinds[i].kind)) {
             return kinds[i].read(lines, dim, m);
         }
     }
-    return koksma__fail(KOKSMA_MALFORMED,
-                        "%s: the first line must be '# dnet', '# plattice', '# soboljk' or Joe and Kuo's 'd s a "
-                        "m_i'; lattice-file reads lattices",
-                        lines->name);
+    return koksma__fail(
+        KOKSMA_MALFORMED,
+        "%s: the first line must be '# dnet', '# plattice', '# soboljk', Joe and Kuo's 'd s a m_i' or "
+        "that of LatNet Builder's output; lattice-file reads lattices",
+        lines->name);
 }
 
 static koksma_status check_count(const koksma__number_lines *lines, const matrices *m)

@@ -9,7 +9,10 @@ below inherits, shows in /proc that none is left.
 """
 import json
 import os
+import re
+import shutil
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -17,6 +20,9 @@ import time
 import uuid
 
 import files
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../study"))
+from reseal import reseal  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MARK = "KOKSMA_TEST_" + uuid.uuid4().hex
@@ -116,6 +122,134 @@ def check_permission(checks, program):
     checks.check(done.code == 2 and b"--allow-exec" in done.err, f"study run: {done.code} {done.err}")
     checks.refused("seconds alone", files.run(program, "generate", "random", "-n", "2", "--exec-seconds", "3"), 2, "--allow-exec")
     checks.check(not os.path.exists("ran"), "a program or library ran without --allow-exec")
+
+
+# Of each command where a spec could stand: "{}" is the spec. A command without a row fails the test.
+PLACES = {
+    "list": [["{}"], ["patterns", "{}"]],
+    "generate": [["{}", "-n", "2"], ["-p", "{}", "-n", "2"], ["{}", "-n", "2", "--first", "1"], ["{}", "-n", "2", "--warp", "polar-disk"],
+                 ["{}"], ["{}", "-n", "2", "--density", "d.pfm"], ["{}", "-n", "2", "--on", "t.obj"]],
+    "measure": [["{}@2", "-m", "star"], ["pattern:{}@2", "-m", "star"], ["{}", "-m", "star"], ["pattern:random@2", "-m", "{}"],
+                ["{}@2", "-m", "star", "--trials", "2", "--threads", "2"]],
+    "integrate": [["disk", "-p", "{}", "-n", "2"], ["disk", "{}@2"], ["disk", "-p", "random,{}", "-n", "2", "-t", "3", "--threads", "2"]],
+    "optimise": [["star", "--from", "{}", "-o", "o.txt"], ["{}", "-n", "4", "-o", "o.txt"], ["star", "-n", "2", "-p", "{}", "-o", "o.txt"]],
+    "curve": [["power", "{}@2"], ["{}", "random@4"]],
+    "verify": [["{}@2"], ["{}"]],
+    "plot": [["{}@2", "-o", "o.svg"], ["random@2", "{}@2", "-o", "o.svg"]],
+    "render": [["ball", "-p", "{}", "-n", "2", "--size", "8x6", "-o", "o.pfm"], ["{}", "-n", "2", "-o", "o.pfm"],
+               ["ball", "-p", "random;lens={}", "-n", "2", "--size", "8x6", "-o", "o.pfm"],
+               ["ball", "-p", "random;pixel+time={}", "-n", "2", "--size", "8x6", "-o", "o.pfm"],
+               ["ball", "-p", "{}", "-n", "8", "--size", "8x6", "--adaptive", "variance", "-o", "o.pfm"],
+               ["ball", "-p", "{}", "-n", "2", "--size", "8x6", "--threads", "4", "--scope", "image", "-o", "o.pfm"]],
+    "scene": [["check", "{}"]],
+    "compare": [["{}", "{}"]],
+    "rank": [["ball", "-p", "{},random", "--spp", "2", "--size", "8x6"], ["ball", "-p", "{}", "--spp", "2", "--size", "8x6"], ["{}"]],
+    "datasheet": [["{}", "--quick", "-o", "s.html"], ["random", "{}", "--quick", "-o", "s.html"]],
+    "study": [["quick", "-p", "{}", "-n", "2", "--trials", "2", "-o", "q"], ["quick", "-p", "random", "-m", "{}", "-n", "2", "-o", "q"],
+              ["quick", "-p", "random", "-n", "2", "--scene", "{}", "-o", "q"], ["estimate", "a.json"], ["run", "a.json", "-o", "q"],
+              ["run", "{}", "-o", "q"], ["report", "{}"], ["audit", "{}"], ["export", "{}"], ["images", "{}", "--reference", "{}"]],
+    "reproduce": [["{}", "-o", "q"], ["./a.json", "-o", "q"]],
+    "completion": [["{}"]],
+    "manual": [["{}"]],
+    "help": [["{}"]],
+    "version": [["{}"]],
+}
+
+
+def plans(spec):
+    """Plans with the spec wherever a plan has one for a pattern, or could."""
+    points = {"patterns": ["random"], "measures": ["l2-star"], "n": [2], "trials": 2}
+    image = {"id": "i", "scenes": ["ball"], "patterns": ["random"], "spp": [2], "size": [4, 3], "trials": 2,
+             "references": [{"name": "r", "pattern": "random", "spp": 4, "replicates": 2}]}
+    yield {"discrepancies": [{**points, "patterns": [spec]}]}
+    yield {"discrepancies": [{**points, "patterns": [spec + ",shift=1"], "integrands": ["disk"]}]}
+    yield {"discrepancies": [{**points, "measures": [spec]}]}
+    yield {"discrepancies": [{**points, "integrands": [spec]}]}
+    yield {"images": [{**image, "patterns": [spec]}]}
+    yield {"images": [{**image, "patterns": ["random;lens=" + spec]}]}
+    yield {"images": [{**image, "scenes": [spec]}]}
+    yield {"images": [{**image, "references": [{"name": "r", "pattern": spec, "spp": 2, "replicates": 2}]}]}
+    yield {"discrepancies": [points], "figures": [{"id": "1", "title": "t", "pattern": spec, "n": 2}]}
+    yield {"images": [image], "figures": [{"id": "1", "title": "t", "pattern": spec, "n": 2, "scene": "ball"}]}
+    yield {"discrepancies": [points], "tables": [{"id": "1", "title": "t", "measure": "l2-star", "n": 2, "rows": [
+        {"pattern": spec, "label": "x", "published": ["0.1"]}]}]}
+    yield {"discrepancies": [points], "allow-exec": True, "comment": "--allow-exec"}
+    yield {"discrepancies": [{**points, "patterns": [spec], "options": {"allow-exec": ["yes"]}}]}
+
+
+def check_every_command(checks, program):
+    """No command, plan or stored study runs a program or opens a library without the option, on any thread."""
+    said = files.run(program, "--help").out.decode()
+    names = re.findall("^  ([a-z]+)  +[a-z]", said, re.M)
+    checks.check(sorted(names) == sorted(PLACES), f"commands without a row: {sorted(set(names) ^ set(PLACES))}")
+    write_program("mark", "touch ran; " + POINTS)
+    with open("d.pfm", "wb") as file:
+        file.write(b"Pf\n1 1\n-1.0\n\0\0\x80?")
+    with open("t.obj", "w", encoding="utf-8") as file:
+        file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for spec in "exec:./mark", "plugin:./p.so", "plugin:./p.so:good", f"exec:{os.getcwd()}/mark":
+        with open("a.json", "w", encoding="utf-8") as file:
+            file.write(plan(spec))
+        for command, rows in PLACES.items():
+            for row in rows:
+                words = [word.replace("{}", spec) for word in row]
+                done = files.run(program, command, *words)
+                checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{command} {words}: {done and done.code}, ran")
+        for one in plans(spec):
+            with open("a.json", "w", encoding="utf-8") as file:
+                json.dump({"name": "p", "title": "p", **one}, file)
+            for words in ["run", "a.json", "-o", "stored"], ["estimate", "a.json"], ["report", "stored"], ["audit", "stored"], ["export", "stored"]:
+                done = files.run(program, "study", *words, "-q" if words[0] == "run" else "--quiet")
+                checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{one}: {words}: {done and done.code}, ran")
+            shutil.rmtree("stored", ignore_errors=True)
+
+
+def check_rows(checks, program):
+    """A stored study of a harmless pattern, in whose rows a stranger wrote the spec and sealed them anew."""
+    with open("a.json", "w", encoding="utf-8") as file:
+        file.write(plan("jittered:columns=1"))
+    checks.check(files.run(program, "study", "run", "a.json", "-o", "kept", "-q").code == 0, "a study")
+    for spec in "exec:./mark", "plugin:./p.so":
+        for column in "what", "pattern", "made_by", "measured_by":
+            for verb in ["export"], ["report"], ["audit", "--rows", "all"], ["run", "a.json", "-q", "-o"]:
+                shutil.rmtree("stored", ignore_errors=True)
+                shutil.copytree("kept", "stored")
+                database = sqlite3.connect("stored/results.sqlite")
+                database.execute(f"UPDATE series SET {column} = ? WHERE pattern LIKE 'jittered%'", (spec,))
+                database.commit()
+                database.close()
+                reseal("stored")
+                done = files.run(program, "study", *verb, "stored")
+                checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{column} {spec}: {verb}: {done and done.code}, ran")
+    shutil.rmtree("stored", ignore_errors=True)
+
+
+def check_paths(checks, program):
+    """`study quick` and plans in other folders name the file that the user meant, of every pattern that has one."""
+    os.makedirs("folder", exist_ok=True)
+    with open("net.txt", "w", encoding="utf-8") as file:
+        file.write("# soboljk\n2 1 0 1\n")
+    with open("lattice.txt", "w", encoding="utf-8") as file:
+        file.write("# lattice\n2\n16\n1\n5\n")
+    with open("points.txt", "w", encoding="utf-8") as file:
+        file.write(".1 .2\n.3 .4\n")
+    specs = "exec:./mark", "exec:mark", "plugin:./p.so", "plugin:p.so:good", "net-file:net.txt", "lattice-file:./lattice.txt", "file:points.txt"
+    for spec in specs:
+        shutil.rmtree("quick", ignore_errors=True)
+        done = files.run(program, "study", "quick", "-p", spec, "-m", "l2-star", "-n", "2", "--trials", "2", "-q", "-o", "quick", "--allow-exec")
+        checks.check(done.code == 0, f"study quick -p {spec}: {done.code} {done.err}")
+        kind, path = spec.split(":", 1)
+        with open("folder/a.json", "w", encoding="utf-8") as file:
+            file.write(plan(kind + ":../" + path))
+        done = files.run(program, "study", "run", "folder/a.json", "-q", "-o", "quick2", "--allow-exec")
+        checks.check(done.code == 0, f"a plan in another folder, {spec}: {done.code} {done.err}")
+        shutil.rmtree("quick2", ignore_errors=True)
+        with open("folder/a.json", "w", encoding="utf-8") as file:
+            json.dump({"name": "p", "title": "p", "images": [{"id": "i", "scenes": ["ball"], "patterns": [f"random;lens={kind}:../{path}"],
+                       "spp": [2], "size": [4, 3], "trials": 1, "references": [{"name": "r", "pattern": "random", "spp": 4, "replicates": 2}]}]}, file)
+        done = files.run(program, "study", "estimate", "folder/a.json", "-q", "--allow-exec")  # `run` would need OpenEXR
+        checks.check(done.code == 0, f"a use of a plan in another folder, {spec}: {done.code} {done.err}")
+    os.path.exists("ran") and os.remove("ran")
 
 
 def check_study(checks, program):
@@ -239,7 +373,7 @@ def main():
         with open("p.c", "w", encoding="utf-8") as file:
             file.write(PLUGIN)
         compile_plugin("p.c", "p.so")
-        for check in check_permission, check_study, check_ranks, check_bad, check_signals, check_plugins, check_examples:
+        for check in check_permission, check_every_command, check_rows, check_paths, check_study, check_ranks, check_bad, check_signals, check_plugins, check_examples:
             check(checks, program)
         os.chdir("/")
     checks.end()

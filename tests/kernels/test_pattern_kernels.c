@@ -205,6 +205,26 @@ static void gauss_force(const koksma__kernel_table *t, size_t count, void *out)
     }
 }
 
+/* Runs of every length up to 12, widths that differ, and pairs on both sides of the cut. */
+static void source_force(const koksma__kernel_table *t, size_t count, void *out)
+{
+    double squares[MAX];
+    uint32_t run[26];
+    for (size_t i = 0; i < MAX; i++) {
+        squares[i] = 0.002 + 0.03 * units[MAX - 1 - i];
+    }
+    for (uint32_t r = 0; r < 13; r++) {
+        run[2 * r] = (uint32_t)(count + 7 * r) % 250;
+        run[2 * r + 1] = run[2 * r] + r;
+    }
+    const double *const sources[] = {units, units + MAX, units + 100, squares, units + 200};
+    for (size_t runs = 0; runs <= 13; runs++) {
+        const double x[] = {units[count], 0.03, 0.4};
+        t->source_force(runs, run, sources, x, 0.004 + 0.002 * (double)(count % 7), 12, 0x1.9c54c3b43bc8bp-18,
+                        (double *)out + 3 * runs);
+    }
+}
+
 static void rows_of_columns(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->rows_of_columns(count, 4, units, 97, count % 2, out);
@@ -260,6 +280,7 @@ TEST(nested_digits, MAX)
 TEST(permute, MAX)
 TEST(rooks_2d, 120)
 TEST(gauss_force, MAX)
+TEST(source_force, MAX)
 TEST(rows_of_columns, 150)
 
 int main(void)
@@ -274,7 +295,7 @@ int main(void)
         cmocka_unit_test(nearest_offset_equals_reference),  cmocka_unit_test(pair_counts_equals_reference),
         cmocka_unit_test(nested_digits_equals_reference),   cmocka_unit_test(rooks_2d_equals_reference),
         cmocka_unit_test(rows_of_columns_equals_reference), cmocka_unit_test(gauss_force_equals_reference),
-        cmocka_unit_test(permute_equals_reference),
+        cmocka_unit_test(permute_equals_reference),         cmocka_unit_test(source_force_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -233,6 +233,28 @@ static void relative_radii_in_space(void **state)
     }
 }
 
+/* Every prefix of a progressive order is blue noise of its number (Yuksel 2015): in the plane his program has relative
+   radii of .63 to .65 for eighths, quarters and halves. Spheres of the densest known packings (fcc, D4, D5, E6), n a unit
+   of volume, have the radius (filled / (ball n))^(1/dim), ball the volume of the unit ball. Random points have .3 and less. */
+static void prefixes_are_blue_in_space(void **state)
+{
+    (void)state;
+    static const double ball[] = {4.18879020478639, 4.93480220054468, 5.26378901391432, 5.16771278004997};
+    static const double filled[] = {0.740480489693061, 0.616850275068085, 0.465257613309259, 0.372947545582064};
+    for (int dim = 3; dim <= 6; dim++) {
+        koksma_points all = test_points("progressive-elimination:length=512", 512, dim, 1);
+        for (size_t n = 64; n <= 256; n *= 2) {
+            const koksma_points prefix = {.n = n, .dim = dim, .xs = all.xs};
+            const double radius = pow(filled[dim - 3] / (ball[dim - 3] * (double)n), 1.0 / dim);
+            const double rho = smallest(&prefix) / (2 * radius);
+            if (!(rho > 0.6 && rho < 0.75)) {
+                fail_msg("%d dimensions, first %zu of 512: relative radius %.3f", dim, n, rho);
+            }
+        }
+        koksma_points_fini(&all);
+    }
+}
+
 static void threads_change_nothing(void **state)
 {
     (void)state;
@@ -259,6 +281,7 @@ int main(void)
         cmocka_unit_test(forces_are_sums_over_images),
         cmocka_unit_test(low_frequencies_are_weak_in_space),
         cmocka_unit_test(relative_radii_in_space),
+        cmocka_unit_test(prefixes_are_blue_in_space),
         cmocka_unit_test(threads_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

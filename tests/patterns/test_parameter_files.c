@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* lattice-file and net-file, from the definitions of the formats (LDData's README): each file is written here, and its points are
    made again by the definition's own sums: multiples modulo n, matrices times digits, division of polynomials. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -229,6 +230,157 @@ static void sobol_numbers_give_sobol_points(void **state)
     }
 }
 
+/* LatNet Builder's own output, from its examples (umontreal-simul/latnetbuilder, examples/examples-IO): the program prints
+   one net in two or three forms, which have to give the same points: polynomial lattices to the k = 10 digits that it gives
+   their matrices. */
+static const char polynomial_lattice[] =
+    "# Input Command Line: -t lattice -c polynomial -s 2^10 -d 10 -f CU:P2 -q 2 -w product:0.1 -e fast-CBC\n"
+    "# Merit: 0.000818148\n# Parameters for a polynomial lattice rule in base 2\n10       # 10 dimensions\n"
+    "10      # k = 10, n = 2^10 = 1024 points\n1033   # polynomial modulus\n"
+    "# Coordinates of generating vector, starting at j=1\n1\n800\n839\n753\n";
+static const char polynomial_net[] =
+    "# Input Command Line: -t lattice -c polynomial -s 2^10 -d 10 -f CU:P2 -q 2 -w product:0.1 -e fast-CBC\n"
+    "# Merit: 0.000818148\n# Parameters for a digital net in base 2\n10    # 10 dimensions\n"
+    "10   # k = 10,  n = 2^10 = 1024 points\n31   # r = 31 binary output digits\n"
+    "# Columns of gen. matrices C_1,...,C_s, one matrix per line\n"
+    "2097152 4194304 8388608 16777216 33554432 67108864 134217728 270532608 541065216 "
+    "1082130432\n"
+    "1690304512 1235222528 322961408 645922816 1291845632 436207616 874512384 1749024768 "
+    "1350565888 555745280\n"
+    "1746927616 1346371584 547356672 1094713344 44040192 88080384 176160768 354418688 "
+    "708837376 1419771904\n"
+    "1585446912 1023410176 2048917504 1950351360 1755316224 1363148800 580911104 1161822208 "
+    "178257920 358612992\n";
+static const char sobol_net[] =
+    "# Merit: 5\n# Parameters for a digital net in base 2\n10    # 10 dimensions\n"
+    "16   # k = 16,  n = 2^16 = 65536 points\n31   # r = 31 binary output digits\n"
+    "# Columns of gen. matrices C_1,...,C_s, one matrix per line\n"
+    "1073741824 536870912 268435456 134217728 67108864 33554432 16777216 8388608 4194304 "
+    "2097152 1048576 524288 262144 131072 65536 32768\n"
+    "1073741824 1610612736 1342177280 2013265920 1140850688 1711276032 1426063360 2139095040 "
+    "1077936128 1616904192 1347420160 2021130240 1145307136 1717960704 1431633920 2147450880\n"
+    "1073741824 536870912 1879048192 1476395008 872415232 2046820352 1124073472 662700032 "
+    "1950351360 1512046592 862978048 2144862208 1081344000 542769152 1882390528 1484750848\n"
+    "1073741824 1610612736 268435456 671088640 2080374784 973078528 1358954496 1233125376 "
+    "1816133632 312475648 753926144 1936195584 1006895104 1510342656 1090584576 1635942400\n"
+    "1073741824 536870912 1879048192 939524096 469762048 1644167168 1560281088 1115684864 "
+    "750780416 2053111808 816840704 434634752 1824784384 1516371968 1085734912 569081856\n"
+    "1073741824 1610612736 268435456 2013265920 603979776 1979711488 1761607680 1535115264 "
+    "1346371584 408944640 873463808 242745344 1294204928 771096576 958988288 1136361472\n"
+    "1073741824 1610612736 268435456 2013265920 1006632960 1509949440 1258291200 880803840 "
+    "188743680 1423966208 458227712 748158976 661389312 1992425472 1814495232 1115062272\n"
+    "1073741824 1610612736 805306368 134217728 603979776 1912602624 1795162112 360710144 "
+    "2051014656 1310720000 1678770176 303562752 1527513088 495058944 1581842432 1010597888\n"
+    "1073741824 536870912 805306368 939524096 201326592 2046820352 754974720 1266679808 "
+    "348127232 1205862400 1829765120 1804075008 617349120 2146304000 1628635136 295075840\n"
+    "1073741824 1610612736 1879048192 2013265920 738197504 704643072 1191182336 226492416 "
+    "985661440 1306525696 1527775232 1066926080 568066048 310247424 182124544 1441955840\n";
+static const char sobol_jk[] =
+    "# Merit: 5\n# Parameters for Sobol points, in JK format\n10    # 10 dimensions\n#  d  a  m_{j,c}\n2  1  0  1\n"
+    "3  2  1  1 1\n4  3  1  1 3 1\n5  3  2  1 1 7\n6  4  1  1 3 1 15\n7  4  4  1 3 1 15\n8  5  2  1 3 3 1 9\n"
+    "9  5  4  1 1 3 7 3\n10  5  7  1 3 7 15 11\n";
+static const char sobol_short[] =
+    "# Merit: 5\n# Parameters m_{j,c} for Sobol points\n10    # 10 dimensions\n"
+    "# m_{j,c}, starting from the second coordinate\n1\n1 1\n1 3 1\n1 1 7\n1 3 1 15\n1 3 1 15\n1 3 3 1 9\n1 1 3 7 3\n"
+    "1 3 7 15 11";
+
+static void latnet_builders_forms_agree(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *net, *other;
+        size_t n;
+        int dim;
+        double scale; /* 2^digits */
+    } pairs[] = {{polynomial_net, polynomial_lattice, 1024, 4, 0x1p10},
+                 {sobol_net, sobol_jk, 4096, 10, 0x1p31},
+                 {sobol_net, sobol_short, 4096, 10, 0x1p31}};
+    for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
+        koksma_points a, b;
+        write_file("net.txt", pairs[p].net);
+        write_file("other.txt", pairs[p].other);
+        assert_ok(points_of("net-file:net.txt", pairs[p].n, pairs[p].dim, &a));
+        assert_ok(points_of("net-file:other.txt", pairs[p].n, pairs[p].dim, &b));
+        for (size_t i = 0; i < pairs[p].n * (size_t)pairs[p].dim; i++) {
+            assert_near(a.xs[i], floor(b.xs[i] * pairs[p].scale) / pairs[p].scale, 0);
+        }
+        koksma_points_fini(&a);
+        koksma_points_fini(&b);
+    }
+    koksma_points points;
+    write_file("net.txt", sobol_short);
+    assert_int_equal(points_of("net-file:net.txt", 4, 11, &points), KOKSMA_DIM);
+    koksma_points_fini(&points);
+}
+
+/* Its ordinary lattices are the multiples of the vector, embedded or not. */
+static void latnet_builders_lattices_are_read(void **state)
+{
+    (void)state;
+    koksma_points points;
+    write_file(
+        "lattice.txt",
+        "# Input Command Line: -t lattice -c ordinary -s 2^16 -d 100 -f CU:P2 -q 2 --multilevel true\n"
+        "# Merit: 4.49877e+12\n# Parameters for a lattice rule, embedded from 2 to 16\n100    # 100 dimensions\n"
+        "65536    # modulus = n = 65536 points\n# Coordinates of generating vector, starting at j=1\n1\n25811\n");
+    assert_ok(points_of("lattice-file:lattice.txt", 4096, 2, &points));
+    for (size_t i = 0; i < 4096; i++) { /* x = j / 4096, y = {25811 j / 4096} */
+        const uint64_t j = (uint64_t)(points.xs[2 * i] * 4096);
+        assert_near(points.xs[2 * i + 1], (double)(j * 25811 % 4096) / 4096, 1e-15);
+    }
+    koksma_points_fini(&points);
+}
+
+/* The digits of an interlaced coordinate are those of its components in turn (Dick 2008): its example of a net of two
+   dimensions with the factor 2. */
+static void latnet_builders_interlaced_nets_are_interlaced(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "# Merit: 37.2087\n# Parameters for a digital net in base 2\n2    # 2 dimensions\n2    # Interlacing factor\n"
+        "4    # Number of components = interlacing factor x dimension\n10   # k = 10,  n = 2^10 = 1024 points\n"
+        "31   # r = 31 binary output digits\n# Columns of gen. matrices C_1,...,C_{ds}, one matrix per line\n";
+    static const uint32_t columns[4][10] = {{1073741824, 536870912, 268435456, 1476395008, 1543503872, 1644167168,
+                                             1728053248, 511705088, 180355072, 1625292800},
+                                            {1073741824, 1610612736, 1879048192, 134217728, 1543503872, 503316480,
+                                             1325400064, 2021654528, 71303168, 1839202304},
+                                            {1073741824, 1610612736, 805306368, 134217728, 1811939328, 369098752,
+                                             1828716544, 1753219072, 943718400, 568328192},
+                                            {1073741824, 536870912, 1879048192, 134217728, 1811939328, 167772160,
+                                             1795162112, 595591168, 809500672, 828375040}};
+    FILE *file = fopen("net.txt", "w");
+    assert_non_null(file);
+    fputs(text, file);
+    for (int j = 0; j < 4; j++) {
+        for (int c = 0; c < 10; c++) {
+            fprintf(file, "%u%c", columns[j][c], c < 9 ? ' ' : '\n');
+        }
+    }
+    assert_int_equal(fclose(file), 0);
+    koksma_points points;
+    assert_ok(points_of("net-file:net.txt", 1024, 2, &points));
+    for (uint32_t i = 0; i < 1024; i++) {
+        for (int k = 0; k < 2; k++) {
+            uint32_t y[2] = {0, 0};
+            double x = 0;
+            for (int c = 0; c < 10; c++) {
+                y[0] ^= i >> c & 1 ? columns[2 * k][c] : 0;
+                y[1] ^= i >> c & 1 ? columns[2 * k + 1][c] : 0;
+            }
+            for (int digit = 0; digit < 53;
+                 digit++) { /* digit 1, 3, .. of the first component, 2, 4, .. of the second */
+                x += (y[digit % 2] >> (30 - digit / 2) & 1) * pow(2, -digit - 1);
+            }
+            assert_near(points.xs[2 * i + (uint32_t)k], x, 0);
+        }
+    }
+    koksma_points_fini(&points);
+    write_file("net.txt", "# Parameters for a digital net in base 2\n2\n2 # Interlacing factor\n5\n2\n2\n");
+    assert_int_equal(points_of("net-file:net.txt", 4, 2, &points), KOKSMA_MALFORMED);
+    assert_non_null(strstr(koksma_error_text(), "5 components, not 2 times 2"));
+    koksma_points_fini(&points);
+}
+
 /* Each file is refused, and the message names the file, the line and what is wrong. */
 static void bad_files_are_refused(void **state)
 {
@@ -289,6 +441,9 @@ int main(void)
         cmocka_unit_test(nets_are_matrices_times_digits),
         cmocka_unit_test(polynomial_lattices_are_quotients),
         cmocka_unit_test(sobol_numbers_give_sobol_points),
+        cmocka_unit_test(latnet_builders_forms_agree),
+        cmocka_unit_test(latnet_builders_lattices_are_read),
+        cmocka_unit_test(latnet_builders_interlaced_nets_are_interlaced),
         cmocka_unit_test(bad_files_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What koksma/sampler.h promises inside a domain, for every function that draws: nets, runs of the R-sequence, cells
    and strata. tests/patterns/test_sampler_domains.c has what it promises between domains. */
+#include <koksma/keys.h>
 #include <koksma/sampler.h>
 
 #include "test.h"
@@ -213,6 +214,28 @@ static void all_forms_are_equal(void **state)
     }
 }
 
+/* The forms of white noise have the numbers of koksma_white_4d, and koksma_keys_2f those of koksma_keys_2d. */
+static void forms_of_other_draws_are_equal(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < 1000; i++) {
+        const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(7, i, 1), i);
+        const koksma_keys pixel = koksma_keys_of(7, i, 2 * i, i % 3, 64);
+        double xs[4], two[2];
+        float floats[4], two_floats[2];
+        koksma_white_4d(domain, i, xs);
+        koksma_white_4f(domain, i, floats);
+        assert_true(koksma_white_1d(domain, i) == xs[0]);
+        assert_true(koksma_white_1f(domain, i) == floats[0]);
+        for (int k = 0; k < 4; k++) {
+            assert_true(floats[k] == koksma_to_float(xs[k]));
+        }
+        koksma_keys_2d(&pixel, i % 64, two);
+        koksma_keys_2f(&pixel, i % 64, two_floats);
+        assert_true(two_floats[0] == koksma_to_float(two[0]) && two_floats[1] == koksma_to_float(two[1]));
+    }
+}
+
 /* Parts of samples: those of one sample, and of all samples of an aligned block, are nets. */
 static void parts_of_samples_are_nets(void **state)
 {
@@ -258,8 +281,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(aligned_blocks_are_nets),      cmocka_unit_test(quads_of_an_image_are_nets),
         cmocka_unit_test(aligned_blocks_of_r_are_runs), cmocka_unit_test(cmj_fills_cells_and_strata),
-        cmocka_unit_test(all_forms_are_equal),          cmocka_unit_test(parts_of_samples_are_nets),
-        cmocka_unit_test(every_axis_is_stratified),
+        cmocka_unit_test(all_forms_are_equal),          cmocka_unit_test(forms_of_other_draws_are_equal),
+        cmocka_unit_test(parts_of_samples_are_nets),    cmocka_unit_test(every_axis_is_stratified),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,6 +14,8 @@
  * and that of s_p s'_q with p != q has 1/N as for independent numbers. Then 144 N times the variance of the mean is
  * 1 + 144 (the sum of 2^-(4p+8) 2^-p) = 1 + (144 / 256)(32 / 31) = 49 / 31.
  */
+#include <koksma/keys.h>
+#include <koksma/mask.h>
 #include <koksma/sampler.h>
 
 #include "test.h"
@@ -84,6 +86,25 @@ static void parts(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
     koksma_sobol_2d(koksma_domain_of_sample(domain, i / 4), i % 4, xs);
 }
 
+/* A pixel of an image whose seed is the domain's key, in pair 1. */
+static void keys(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    const koksma_keys pixel = koksma_keys_of(domain.key, 3, 5, 1, n);
+    koksma_keys_2d(&pixel, i, xs);
+}
+
+/* Pixel 17 of an image with masks of 64 x 64 pixels, which are the same for all domains. */
+static void mask(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    const koksma_sobol sequence = koksma_sobol_of(domain);
+    const uint32_t ranks[3] = {1234, 77, 3001};
+    uint32_t values[3];
+    for (uint32_t k = 0; k < 3; k++) {
+        values[k] = koksma_mask_value(ranks[k], 64 * 64, 0x9e3779b9u * (k + 1));
+    }
+    koksma_mask_2d(&sequence, values, i, n, xs);
+}
+
 static const struct {
     const char *name;
     size_t dim;
@@ -93,6 +114,7 @@ static const struct {
     {"koksma_pmj02_2d", 2, pmj02}, {"koksma_cmj_2d", 2, cmj},
     {"koksma_r_2d", 2, r},         {"koksma_z_rank", 2, z},
     {"koksma_white_4d", 2, white}, {"koksma_domain_of_sample", 2, parts},
+    {"koksma_keys_2d", 2, keys},   {"koksma_mask_2d", 2, mask},
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 

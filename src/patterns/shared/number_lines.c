@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reads files of lines of whole numbers with comments after a #: the formats of LatNet Builder and of the collection
- * LDData (L'Ecuyer, Marion, Godin & Puchhammer 2022), and that of Joe & Kuo 2008, which begins with a header of
- * words. The whole file is read at once, but a line is parsed only when it is requested, so that unused dimensions
+ * Reads files of lines of whole numbers with comments after a #: the output.txt of LatNet Builder, which has a heading
+ * among its first comments, the files of the collection LDData, whose first line is their kind (both: L'Ecuyer, Marion,
+ * Godin & Puchhammer 2022), and that of Joe & Kuo 2008, which begins with a header of words. The whole file is read at once, but a line is parsed only when it is requested, so that unused dimensions
  * cost little.
  */
 #include "patterns/shared/number_lines.h"
@@ -20,10 +20,38 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Sets lines->kind: if the first line is a comment, to its first word; if it is Joe & Kuo's header, to "soboljk", and
-   skips the header. */
+/* Looks for the heading "# Parameters ..." of LatNet Builder's output among the comments at the start of the file. */
+static bool find_heading(koksma__number_lines *lines)
+{
+    static const struct {
+        const char *heading, *kind;
+    } headings[] = {{"# Parameters for a lattice rule", "lattice"},
+                    {"# Parameters for a polynomial lattice rule in base ", "plattice"},
+                    {"# Parameters for a digital net in base ", "dnet"},
+                    {"# Parameters for Sobol points, in JK format", "soboljk"},
+                    {"# Parameters m_{j", "sobol"}};
+    for (const char *s = lines->text; *s == '#'; s += *s == '\n') {
+        for (size_t i = 0; i < sizeof headings / sizeof *headings; i++) {
+            const size_t length = strlen(headings[i].heading);
+            if (!strncmp(s, headings[i].heading, length)) {
+                const char *base = s + length;
+                snprintf(lines->kind, sizeof lines->kind, "%s", headings[i].kind);
+                lines->base = base[-1] == ' ' && *base >= '0' && *base <= '9' ? strtoull(base, NULL, 10) : 2;
+                return true;
+            }
+        }
+        s += strcspn(s, "\n");
+    }
+    return false;
+}
+
+/* Sets lines->kind: by the heading of LatNet Builder's output; if the first line is another comment, to its first word;
+   if it is Joe & Kuo's header, to "soboljk", and skips the header. */
 static void find_kind(koksma__number_lines *lines)
 {
+    if (find_heading(lines)) {
+        return;
+    }
     const char *s = lines->text + strspn(lines->text, " \t");
     if (*s == '#') {
         s += 1 + strspn(s + 1, " \t");

@@ -8,7 +8,10 @@
 
 typedef struct koksma__number_lines {
     char name[KOKSMA_MAX_SPEC + 16]; /* "pattern:PATH", for error messages */
-    char kind[16]; /* the word of a first line "# word"; "soboljk" after Joe & Kuo's header "d s a m_i"; else "" */
+    /* the word of a first line "# word"; "soboljk" after Joe & Kuo's header "d s a m_i"; of LatNet Builder's output
+       "lattice", "plattice", "dnet", "soboljk" or "sobol"; else "" */
+    char kind[16];
+    uint64_t base; /* the base that LatNet Builder's output has in its heading; 0 for other files */
     char *text, *at;
     size_t number; /* number of the line read last, from 1 */
 } koksma__number_lines;

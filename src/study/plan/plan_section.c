@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <koksma/integrate.h>
+#include <koksma/study.h>
 
 #include "core/status.h"
 
@@ -58,18 +59,32 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return length < KOKSMA_MAX_SPEC ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "%.64s...: too long", text);
 }
 
-/* Whether a path begins at `at`: directly after a word such as "file:", which must be at the start of the text or
-   after "=" or ";", as in ";lens=file:". */
-static bool begins_path(const char *text, const char *at)
+/* Whether `text`, up to `end`, ends with a word that stands at its start or after "=" or ";" and names a pattern whose
+   operand is a path. Only the operand that is a list of numbers has a colon in its name, "Z1:Z2:..". */
+static bool ends_with_pattern(const char *text, const char *end)
 {
-    static const char *const words[] = {"file:", "exec:", "plugin:"};
-    bool found = false;
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        const size_t length = strlen(words[i]);
-        found = found || ((size_t)(at - text) >= length && !strncmp(at - length, words[i], length) &&
-                          (at - length == text || strchr("=;", at[-(ptrdiff_t)length - 1])));
+    char name[KOKSMA_MAX_SPEC];
+    const char *word = end;
+    while (word > text && !strchr("=;", word[-1])) {
+        word--;
     }
-    return found;
+    const int length = (int)(end - word);
+    if (length >= KOKSMA_MAX_SPEC) {
+        return false;
+    }
+    snprintf(name, sizeof name, "%.*s", length, word);
+    const koksma_pattern *pattern = koksma_pattern_find(name);
+    return pattern && pattern->operand && !strchr(pattern->operand, ':');
+}
+
+size_t koksma_plan_path(const char *text, size_t from)
+{
+    KOKSMA__REQUIRE_OR(0, text);
+    const char *colon = strlen(text) > from ? strchr(text + from, ':') : NULL;
+    while (colon && !ends_with_pattern(text, colon)) {
+        colon = strchr(colon + 1, ':');
+    }
+    return colon ? (size_t)(colon + 1 - text) : 0;
 }
 
 /* Makes a relative path relative to the current folder instead of the plan's: writes the plan's folder before the
@@ -89,11 +104,16 @@ static koksma_status from_plan(const koksma__json_node *node, bool is_scene, cha
     if (!joined) {
         return koksma__fail_memory(length);
     }
-    for (const char *at = *text; *at; *to++ = *at++) {
-        if (*at != '/' && (is_scene ? at == *text : begins_path(*text, at))) {
-            memcpy(to, name, folder);
-            to += folder;
+    size_t path = is_scene ? 0 : koksma_plan_path(*text, 0);
+    for (size_t i = 0; i < length; i++) {
+        if (i == path && (is_scene || path)) {
+            if ((*text)[i] != '/') {
+                memcpy(to, name, folder);
+                to += folder;
+            }
+            path = is_scene ? 0 : koksma_plan_path(*text, i);
         }
+        *to++ = (*text)[i];
     }
     const bool fits = (size_t)(to - joined) < KOKSMA_MAX_SPEC;
     const koksma_status status =
