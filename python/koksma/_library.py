@@ -11,7 +11,7 @@ from functools import lru_cache
 from operator import index
 from pathlib import Path
 from time import perf_counter
-from typing import Callable, Dict, Hashable, Iterator, Optional, Set, SupportsIndex, Tuple
+from typing import Any, Callable, Dict, Hashable, Iterator, Optional, Set, SupportsIndex, Tuple
 
 from . import _structs as s
 from ._signals import Signals
@@ -262,19 +262,19 @@ def check(status: int) -> None:
         return
     text = re.sub(r"'koksma list (\w+)'", r"koksma.\1()", core().koksma_error_text().decode(errors="replace"))
     kind = _CLASSES[status] if status < len(_CLASSES) else Error
-    error = kind(text)
+    error = (kind or Error)(text)
     if isinstance(error, Error):
         error.status = status
     raise error
 
 
 @lru_cache(maxsize=None)
-def _paced() -> s.KeepGoing:
+def _paced() -> Any:
     """Called by the library, in C: asks Python once in an interval only, as the library asks far more often."""
     return s.KeepGoing(("koksma__paced", core()))
 
 
-def call(function: object, *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
+def call(function: Callable[..., int], *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
          run_at: int, progress: Optional[Callable[[float], object]] = None, short: bool = False,
          same: Optional[Hashable] = None) -> None:
     """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler or `progress` raises

@@ -6,7 +6,7 @@ import ctypes
 from ctypes import byref, c_double, c_uint64
 from dataclasses import dataclass
 from math import ceil, sqrt
-from typing import Callable, Optional, Sequence, SupportsIndex, Union
+from typing import Any, Callable, List, Optional, Sequence, SupportsIndex, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -104,9 +104,12 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     if keep not in _KEEP:
         raise ArgumentError(f"keep {keep!r}: it takes 'none', 'latin', 'net' or 'sequence'")
     first = None if start is None else as_points(start)
-    if n is None and first is None:
+    if n is not None:
+        n = whole("n", n, 1, s.MAX_COORDINATES)
+    elif first is not None:
+        n = int(first.shape[0])
+    else:
         raise ArgumentError("n, the number of points, is missing")
-    n = first.shape[0] if n is None else whole("n", n, 1, s.MAX_COORDINATES)
     dim = whole("dim", dim, 1, s.MAX_DIM) if first is None else first.shape[1]
     steps = whole("steps", steps, 0, s.MAX_SEED)
     if not steps and time_limit is None and progress is None:
@@ -118,9 +121,9 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     target = radial_power(power, n, threads=threads) if isinstance(power, str) else None if power is None else np.array(power, float)
     if target is not None and target.ndim != 1:
         raise ArgumentError(f"power has the shape {target.shape}: it takes a number for each of the frequencies 1, 2, ..")
-    raised = []
+    raised: List[BaseException] = []
 
-    def tell(_context: object, best: object) -> bool:
+    def tell(_context: object, best: Any) -> bool:
         try:
             return progress is None or progress(_optimum(best.contents)) is not False
         except BaseException as error:  # comes out of optimise()

@@ -153,9 +153,9 @@ class Finding:
     detail: str
 
 
-def table(at: object) -> List[Member]:
+def table(at: Any) -> List[Member]:
     """The members of a table of patterns, measures or integrands, by the function that returns member i."""
-    members = []
+    members: List[Member] = []
     while at(len(members)):
         m = at(len(members)).contents
         names, i = [], 0
@@ -189,7 +189,8 @@ def patterns() -> List[Member]:
 
 def modifiers() -> List[Modifier]:
     """All modifiers, in the order in which they are applied."""
-    at, found = core().koksma_modifier_at, []
+    at: Any = core().koksma_modifier_at
+    found: List[Modifier] = []
     while at(len(found)):
         m = at(len(found)).contents
         found.append(Modifier(m.name.decode(), m.title.decode(), m.cite.decode(), m.keeps.decode(), m.measures.decode()))
@@ -240,7 +241,7 @@ class _Memory:
 
 def shown(pointer: Any, *shape: int) -> npt.NDArray[Any]:
     """An array over the library's memory. (Not by np.ctypeslib.as_array: ctypes keeps a type of each shape for ever.)"""
-    memory = _Memory()
+    memory: Any = _Memory()
     memory.__array_interface__ = {"version": 3, "shape": shape, "typestr": np.dtype(pointer._type_).str,
                                   "data": (ctypes.addressof(pointer.contents), False)}
     return np.asarray(memory)
@@ -282,7 +283,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     generate`.
     """
     shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
-    if (type(seed) is type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
+    if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
             and density is on is None and type(first) is int and first == 0 and set(map(type, shape or ())) == {int}
             and (pattern, shape) in quick):
         quickly = _quick_points(pattern, shape, seed, threads, out)
@@ -314,6 +315,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         return adopt(points)
     if out is None:
         dim = dim or 2
+        assert n is not None  # else the pattern has said it, above
         if n * dim > s.MAX_COORDINATES:
             raise ArgumentError(f"{n} points in {dim} dimensions: n times dim is at most {s.MAX_COORDINATES}")
         out = np.zeros((n, dim))
@@ -339,13 +341,12 @@ def _generate_in(pattern: str, n: SupportsIndex, dim: Optional[SupportsIndex], s
     from ._render import read_image
 
     parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
-    dim = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
-    n = whole("n", n, 1, s.MAX_COORDINATES // dim)
-    out = np.zeros((n, dim))
+    axes = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
+    out = np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
     points = view(out)
     if on is not None:
         call(lab().koksma_generate_on, byref(parsed), seed, text(os.fspath(on)), byref(points), threads=threads, run_at=3)
-    else:
+    elif density is not None:
         array = read_image(density) if isinstance(density, (str, os.PathLike)) else as_image(density)
         call(lab().koksma_generate_density, byref(parsed), seed, byref(view_image(array)), byref(points), threads=threads,
              run_at=3)
@@ -353,8 +354,8 @@ def _generate_in(pattern: str, n: SupportsIndex, dim: Optional[SupportsIndex], s
 
 
 @overload
-def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None, threads: SupportsIndex = 0,
-            time_limit: Optional[float] = None) -> Value: ...
+def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None,  # type: ignore[overload-overlap, unused-ignore]
+            threads: SupportsIndex = 0, time_limit: Optional[float] = None) -> Value: ...
 @overload
 def measure(points: npt.ArrayLike, measure: Sequence[str], *, warp: Optional[str] = None, threads: SupportsIndex = 0,
             time_limit: Optional[float] = None) -> Dict[str, Value]: ...

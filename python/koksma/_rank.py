@@ -118,7 +118,9 @@ class _Renderer:
     _ARGUMENT, _SYSTEM = 1, 10  # KOKSMA_ARGUMENT, KOKSMA_SYSTEM
 
     def __init__(self, renderer: Callable[[Asked], npt.ArrayLike]) -> None:
-        self.renderer, self.raised, self.reasons = renderer, [], {}  # type: Any, List[BaseException], Dict[str, str]
+        self.renderer = renderer
+        self.raised: List[BaseException] = []
+        self.reasons: Dict[str, str] = {}
         self.callback = s.RankRenderer(self._render)
 
     def _render(self, _context: Any, picture: Any, _run: Any, image: Any) -> int:
@@ -189,12 +191,12 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         if other is not None and other.raised:
             raise other.raised[0] from None
         raise
-    reasons = {} if other is None else other.reasons
+    reasons: Dict[str, str] = {} if other is None else other.reasons
     undecided = not out.settled
     return Ranking(
         rows=[Ranked(names[r.pattern], r.position or None, _STATES[r.state], _DECISIONS[r.decision], r.trials, r.mean,
                      (r.low, r.high), r.behind, (r.behind_low, r.behind_high),
-                     reasons.get(names[r.pattern], r.reason.decode(errors="replace")),
+                     reasons.get(names[int(r.pattern)], r.reason.decode(errors="replace")),
                      r.coherence.coherence, (r.coherence.low, r.coherence.high), r.coherence.noise_high,
                      r.coherence.p, r.coherence.coherent, r.robust, r.top_share)
               for r in rows],
@@ -209,7 +211,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
 def _result(result: s.RankCheckResult, names: Sequence[str]) -> FirstPlace:
     overturned = _CHECKS[result.state] == "overturned"
     interval = (result.behind_low, result.behind_high) if overturned else (math.nan, math.nan)
-    return FirstPlace(_CHECKS[result.state], names[result.pattern] if overturned else None,
+    return FirstPlace(_CHECKS[result.state], names[int(result.pattern)] if overturned else None,
                       result.behind if overturned else math.nan, interval, result.coherent)
 
 

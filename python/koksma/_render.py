@@ -6,7 +6,7 @@ import math
 import os
 from ctypes import byref, c_void_p, pointer
 from dataclasses import dataclass, field
-from typing import Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from typing import Any, Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -40,7 +40,8 @@ def adaptive() -> List[Named]:
 
 
 def _choice(kind: str, word: str) -> int:
-    names, name_of = [], getattr(lab(), f"koksma_{kind}_name")
+    names: List[str] = []
+    name_of: Any = getattr(lab(), f"koksma_{kind}_name")
     while name_of(len(names)):
         names.append(name_of(len(names)).decode())
     if word not in names:
@@ -49,7 +50,7 @@ def _choice(kind: str, word: str) -> int:
 
 
 def _found(kind: str, name: str) -> int:
-    found = getattr(lab(), f"koksma_{kind}_find")(text(name))
+    found: int = getattr(lab(), f"koksma_{kind}_find")(text(name))
     if not found:
         raise ArgumentError(f"no {kind} '{name}'; koksma.{kind}s() names them")
     return found
@@ -187,12 +188,12 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         lab().koksma_scene_close(handle)
     if adaptive is None and not layers:
         return adopt_image(image)
-    names = ("image", "albedo", "normal", "depth", "samples", "variance")
-    arrays = [adopt_image(s.Image.from_buffer_copy(getattr(every, name))) for name in names]
+    parts = {name: adopt_image(s.Image.from_buffer_copy(getattr(every, name)))
+             for name in ("image", "albedo", "normal", "depth", "samples", "variance")}
     if not layers:
-        return arrays[0]
+        return parts["image"]
     aovs = {further.names[i].value.decode(): adopt_image(s.Image.from_buffer_copy(further.images[i])) for i in range(further.n)}
-    return Layers(*arrays, every.rays, report.rounds, report.splits, aovs)
+    return Layers(**parts, rays=every.rays, rounds=report.rounds, splits=report.splits, aovs=aovs)
 
 
 def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
@@ -218,4 +219,4 @@ def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> N
 
 def version() -> str:
     """The library's version."""
-    return core().koksma_version().decode()
+    return str(core().koksma_version().decode())

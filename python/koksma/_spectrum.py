@@ -62,7 +62,7 @@ def _result(raw: s.Spectrum) -> Spectrum:
 
 def _each(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]") -> "Iterable[npt.ArrayLike]":
     """The sets one by one. What has rows of numbers is one set; an iterator is not looked into beforehand."""
-    rows = np.asanyarray(sets) if hasattr(sets, "__array__") else sets
+    rows: Any = np.asanyarray(sets) if hasattr(sets, "__array__") else sets
     if isinstance(rows, np.ndarray):
         return [rows] if rows.ndim == 2 else rows
     return [rows] if isinstance(rows, Sequence) and rows and np.ndim(rows[0]) == 1 else rows
@@ -117,7 +117,7 @@ def pair_correlation(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", r_max: flo
         c_points = view(array := as_points(points))
         call(core().koksma_pair_correlation, byref(c_points), r_max, width, values, threads=threads, run_at=3)
         del array
-        total += np.frombuffer(values)
+        total += np.array(values)
         count += 1
     if not count:
         raise ArgumentError("a pair correlation takes at least one set of points")

@@ -125,7 +125,7 @@ class Study:
     def __init__(self, plan: Union[Plan, Sequence[Plan]] = (), folder: Union[str, "os.PathLike[str]", None] = None, *,
                  trials: Optional[SupportsIndex] = None, quick: bool = False) -> None:
         self._handle = c_void_p()
-        self.folder = None if folder is None else Path(folder)
+        self.folder: Optional[Path] = None if folder is None else Path(folder)
         plans = [plan] if isinstance(plan, (str, os.PathLike, dict)) else list(plan)
         with tempfile.TemporaryDirectory(prefix="koksma-plan-") as room:
             names = []
