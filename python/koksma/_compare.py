@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, check, lab, text
+from ._library import ArgumentError, check, lab, text, texts
 from ._points import Named, named
 
 FEW_PIXELS = 0.5  #: the share of the error in 0.1 % of the pixels from which on koksma warns
@@ -113,9 +113,7 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     >>> round(koksma.compare(image, np.ones((8, 8)), metrics=["smape"]).metrics["smape"].value, 6)
     0.199203
     """
-    if isinstance(metrics, str):
-        raise ArgumentError(f"metrics {metrics!r}: it takes a list of texts")
-    specs = dict((name, spec) for spec, name in map(_metric, ("rmse", *metrics)))
+    specs = dict((name, spec) for spec, name in map(_metric, ("rmse", *texts("metrics", metrics))))
     several: Any = images
     if hasattr(images, "__array__"):
         several = [images] if np.ndim(several) < 4 else several

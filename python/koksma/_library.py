@@ -11,7 +11,7 @@ from functools import lru_cache
 from operator import index
 from pathlib import Path
 from time import perf_counter
-from typing import Any, Callable, Dict, Hashable, Iterator, Optional, Set, SupportsIndex, Tuple
+from typing import Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Set, SupportsIndex, Tuple
 
 from . import _structs as s
 from ._signals import Signals
@@ -256,13 +256,29 @@ def refuse_unknown() -> Iterator[None]:
         lab().koksma_scene_refuse_unknown(before)
 
 
+_OF_PYTHON = (  # what the library says of the program and of C, as this package has it
+    (r"'koksma list (\w+)'", r"koksma.\1()"),
+    (r"--allow-exec allows that \(koksma_allow_exec in C, koksma.allow_exec in Python\)", "koksma.allow_exec() allows that"),
+    (r"^koksma_\w+: ", ""),
+    (r"^n_beside: ", "beside: "),
+    (r"^([a-z].*): the number of points is missing$", r"\1: n, the number of points, is missing"),
+)
+
+
+def in_python(message: str) -> str:
+    """A line of the library with the names that Python has for things."""
+    for pattern, ours in _OF_PYTHON:
+        message = re.sub(pattern, ours, message)
+    return message
+
+
 def check(status: int) -> None:
     """Raises what a failed call has to say."""
     if status == 0:
         return
-    text = re.sub(r"'koksma list (\w+)'", r"koksma.\1()", core().koksma_error_text().decode(errors="replace"))
+    message = in_python(core().koksma_error_text().decode(errors="replace"))
     kind = _CLASSES[status] if status < len(_CLASSES) else Error
-    error = (kind or Error)(text)
+    error = (kind or Error)(message)
     if isinstance(error, Error):
         error.status = status
     raise error
@@ -336,8 +352,26 @@ def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     return number
 
 
+def texts(name: str, values: Iterable[str]) -> List[str]:
+    """Several texts. One alone would pass as the list of its letters."""
+    if isinstance(values, str):
+        raise ArgumentError(f"{name} {values!r}: it takes a list of texts")
+    return list(values)
+
+
+def pair(name: str, values: Tuple[SupportsIndex, SupportsIndex]) -> Tuple[SupportsIndex, SupportsIndex]:
+    """Width and height."""
+    try:
+        width, height = values
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name} {values!r}: it takes (width, height)") from None
+    return width, height
+
+
 def text(value: str) -> bytes:
     """A name or path as the library takes it."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError(f"a name or path is a text, not {value!r}")
     return without_zero("a name or path", os.fsencode(value))
 
 

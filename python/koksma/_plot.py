@@ -60,6 +60,8 @@ def _figure(rows: "Sequence[Sequence[Union[s.Panel, s.Chart]]]", title: Optional
     """A figure of rows of cells; what they point to lives as long as the picture."""
     if theme not in ("light", "dark"):
         raise ArgumentError(f"theme '{theme}': it takes light or dark")
+    if width and not 16 <= width <= 32767:
+        raise ArgumentError(f"size {width}: it takes 16 to 32767; 0: as the picture needs")
     flat = [(cell, row) for row, cells in enumerate(rows) for cell in cells]
     cells = (s.Cell * len(flat))()
     for i, (cell, row) in enumerate(flat):

@@ -301,7 +301,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
     if first and not (is_sequence(pattern) and has_ranges(pattern)):
-        raise ArgumentError(f"{pattern}: first is for sequences that have ranges")
+        raise ArgumentError(f"{pattern}: first is for sequences that have ranges (koksma.has_ranges)")
     if n is None and out is None:
         if first:
             raise ArgumentError("first takes n, the number of points")
@@ -511,6 +511,8 @@ def has_ranges(pattern: str) -> bool:
 
 def canonical(text_of_spec: str, kind: str = "pattern") -> str:
     """The canonical text of a spec of a "pattern" or "measure", under which results are stored."""
+    if kind not in ("pattern", "measure"):
+        raise ArgumentError(f"kind {kind!r}: it takes 'pattern' or 'measure'")
     parsed, room = spec(kind, text_of_spec), ctypes.create_string_buffer(s.MAX_SPEC)
     core().koksma_spec_text(byref(parsed), room)
     return os.fsdecode(room.value)  # it may have a path

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._compare import as_image, _metric
-from ._library import ArgumentError, call, lab, text, whole
+from ._library import ArgumentError, call, in_python, lab, pair, text, texts, whole
 from ._points import canonical
 from ._render import _found
 
@@ -166,7 +166,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     if time_limit is not None and not time_limit > 0:
         raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
     other = _Renderer(renderer) if renderer is not None else None
-    names = [canonical(pattern) if other is None else pattern for pattern in patterns]
+    names = [canonical(pattern) if other is None else pattern for pattern in texts("patterns", patterns)]
     if not names or len(set(names)) < len(names):
         raise ArgumentError("patterns: it takes one or more, each once")
     spec, metric = _metric(metric)
@@ -178,7 +178,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
                             integrator=_found("integrator", integrator or "distribution"),
                             filter=_found("filter", filter or "box"), metric=pointer(spec))
     if size is not None:
-        width, height = size
+        width, height = pair("size", size)
         options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
         options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
     if other is not None:
@@ -196,7 +196,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     return Ranking(
         rows=[Ranked(names[r.pattern], r.position or None, _STATES[r.state], _DECISIONS[r.decision], r.trials, r.mean,
                      (r.low, r.high), r.behind, (r.behind_low, r.behind_high),
-                     reasons.get(names[int(r.pattern)], r.reason.decode(errors="replace")),
+                     reasons.get(names[int(r.pattern)], in_python(r.reason.decode(errors="replace"))),
                      r.coherence.coherence, (r.coherence.low, r.coherence.high), r.coherence.noise_high,
                      r.coherence.p, r.coherence.coherent, r.robust, r.top_share)
               for r in rows],

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, lab, text, whole
+from ._library import ArgumentError, call, check, core, lab, pair, text, texts, whole
 from ._points import Named, free_with, named, shown
 
 
@@ -39,13 +39,13 @@ def adaptive() -> List[Named]:
     return named(lab().koksma_adaptive_at)
 
 
-def _choice(kind: str, word: str) -> int:
+def _choice(argument: str, kind: str, word: str) -> int:
     names: List[str] = []
     name_of: Any = getattr(lab(), f"koksma_{kind}_name")
     while name_of(len(names)):
         names.append(name_of(len(names)).decode())
     if word not in names:
-        raise ArgumentError(f"{kind} '{word}': it takes {', '.join(names)}")
+        raise ArgumentError(f"{argument} '{word}': it takes {', '.join(names)}")
     return names.index(word)
 
 
@@ -131,14 +131,13 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     """
     handle, options, image, every, report = c_void_p(), s.RenderOptions(), s.Image(), s.Layers(), s.AdaptiveReport()
     further = s.Aovs()
-    if isinstance(aov, str):
-        raise ArgumentError(f"aov {aov!r}: it takes a list of texts")
+    aov = texts("aov", aov)
     if aov and not layers:
         raise ArgumentError("aov takes layers=True")
     if aov:
         check(lab().koksma_aovs_parse(text(",".join(aov)), byref(further)))
-    choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),
-                               "lights": _choice("light_selection", lights)}
+    choices: Dict[str, int] = {"pairing": _choice("pairing", "pairing", pairing), "scope": _choice("scope", "scope", scope),
+                               "lights": _choice("lights", "light_selection", lights)}
     spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
     name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
     check(lab().koksma_scene_open(text(name), byref(handle)))
@@ -149,7 +148,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         for name, value in choices.items():
             setattr(options, name, value)
         if size is not None:
-            width, height = size
+            width, height = pair("size", size)
             options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
             options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
         if integrator is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import tempfile
 from ctypes import byref, c_bool, c_char_p, c_void_p
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, lab, text, whole
+from ._library import ArgumentError, MalformedError, call, check, lab, text, whole
 
 Plan = Union[str, "os.PathLike[str]", Dict[str, Any]]
 
@@ -139,7 +140,13 @@ class Study:
             options = s.StudyOptions((c_char_p * len(names))(*names), len(names),
                                      None if folder is None else text(os.fspath(folder)),
                                      0 if trials is None else whole("trials", trials, 1, 100000000), quick)
-            check(lab().koksma_study_open(byref(options), byref(self._handle)))
+            try:
+                check(lab().koksma_study_open(byref(options), byref(self._handle)))
+            except MalformedError as error:  # of a dict: the file of its lines is gone
+                said = re.sub(rf"plan '{re.escape(room)}/[^']*': line (\d+): ", r"line \1 of json.dumps(plan, indent=1): ", str(error))
+                again = MalformedError(said)
+                again.status = error.status
+                raise again from None
 
     def _open(self) -> c_void_p:
         if not self._handle:
