@@ -76,7 +76,18 @@ def _metric(name: str) -> Tuple[s.MetricSpec, str]:
 
 
 def metrics() -> List[Named]:
-    """All metrics of the error of images, in the table's order."""
+    """All metrics of the error of images, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "smape" in [m.name for m in koksma.metrics()]
+    True
+    """
     return named(lab().koksma_metric_at)
 
 
@@ -103,10 +114,25 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
             metrics: Sequence[str] = ()) -> Comparison:
     """Compares an image, or several in a list or another iterable, with a reference, all of linear light.
 
-    Several images are those of one pattern with several seeds; an iterator is asked for one at a time. metrics: beside
-    rmse, such as "relmse", "smape:epsilon=0.001" or "hdr-flip:ppd=40" (`koksma.metrics()`). A RuntimeWarning says where
-    0.1 % of the pixels carry half of the error or more.
+    Parameters
+    ----------
+    images : array_like, or an iterable of them
+        Several images are those of one pattern with several seeds; an iterator is asked for one at a time.
+    reference : array_like of shape (height, width) or (height, width, channels)
+    metrics : sequence of str
+        Beside rmse, such as "relmse", "smape:epsilon=0.001" or "hdr-flip:ppd=40" (`koksma.metrics()`).
 
+    Returns
+    -------
+    Comparison
+
+    Warns
+    -----
+    RuntimeWarning
+        0.1 % of the pixels carry half of the error or more.
+
+    Examples
+    --------
     >>> import koksma
     >>> import numpy as np
     >>> image = np.full((8, 8), 1.5)

@@ -30,6 +30,7 @@ class Datasheet:
 
     @property
     def html(self) -> str:
+        """The page, which needs no other file."""
         page = c_void_p()
         check(lab().koksma_datasheet_page(text(self._json), byref(page)))
         return _owned(page)

@@ -67,6 +67,15 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
     ended. Of any other pattern each call draws a set of n points of its own, which depends on the seed and on how many
     points came before. But where the pattern itself is deterministic, such as "regular", "hammersley" and the
     lattices, every call gives the same n points, whatever the seed: with "hammersley:shift=1" the sets differ.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> engine = koksma.Engine("sobol:scramble=owen", d=2, seed=7)
+    >>> bool((engine.random(8) == koksma.generate("sobol:scramble=owen", 8, 2, 7)).all())
+    True
+    >>> engine
+    Engine('sobol:scramble=owen', d=2, num_generated=8)
     """
 
     def __init__(self, pattern: str, d: SupportsIndex = 2, *, optimization: Optional[str] = None, seed: Any = None,

@@ -224,12 +224,18 @@ def lab() -> ctypes.CDLL:
 
 @contextmanager
 def allow_exec(seconds: float = 60.0) -> Iterator[None]:
-    """Lets the patterns "exec:PROGRAM" and "plugin:LIBRARY" run code in a block, in this thread:
+    """Lets the patterns "exec:PROGRAM" and "plugin:LIBRARY" run code in a block, in this thread.
 
-        with koksma.allow_exec():
-            ranking = koksma.rank("ball", ["exec:./mysampler", "sobol"])
+    Parameters
+    ----------
+    seconds : float
+        The longest that a program may take for one set.
 
-    seconds: the longest that a program may take for one set.
+    Examples
+    --------
+    >>> import koksma
+    >>> with koksma.allow_exec():  # doctest: +SKIP
+    ...     ranking = koksma.rank("ball", ["exec:./mysampler", "sobol"])
     """
     if not seconds > 0:
         raise ArgumentError(f"seconds {seconds}: it takes a number above 0")
@@ -242,12 +248,15 @@ def allow_exec(seconds: float = 60.0) -> Iterator[None]:
 
 @contextmanager
 def refuse_unknown() -> Iterator[None]:
-    """Refuses scenes of pbrt and Mitsuba with parts that Koksma does not know in a block, in this thread:
-
-        with koksma.refuse_unknown():
-            ranking = koksma.rank("scene.pbrt")
+    """Refuses scenes of pbrt and Mitsuba with parts that Koksma does not know in a block, in this thread.
 
     Without it such parts are replaced by what is nearest; `koksma scene check` names them.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> with koksma.refuse_unknown():  # a scene that ships has no such part
+    ...     image = koksma.render("ball", spp=1, size=(4, 3))
     """
     before = lab().koksma_scene_refuse_unknown(True)
     try:

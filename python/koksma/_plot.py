@@ -41,6 +41,7 @@ class Picture:
 
     @property
     def svg(self) -> str:
+        """The text of the drawing."""
         return self.bytes().decode()
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
@@ -107,7 +108,7 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
     --------
     >>> import koksma
     >>> picture = koksma.plot(koksma.generate("n-rooks", 16), witness="star", titles=["n-rooks"])
-    >>> picture.save("points.svg")  # doctest: +SKIP
+    >>> picture.save("points.svg")
     """
     if not 1 <= len(sets) <= 64:
         raise ArgumentError(f"{len(sets)} sets: it takes 1 to 64")
@@ -177,6 +178,13 @@ def plot_convergence(*results: Convergence, size: float = 0, title: Optional[str
     Returns
     -------
     Picture
+
+    Examples
+    --------
+    >>> import koksma
+    >>> curves = [koksma.convergence(pattern, sizes=[16, 64, 256]) for pattern in ("sobol", "halton")]
+    >>> koksma.plot_convergence(*curves).svg.count("slope")
+    2
     """
     if not results:
         raise ArgumentError("it takes at least one Convergence")

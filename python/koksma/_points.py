@@ -178,17 +178,50 @@ def named(at: Any) -> List[Named]:
 
 
 def warps() -> List[Named]:
-    """All warps, in the table's order."""
+    """All warps, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.warps()[0].name
+    'concentric-disk'
+    """
     return named(core().koksma_warp_at)
 
 
 def patterns() -> List[Member]:
-    """All patterns, in the table's order."""
+    """All patterns, in the table's order.
+
+    Returns
+    -------
+    list of Member
+
+    Examples
+    --------
+    >>> import koksma
+    >>> [p.name for p in koksma.patterns() if "maximal" in p.claims]
+    ['poisson-disk-maximal']
+    """
     return table(core().koksma_pattern_at)
 
 
 def modifiers() -> List[Modifier]:
-    """All modifiers, in the order in which they are applied."""
+    """All modifiers, in the order in which they are applied.
+
+    Returns
+    -------
+    list of Modifier
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "shift" in [m.name for m in koksma.modifiers()]
+    True
+    """
     at: Any = core().koksma_modifier_at
     found: List[Modifier] = []
     while at(len(found)):
@@ -198,7 +231,18 @@ def modifiers() -> List[Modifier]:
 
 
 def measures() -> List[Member]:
-    """All measures, in the table's order."""
+    """All measures, in the table's order.
+
+    Returns
+    -------
+    list of Member
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.measures()[0].name
+    'star'
+    """
     return table(core().koksma_measure_at)
 
 
@@ -266,21 +310,56 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
              on: Optional[Union[str, "os.PathLike[str]"]] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
-    pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
-    n: how many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
-    dim: 2 where it is left out, but all that a file has where n is left out, too.
-    first: the number of the first point, of a sequence that has ranges (has_ranges): n points from there on.
-    out: an aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one; n and dim may be left
-    out, or are those of its shape.
-    allow_exec: run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
-    density: an image, as a file or an array of shape (height, width), whose luminance the density follows; its bottom
-    row is at y = 0.
-    on: a model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
-    dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
+    Parameters
+    ----------
+    pattern : str
+        A spec such as "n-rooks" or "poisson-disk:d=0.2"; koksma.patterns() has them all.
+    n : int
+        How many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
+    dim : int
+        2 where it is left out, but all that a file has where n is left out, too.
+    seed : int
+        0 to 2**64 - 1.
+    first : int
+        The number of the first point, of a sequence that has ranges (has_ranges): n points from there on.
+    threads : int
+        0: one for each processor. The points do not depend on it.
+    out : ndarray, optional
+        An aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one; n and dim may be left out,
+        or are those of its shape.
+    allow_exec : bool
+        Run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
+    density : path or array_like of shape (height, width), optional
+        An image whose luminance the density follows; its bottom row is at y = 0.
+    on : path, optional
+        A model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
+        dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
 
+    Returns
+    -------
+    ndarray of shape (n, dim)
+
+    Raises
+    ------
+    ArgumentError
+        The spec is wrong, or the pattern has no such set; the message says which n would do.
+    ForbiddenError
+        The pattern runs code of others, which allow_exec lets it.
+
+    Notes
+    -----
     density and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk",
     "poisson-disk-maximal" and "gaussian-blue-noise". Equal arguments give equal bits, and the same as `koksma
     generate`.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.generate("sobol", 4)
+    array([[0.  , 0.  ],
+           [0.5 , 0.5 ],
+           [0.25, 0.75],
+           [0.75, 0.25]])
     """
     shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
     if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
@@ -473,7 +552,25 @@ def _quick_points(pattern: str, shape: Tuple[int, ...], seed: int, threads: int,
 
 
 def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding]:
-    """Which properties these points really have: nets, strata, distances, repeated points and more."""
+    """Which properties these points really have: nets, strata, distances, repeated points and more.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, dim)
+    threads : int
+        0: one for each processor.
+
+    Returns
+    -------
+    list of Finding
+
+    Examples
+    --------
+    >>> import koksma
+    >>> found = koksma.verify(koksma.generate("n-rooks", 16))
+    >>> all(f.holds for f in found if f.property == "latin")
+    True
+    """
     array = as_points(points)
     findings, c_points = s.Findings(), view(array)
     try:
@@ -485,14 +582,46 @@ def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding
 
 
 def read(path: Union[str, "os.PathLike[str]"]) -> PointArray:
-    """Points from a .npy or text file, by its content."""
+    """Reads points.
+
+    Parameters
+    ----------
+    path : str or path
+        A .npy or text file, which its content tells.
+
+    Returns
+    -------
+    ndarray of shape (n, dim)
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.write("points.txt", [[0.25, 0.75], [0.5, 0]])
+    >>> koksma.read("points.txt")
+    array([[0.25, 0.75],
+           [0.5 , 0.  ]])
+    """
     points = s.Points()
     check(core().koksma_points_read(text(os.fspath(path)), byref(points)))
     return adopt(points)
 
 
 def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: Optional[str] = None) -> None:
-    """Writes points by the ending of the path: .csv, .npy, anything else text. Whole or not at all."""
+    """Writes points, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or path
+        Its ending says the format: .csv, .npy, anything else text.
+    points : array_like of shape (n, dim)
+    comment : str, optional
+        A line for the head of a text file.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.write("points.npy", koksma.generate("sobol", 16))
+    """
     array = as_points(points)
     c_points = view(array)
     raw = None if comment is None else without_zero("a comment", comment.encode())
@@ -505,12 +634,43 @@ def is_sequence(pattern: str) -> bool:
 
 
 def has_ranges(pattern: str) -> bool:
-    """Whether any range of its points is made in time and memory for that range."""
+    """Whether any range of a pattern's points is made in time and memory for that range.
+
+    Parameters
+    ----------
+    pattern : str
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.has_ranges("sobol:scramble=owen"), koksma.has_ranges("sample-elimination")
+    (True, False)
+    """
     return bool(core().koksma_has_ranges(byref(spec("pattern", pattern))))
 
 
 def canonical(text_of_spec: str, kind: str = "pattern") -> str:
-    """The canonical text of a spec of a "pattern" or "measure", under which results are stored."""
+    """The canonical text of a spec, under which results are stored.
+
+    Parameters
+    ----------
+    text_of_spec : str
+    kind : {"pattern", "measure"}
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.canonical("poisson-disk:d=0.20")
+    'poisson-disk:d=0.2'
+    """
     if kind not in ("pattern", "measure"):
         raise ArgumentError(f"kind {kind!r}: it takes 'pattern' or 'measure'")
     parsed, room = spec(kind, text_of_spec), ctypes.create_string_buffer(s.MAX_SPEC)

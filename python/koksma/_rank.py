@@ -148,18 +148,47 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
          reference: Optional[str] = None) -> Ranking:
     """Ranks patterns by the error of the pictures that they make of a scene, as `koksma rank` does.
 
-    metric: of the error; mae is the mean absolute error in luminance (koksma.metrics() names them).
+    Parameters
+    ----------
+    scene : str or path
+        As of `render`.
+    patterns : sequence of str
+        Each once; those of Shirley's thesis when left out.
+    spp : int
+        Samples a pixel.
+    size : (width, height), optional
+        Without it the scene's own, halved until it has 19,200 pixels at most.
+    integrator, filter : str, optional
+        As of `render`.
+    metric : str
+        Of the error; mae is the mean absolute error in luminance (koksma.metrics() names them).
+    time_limit : float or None
+        Seconds, None for none; it cuts the work short and changes nothing else, so that a longer one names the same best
+        pattern, or one where there was none.
+    max_trials : int
+        Images of a pattern, at most.
+    one_size : bool
+        Leave out the checks at half and twice the size.
+    threads : int
+    renderer : callable, optional
+        Another renderer, a function of an Asked that returns linear light as koksma.compare takes it;
+        koksma.mitsuba.Renderer is one of Mitsuba 3. Scene and patterns are then any texts that it knows, and it is called on
+        one thread unless `threads` says more. Without size, the pictures' own is taken, and other sizes are not checked. A
+        ValueError of the renderer leaves its pattern out of the ranking, another exception ends it.
+    reference : str, optional
+        With renderer, the pattern of the reference (the first one when left out): the mean of 16 pictures of 16 times as many
+        samples a pixel, which must depend on the seed.
 
-    size: (width, height); without it the scene's own, halved until it has 19,200 pixels at most. time_limit: seconds, None
-    for none; it cuts the work short and changes nothing else, so that a longer one names the same best pattern, or one
-    where there was none. one_size: leave out the checks at half and twice the size.
+    Returns
+    -------
+    Ranking
 
-    renderer: another renderer, a function of an Asked that returns linear light as koksma.compare takes it. Scene and
-    patterns are then any texts that it knows, and it is called on one thread unless `threads` says more. Without size,
-    the pictures' own is taken, and other sizes are not checked. reference: with renderer, the pattern of the reference
-    (the first one when left out): the mean of 16 pictures of 16 times as many samples a pixel, which must depend on the
-    seed. A ValueError of the renderer leaves its pattern out of the ranking, another exception ends it.
-    koksma.mitsuba.renderer() is one of Mitsuba 3.
+    Examples
+    --------
+    >>> import koksma
+    >>> ranking = koksma.rank("ball", ["random", "jittered"], 16, size=(32, 24), one_size=True)
+    >>> ranking.best
+    'jittered'
     """
     if renderer is None and reference is not None:
         raise ArgumentError("reference takes renderer: Koksma's own references are jittered")

@@ -17,7 +17,18 @@ from ._points import Named, free_with, named, shown
 
 
 def scenes() -> List[str]:
-    """The names of the scenes that ship."""
+    """The names of the scenes that ship.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "ball" in koksma.scenes()
+    True
+    """
     names: List[str] = []
     while lab().koksma_scene_name_at(len(names)):
         names.append(lab().koksma_scene_name_at(len(names)).decode())
@@ -25,17 +36,50 @@ def scenes() -> List[str]:
 
 
 def integrators() -> List[Named]:
-    """All integrators, in the table's order."""
+    """All integrators, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "path" in [i.name for i in koksma.integrators()]
+    True
+    """
     return named(lab().koksma_integrator_at)
 
 
 def filters() -> List[Named]:
-    """All pixel filters, in the table's order."""
+    """All pixel filters, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "mitchell" in [f.name for f in koksma.filters()]
+    True
+    """
     return named(lab().koksma_filter_at)
 
 
 def adaptive() -> List[Named]:
-    """All methods of adaptive sampling, in the table's order."""
+    """All methods of adaptive sampling, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "contrast" in [m.name for m in koksma.adaptive()]
+    True
+    """
     return named(lab().koksma_adaptive_at)
 
 
@@ -113,17 +157,56 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
            adaptive: Optional[str] = None, budget: float = 0, layers: bool = False, aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Union[npt.NDArray[np.float32], Layers]:
-    """Renders a scene that ships, or a JSON file (a path, or a text with a '/' or that ends in ".json").
+    """Renders a scene, with the bits of `koksma render`.
 
-    pattern: of all uses of a sample; or also patterns of single uses and of groups of uses, which one pattern of their
-    total dimension samples together, with ';' between: "random;lens=sobol;pixel+time=scan-time".
-    size: (width, height); the scene's own when left out. adaptive: a method, such as "hierarchical:levels=2", that takes
-    more samples than spp where it needs them, until it needs none or `budget` (0: no limit) is spent: samples a pixel,
-    averaged over the image; some methods draw strata of their own, and take no pattern. The other arguments are those of
-    `koksma render`, and give the same bits. Returns linear light of shape (height, width, channels), channels 1 or 3; row
-    0 is on top; with layers=True a `Layers`, whose image it is. Its `aovs` are then the further images that aov names:
-    "direct" and "indirect", or "bounce:0", "bounce:1", ..., parts of the light that add up to the image; "id"; "half".
+    Parameters
+    ----------
+    scene : str or path
+        The name of a scene that ships (koksma.scenes()), or a file: a path, or a text with a '/' or that ends in ".json".
+    pattern : str
+        Of all uses of a sample; or also patterns of single uses and of groups of uses, which one pattern of their total
+        dimension samples together, with ';' between: "random;lens=sobol;pixel+time=scan-time".
+    spp : int
+        Samples a pixel.
+    size : (width, height), optional
+        The scene's own when left out.
+    seed : int
+    pairing : {"shuffled", "aligned", "native"}
+        How the point sets of a pixel's uses are combined.
+    scope : {"pixel", "image"}
+        What one point set covers.
+    lights : {"all", "one", "power", "uniform", "auto"}
+        Which lights a sample takes.
+    integrator, filter : str, optional
+        koksma.integrators() and koksma.filters() name them.
+    depth : int, optional
+        The longest path, in bounces.
+    splat : bool
+        Each sample adds to all pixels that the filter reaches.
+    adaptive : str, optional
+        A method, such as "hierarchical:levels=2", that takes more samples than spp where it needs them, until it needs none or
+        `budget` is spent. Some methods draw strata of their own, and take no pattern.
+    budget : float
+        Samples a pixel, averaged over the image; 0: no limit.
+    layers : bool
+        Return a `Layers`.
+    aov : sequence of str
+        With layers: further images for its `aovs`. "direct" and "indirect", or "bounce:0", "bounce:1", ..., parts of the light
+        that add up to the image; "id"; "half".
+    threads : int
+        0: one for each processor. The image does not depend on it.
 
+    Returns
+    -------
+    ndarray of float32, of shape (height, width, channels), or Layers
+        Linear light, 1 or 3 channels; row 0 is on top.
+
+    Raises
+    ------
+    ArgumentError, MissingError, MalformedError
+
+    Examples
+    --------
     >>> import koksma
     >>> parts = koksma.render("cornell", spp=4, size=(8, 8), integrator="path", layers=True, aov=["direct", "indirect"])
     >>> bool(abs(parts.aovs["direct"] + parts.aovs["indirect"] - parts.image).max() < 1e-5)
@@ -202,14 +285,48 @@ def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
 
 
 def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
-    """An EXR, PNG or PFM file as linear light, of shape (height, width, channels)."""
+    """Reads an image as linear light.
+
+    Parameters
+    ----------
+    path : str or path
+        An EXR, PNG, PFM or JPEG file.
+
+    Returns
+    -------
+    ndarray of float32, of shape (height, width, channels)
+
+    Raises
+    ------
+    MissingError, MalformedError, UnsupportedError
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.write_image("image.pfm", [[0, 0.5, 1]])
+    >>> koksma.read_image("image.pfm").shape
+    (1, 3, 1)
+    """
     image = s.Image()
     check(lab().koksma_image_read(text(os.fspath(path)), byref(image)))
     return adopt_image(image)
 
 
 def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> None:
-    """Writes linear light, an array of shape (height, width) or (height, width, channels), as EXR, PNG or PFM by the ending."""
+    """Writes an image, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or path
+        Its ending says the format: .exr, .png, .pfm or .jpg.
+    image : array_like of shape (height, width) or (height, width, channels)
+        Linear light, 1 or 3 channels.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.write_image("ball.png", koksma.render("ball", spp=4, size=(16, 12)))
+    """
     from ._compare import as_image, view_image
 
     array = as_image(image)
@@ -217,5 +334,16 @@ def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> N
 
 
 def version() -> str:
-    """The library's version."""
+    """The library's version.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> import koksma
+    >>> len(koksma.version().split("."))
+    3
+    """
     return str(core().koksma_version().decode())

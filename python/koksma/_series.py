@@ -39,6 +39,7 @@ class Trials:
 
     @property
     def mean(self) -> float:
+        """Of a set's value."""
         return float(self.values.mean())
 
     @property
@@ -104,6 +105,7 @@ class Convergence:
 
     @property
     def mean(self) -> npt.NDArray[np.float64]:
+        """Over the trials, of each size."""
         means: npt.NDArray[np.float64] = self.values.mean(axis=0)
         return means
 
