@@ -84,7 +84,7 @@ class Value:
     upper: float
     standard_error: float
     exact: bool
-    witness: Optional[Witness]
+    witness: Union[Witness, Any]  # None where a measure has none; Any: who measures star need not ask
 
     if not TYPE_CHECKING:
         def __getattr__(self, name: str) -> Any:
