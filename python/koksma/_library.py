@@ -165,6 +165,7 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_bool, "koksma_scene_refuse_unknown", c_bool)
     _declare(library, None, "koksma_scene_close", c_void_p)
     _declare(library, c_char_p, "koksma_scene_title", c_void_p)
+    _declare(library, c_int, "koksma_scene_set_sky", c_void_p, c_char_p, c_double)
     for name in ("pairing", "scope", "light_selection"):
         _declare(library, c_char_p, f"koksma_{name}_name", c_int)
     for name in ("integrator", "filter"):

@@ -142,20 +142,23 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, layers: Literal[False] = False,
+           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[False] = False,
            threads: SupportsIndex = 0) -> npt.NDArray[np.float32]: ...
 @overload
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, layers: Literal[True], aov: Sequence[str] = (),
+           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[True], aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Layers: ...
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, layers: bool = False, aov: Sequence[str] = (),
+           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           environment: Union[str, "os.PathLike[str]", None] = None, layers: bool = False, aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Union[npt.NDArray[np.float32], Layers]:
     """Renders a scene, with the bits of `koksma render`.
 
@@ -188,6 +191,10 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         `budget` is spent. Some methods draw strata of their own, and take no pattern.
     budget : float
         Samples a pixel, averaged over the image; 0: no limit.
+    sky : float, optional
+        Light of this radiance from all directions, instead of the scene's sky or the default lights of a model.
+    environment : path, optional
+        An image in latitude and longitude that gives the light instead, times `sky`.
     layers : bool
         Return a `Layers`.
     aov : sequence of str
@@ -225,6 +232,9 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
     check(lab().koksma_scene_open(text(name), byref(handle)))
     try:
+        if sky is not None or environment is not None:
+            check(lab().koksma_scene_set_sky(handle, None if environment is None else text(os.fspath(environment)),
+                                             1.0 if sky is None else sky))
         lab().koksma_render_options_init(byref(options), handle)
         options.spp, options.seed = spp, seed
         check(lab().koksma_render_patterns(text(pattern), byref(options)))
