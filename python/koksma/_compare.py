@@ -5,13 +5,13 @@ from __future__ import annotations
 import warnings
 from ctypes import POINTER, byref, c_float, create_string_buffer
 from dataclasses import dataclass, field
-from typing import Dict, Iterable, List, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, List, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, check, lab, text
+from ._library import ArgumentError, check, lab, text, texts
 from ._points import Named, named
 
 FEW_PIXELS = 0.5  #: the share of the error in 0.1 % of the pixels from which on koksma warns
@@ -59,7 +59,7 @@ class Comparison:
     def _repr_html_(self) -> str:
         from ._display import table
 
-        rows = [("mean absolute error", self.mean, "", ""), ("largest", self.max, "", "")]
+        rows: List[Tuple[str, float, Union[float, str], str]] = [("mean absolute error", self.mean, "", ""), ("largest", self.max, "", "")]
         rows += [(name, m.value, m.robust, f"{100 * m.top_share:.0f} %") for name, m in self.metrics.items()]
         error = "bands" if self.coherent else "noise"
         return table(("error", "value", "without 0.1 % of the pixels", "their share"), rows,
@@ -76,7 +76,18 @@ def _metric(name: str) -> Tuple[s.MetricSpec, str]:
 
 
 def metrics() -> List[Named]:
-    """All metrics of the error of images, in the table's order."""
+    """All metrics of the error of images, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "smape" in [m.name for m in koksma.metrics()]
+    True
+    """
     return named(lab().koksma_metric_at)
 
 
@@ -103,26 +114,37 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
             metrics: Sequence[str] = ()) -> Comparison:
     """Compares an image, or several in a list or another iterable, with a reference, all of linear light.
 
-    Several images are those of one pattern with several seeds; an iterator is asked for one at a time. metrics: beside
-    rmse, such as "relmse", "smape:epsilon=0.001" or "hdr-flip:ppd=40" (`koksma.metrics()`). A RuntimeWarning says where
-    0.1 % of the pixels carry half of the error or more.
+    Parameters
+    ----------
+    images : array_like, or an iterable of them
+        Several images are those of one pattern with several seeds; an iterator is asked for one at a time.
+    reference : array_like of shape (height, width) or (height, width, channels)
+    metrics : sequence of str
+        Beside rmse, such as "relmse", "smape:epsilon=0.001" or "hdr-flip:ppd=40" (`koksma.metrics()`).
 
+    Returns
+    -------
+    Comparison
+
+    Warns
+    -----
+    RuntimeWarning
+        0.1 % of the pixels carry half of the error or more.
+
+    Examples
+    --------
     >>> import koksma
     >>> import numpy as np
     >>> image = np.full((8, 8), 1.5)
     >>> round(koksma.compare(image, np.ones((8, 8)), metrics=["smape"]).metrics["smape"].value, 6)
     0.199203
     """
-    if isinstance(metrics, str):
-        raise ArgumentError(f"metrics {metrics!r}: it takes a list of texts")
-    specs = dict((name, spec) for spec, name in map(_metric, ("rmse", *metrics)))
-    several: Iterable[npt.ArrayLike]
+    specs = dict((name, spec) for spec, name in map(_metric, ("rmse", *texts("metrics", metrics))))
+    several: Any = images
     if hasattr(images, "__array__"):
-        several = [images] if np.ndim(images) < 4 else images  # type: ignore[list-item, assignment]
+        several = [images] if np.ndim(several) < 4 else several
     elif isinstance(images, (list, tuple)):
         several = [images] if images and np.ndim(images[0]) < 2 else images
-    else:
-        several = images  # type: ignore[assignment]
     target = as_image(reference)
     c_target, raw, error, values = view_image(target), s.Coherence(), s.ImageError(), s.CoherenceValues()
     errors: List[List[float]] = []
@@ -144,11 +166,11 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
         lab().koksma_coherence_find(byref(raw), byref(values))
     finally:
         lab().koksma_coherence_fini(byref(raw))
-    means = [sum(column) / len(errors) for column in zip(*errors)]
+    mean, sd, most, rmse = (sum(column) / len(errors) for column in zip(*errors))
     values_of = {name: MetricValue(*(sum(column) / len(errors) for column in zip(*rows))) for name, rows in found.items()}
-    for name, mean in values_of.items():
-        if mean.top_share >= FEW_PIXELS:
-            warnings.warn(f"0.1 % of the pixels carry {100 * mean.top_share:.0f} % of the error; without them {name} is "
-                          f"{mean.robust:.5g}", RuntimeWarning, stacklevel=2)
-    return Comparison(*means, values.coherence, values.low, values.high, values.noise_low, values.noise_high, values.p,
+    for name, averaged in values_of.items():
+        if averaged.top_share >= FEW_PIXELS:
+            warnings.warn(f"0.1 % of the pixels carry {100 * averaged.top_share:.0f} % of the error; without them {name} is "
+                          f"{averaged.robust:.5g}", RuntimeWarning, stacklevel=2)
+    return Comparison(mean, sd, most, rmse, values.coherence, values.low, values.high, values.noise_low, values.noise_high, values.p,
                       values.frequency_x, values.frequency_y, values.common, values.coherent, len(errors), values_of)

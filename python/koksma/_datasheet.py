@@ -9,7 +9,7 @@ from ctypes import byref, c_char_p, c_void_p
 from typing import Any, Callable, Dict, Optional, Sequence, SupportsIndex, Union
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, lab, text
+from ._library import ArgumentError, call, check, lab, text, texts
 from ._plot import _free
 
 
@@ -30,6 +30,7 @@ class Datasheet:
 
     @property
     def html(self) -> str:
+        """The page, which needs no other file."""
         page = c_void_p()
         check(lab().koksma_datasheet_page(text(self._json), byref(page)))
         return _owned(page)
@@ -93,9 +94,11 @@ def datasheet(sampler: Union[str, "os.PathLike[str]"], beside: Optional[Sequence
     """
     options = s.DatasheetOptions(sampler=text(os.fspath(sampler)), metric=text(metric), quick=quick)
     if beside is not None:
+        beside = texts("beside", beside)
         options.beside = (c_char_p * max(len(beside), 1))(*[text(name) for name in beside])
         options.n_beside = len(beside)
     if scenes is not None:
+        scenes = texts("scenes", scenes)
         options.scenes = (c_char_p * max(len(scenes), 1))(*[text(name) for name in scenes])
         options.n_scenes = len(scenes)
     found = c_void_p()

@@ -19,12 +19,12 @@ _SCIPYS = ("random-cd", "lloyd")  # optimizations that scipy has
 _STEPS = 2  # of the search for any other
 
 try:
-    from scipy.stats.qmc import QMCEngine as _Base
+    from scipy.stats.qmc import QMCEngine as _Base  # type: ignore[import-untyped, import-not-found, unused-ignore]
 except ImportError:
     class _Base:  # type: ignore[no-redef]
         """What the engine needs of scipy's class, where scipy is not installed."""
 
-        def __init__(self, d: Any, *, optimization: None = None, seed: Any = None) -> None:
+        def __init__(self, d: Any, *, optimization: Optional[str] = None, seed: Any = None) -> None:
             if not np.issubdtype(type(d), np.integer) or d < 0:
                 raise ValueError("d must be a non-negative integer value")
             if optimization is not None:
@@ -32,8 +32,11 @@ except ImportError:
             self.d, self.rng_seed, self.num_generated, self.optimization_method = d, copy.deepcopy(seed), 0, None
             self.rng = seed if isinstance(seed, np.random.RandomState) else np.random.default_rng(seed)
 
+        def _random(self, n: int = 1, *, workers: int = 1) -> PointArray:
+            raise NotImplementedError
+
         def random(self, n: int = 1, *, workers: int = 1) -> PointArray:
-            sample = self._random(n, workers=workers)
+            sample: PointArray = self._random(n, workers=workers)
             if self.optimization_method is not None:
                 sample = self.optimization_method(sample)
             self.num_generated += n
@@ -48,10 +51,11 @@ except ImportError:
             high = high + 1 if endpoint else high
             if np.any(low >= high):
                 raise ValueError("Bounds are not consistent 'l_bounds' < 'u_bounds'")
-            return np.floor(self.random(n) * (high - low) + low).astype(np.int64)
+            drawn: npt.NDArray[np.int64] = np.floor(self.random(n) * (high - low) + low).astype(np.int64)
+            return drawn
 
 
-class Engine(_Base):
+class Engine(_Base):  # type: ignore[misc, unused-ignore]
     """A pattern's points, drawn a few at a time.
 
     pattern: a spec such as "sobol:scramble=owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
@@ -63,6 +67,15 @@ class Engine(_Base):
     ended. Of any other pattern each call draws a set of n points of its own, which depends on the seed and on how many
     points came before. But where the pattern itself is deterministic, such as "regular", "hammersley" and the
     lattices, every call gives the same n points, whatever the seed: with "hammersley:shift=1" the sets differ.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> engine = koksma.Engine("sobol:scramble=owen", d=2, seed=7)
+    >>> bool((engine.random(8) == koksma.generate("sobol:scramble=owen", 8, 2, 7)).all())
+    True
+    >>> engine
+    Engine('sobol:scramble=owen', d=2, num_generated=8)
     """
 
     def __init__(self, pattern: str, d: SupportsIndex = 2, *, optimization: Optional[str] = None, seed: Any = None,
@@ -73,7 +86,7 @@ class Engine(_Base):
         seed = np.random.default_rng(seed) if isinstance(seed, np.random.SeedSequence) else seed  # scipy takes none
         scipys = optimization is None or optimization.lower() in _SCIPYS
         super().__init__(d=d, optimization=optimization if scipys else None, seed=seed)
-        self.d = int(d)
+        self.d: int = int(d)
         if not scipys:
             self._measure: str = str(optimization)
             if self._measure.partition(":")[0] not in {m.name for m in measures()}:
@@ -81,7 +94,7 @@ class Engine(_Base):
                                     f"{' or '.join(_SCIPYS)}")
             if spec("measure", self._measure).measure.contents.answer != 0:
                 raise ArgumentError(f"optimization {optimization!r}: it takes a measure with exact values, such as star or l2-star")
-            self.optimization_method = self._optimised
+            self.optimization_method: Any = self._optimised
         self._init_quad: Dict[str, Any] = {"pattern": pattern, "d": d, "optimization": optimization}  # for qmc_quad
         self.pattern = pattern
         self._sequence = is_sequence(pattern)
@@ -92,7 +105,8 @@ class Engine(_Base):
         if isinstance(seed, (int, np.integer)) and 0 <= seed < 1 << 64:
             self._seed = int(seed)
         else:
-            draw = getattr(self.rng, "integers", None) or self.rng.randint  # a Generator, or a RandomState
+            source: Any = self.rng
+            draw = getattr(source, "integers", None) or source.randint  # a Generator, or a RandomState
             self._seed = int(draw(0, np.iinfo(np.int64).max, dtype=np.int64))
 
     def random(self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1) -> PointArray:
@@ -101,7 +115,8 @@ class Engine(_Base):
         if workers == 0:
             raise ArgumentError("workers 0: it takes a number of threads, or -1 for all")
         self._threads = 0 if workers == -1 else int(workers)
-        return super().random(whole("n", n, 0, s.MAX_COORDINATES), workers=workers)
+        drawn: PointArray = super().random(whole("n", n, 0, s.MAX_COORDINATES), workers=workers)
+        return drawn
 
     def random_base2(self, m: SupportsIndex) -> PointArray:
         """The next 2^m points; of a sequence only where all drawn are then a power of two, as scipy's Sobol asks."""
@@ -180,7 +195,7 @@ class Engine(_Base):
 
     def reset(self) -> "Engine":
         """Back to the first point."""
-        self.num_generated = 0
+        self.num_generated: int = 0
         return self
 
     def fast_forward(self, n: SupportsIndex) -> "Engine":

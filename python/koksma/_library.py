@@ -11,7 +11,7 @@ from functools import lru_cache
 from operator import index
 from pathlib import Path
 from time import perf_counter
-from typing import Callable, Dict, Hashable, Iterator, Optional, Set, SupportsIndex, Tuple
+from typing import Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Set, SupportsIndex, Tuple
 
 from . import _structs as s
 from ._signals import Signals
@@ -165,6 +165,7 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_bool, "koksma_scene_refuse_unknown", c_bool)
     _declare(library, None, "koksma_scene_close", c_void_p)
     _declare(library, c_char_p, "koksma_scene_title", c_void_p)
+    _declare(library, c_int, "koksma_scene_set_sky", c_void_p, c_char_p, c_double)
     for name in ("pairing", "scope", "light_selection"):
         _declare(library, c_char_p, f"koksma_{name}_name", c_int)
     for name in ("integrator", "filter"):
@@ -224,12 +225,18 @@ def lab() -> ctypes.CDLL:
 
 @contextmanager
 def allow_exec(seconds: float = 60.0) -> Iterator[None]:
-    """Lets the patterns "exec:PROGRAM" and "plugin:LIBRARY" run code in a block, in this thread:
+    """Lets the patterns "exec:PROGRAM" and "plugin:LIBRARY" run code in a block, in this thread.
 
-        with koksma.allow_exec():
-            ranking = koksma.rank("ball", ["exec:./mysampler", "sobol"])
+    Parameters
+    ----------
+    seconds : float
+        The longest that a program may take for one set.
 
-    seconds: the longest that a program may take for one set.
+    Examples
+    --------
+    >>> import koksma
+    >>> with koksma.allow_exec():  # doctest: +SKIP
+    ...     ranking = koksma.rank("ball", ["exec:./mysampler", "sobol"])
     """
     if not seconds > 0:
         raise ArgumentError(f"seconds {seconds}: it takes a number above 0")
@@ -242,12 +249,15 @@ def allow_exec(seconds: float = 60.0) -> Iterator[None]:
 
 @contextmanager
 def refuse_unknown() -> Iterator[None]:
-    """Refuses scenes of pbrt and Mitsuba with parts that Koksma does not know in a block, in this thread:
-
-        with koksma.refuse_unknown():
-            ranking = koksma.rank("scene.pbrt")
+    """Refuses scenes of pbrt and Mitsuba with parts that Koksma does not know in a block, in this thread.
 
     Without it such parts are replaced by what is nearest; `koksma scene check` names them.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> with koksma.refuse_unknown():  # a scene that ships has no such part
+    ...     image = koksma.render("ball", spp=1, size=(4, 3))
     """
     before = lab().koksma_scene_refuse_unknown(True)
     try:
@@ -256,25 +266,41 @@ def refuse_unknown() -> Iterator[None]:
         lab().koksma_scene_refuse_unknown(before)
 
 
+_OF_PYTHON = (  # what the library says of the program and of C, as this package has it
+    (r"'koksma list (\w+)'", r"koksma.\1()"),
+    (r"--allow-exec allows that \(koksma_allow_exec in C, koksma.allow_exec in Python\)", "koksma.allow_exec() allows that"),
+    (r"^koksma_\w+: ", ""),
+    (r"^n_beside: ", "beside: "),
+    (r"^([a-z].*): the number of points is missing$", r"\1: n, the number of points, is missing"),
+)
+
+
+def in_python(message: str) -> str:
+    """A line of the library with the names that Python has for things."""
+    for pattern, ours in _OF_PYTHON:
+        message = re.sub(pattern, ours, message)
+    return message
+
+
 def check(status: int) -> None:
     """Raises what a failed call has to say."""
     if status == 0:
         return
-    text = re.sub(r"'koksma list (\w+)'", r"koksma.\1()", core().koksma_error_text().decode(errors="replace"))
+    message = in_python(core().koksma_error_text().decode(errors="replace"))
     kind = _CLASSES[status] if status < len(_CLASSES) else Error
-    error = kind(text)
+    error = (kind or Error)(message)
     if isinstance(error, Error):
         error.status = status
     raise error
 
 
 @lru_cache(maxsize=None)
-def _paced() -> s.KeepGoing:
+def _paced() -> Any:
     """Called by the library, in C: asks Python once in an interval only, as the library asks far more often."""
     return s.KeepGoing(("koksma__paced", core()))
 
 
-def call(function: object, *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
+def call(function: Callable[..., int], *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
          run_at: int, progress: Optional[Callable[[float], object]] = None, short: bool = False,
          same: Optional[Hashable] = None) -> None:
     """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler or `progress` raises
@@ -336,8 +362,26 @@ def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     return number
 
 
+def texts(name: str, values: Iterable[str]) -> List[str]:
+    """Several texts. One alone would pass as the list of its letters."""
+    if isinstance(values, str):
+        raise ArgumentError(f"{name} {values!r}: it takes a list of texts")
+    return list(values)
+
+
+def pair(name: str, values: Tuple[SupportsIndex, SupportsIndex]) -> Tuple[SupportsIndex, SupportsIndex]:
+    """Width and height."""
+    try:
+        width, height = values
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name} {values!r}: it takes (width, height)") from None
+    return width, height
+
+
 def text(value: str) -> bytes:
     """A name or path as the library takes it."""
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError(f"a name or path is a text, not {value!r}")
     return without_zero("a name or path", os.fsencode(value))
 
 

@@ -6,7 +6,7 @@ import ctypes
 from ctypes import byref, c_double, c_uint64
 from dataclasses import dataclass
 from math import ceil, sqrt
-from typing import Callable, Optional, Sequence, SupportsIndex, Union
+from typing import Any, Callable, List, Optional, Sequence, SupportsIndex, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -50,8 +50,11 @@ def radial_power(target: str, n: SupportsIndex, rings: Optional[SupportsIndex] =
     target : str
         "step" (0 below the frequency sqrt(n / pi), else 1), "gaussian" (1 - exp(-pi f^2 / n)), a pattern (the mean of 16
         sets), or a file of lines with a frequency, in units of sqrt(n), and a power.
+    n : int
     rings : int, optional
         The number of frequencies; 2 sqrt(n), rounded up, by default.
+    threads : int
+        0: one for each processor.
 
     Returns
     -------
@@ -81,17 +84,38 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
              progress: Optional[Callable[[Optimum], object]] = None) -> Optimum:
     """Searches for n points in [0,1)^dim with a small value of a measure (a large one of a distance).
 
-    measure: a spec of a measure with exact values, such as "star" or "l2-centered".
-    start: the first set, an (n, dim) array; n and dim may then be left out. None: the library's own.
-    keep: "latin" changes only which coordinates go together; "net" leaves each in its interval of length 1/n; "sequence"
-    changes the generator matrices of a digital sequence in base 2, and the value is the geometric mean of the measure over
-    its first 2, 4, .., n points.
-    projections: the coordinates in which points are measured, as [(0, 1), (0, 2)]; empty: all together. The value is the
-    root of the mean of the squares, with weights, one of each projection, if they are given.
-    power: with measure None, a target for the mean power at the frequencies 1, 2, .. in the plane, or what radial_power
-    takes, such as "step"; the value is the root mean square difference, in which ring r counts r times.
-    steps: of a fixed amount of work; equal steps and seed give equal sets. 0: until time_limit, in seconds.
-    progress: called with the first set and after each step; returns False to stop.
+    Parameters
+    ----------
+    measure : str or None
+        A spec of a measure with exact values, such as "star" or "l2-centered".
+    n, dim : int
+    start : array_like of shape (n, dim), optional
+        The first set; n and dim may then be left out. None: the library's own.
+    keep : {"none", "latin", "net", "sequence"}
+        "latin" changes only which coordinates go together; "net" leaves each in its interval of length 1/n; "sequence"
+        changes the generator matrices of a digital sequence in base 2, and the value is the geometric mean of the measure over
+        its first 2, 4, .., n points.
+    projections : sequence of sequences of int
+        The coordinates in which points are measured, as [(0, 1), (0, 2)]; empty: all together. The value is the root of the
+        mean of the squares.
+    weights : sequence of float, optional
+        Of that mean, one of each projection.
+    power : str or array_like, optional
+        With measure None, a target for the mean power at the frequencies 1, 2, .. in the plane, or what radial_power takes,
+        such as "step"; the value is the root mean square difference, in which ring r counts r times.
+    seed : int
+    steps : int
+        Of a fixed amount of work; equal steps and seed give equal sets. 0: until time_limit.
+    time_limit : float, optional
+        In seconds.
+    threads : int
+        0: one for each processor.
+    progress : callable, optional
+        Called with the first set and after each step; returns False to stop.
+
+    Returns
+    -------
+    Optimum
 
     Examples
     --------
@@ -104,9 +128,12 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     if keep not in _KEEP:
         raise ArgumentError(f"keep {keep!r}: it takes 'none', 'latin', 'net' or 'sequence'")
     first = None if start is None else as_points(start)
-    if n is None and first is None:
+    if n is not None:
+        n = whole("n", n, 1, s.MAX_COORDINATES)
+    elif first is not None:
+        n = int(first.shape[0])
+    else:
         raise ArgumentError("n, the number of points, is missing")
-    n = first.shape[0] if n is None else whole("n", n, 1, s.MAX_COORDINATES)
     dim = whole("dim", dim, 1, s.MAX_DIM) if first is None else first.shape[1]
     steps = whole("steps", steps, 0, s.MAX_SEED)
     if not steps and time_limit is None and progress is None:
@@ -118,9 +145,9 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     target = radial_power(power, n, threads=threads) if isinstance(power, str) else None if power is None else np.array(power, float)
     if target is not None and target.ndim != 1:
         raise ArgumentError(f"power has the shape {target.shape}: it takes a number for each of the frequencies 1, 2, ..")
-    raised = []
+    raised: List[BaseException] = []
 
-    def tell(_context: object, best: object) -> bool:
+    def tell(_context: object, best: Any) -> bool:
         try:
             return progress is None or progress(_optimum(best.contents)) is not False
         except BaseException as error:  # comes out of optimise()

@@ -6,7 +6,7 @@ import ctypes
 import math
 import os
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_void_p, POINTER
-from typing import Any, Callable, Optional, Sequence, SupportsIndex, Union
+from typing import Any, Callable, List, Optional, Sequence, SupportsIndex, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -41,6 +41,7 @@ class Picture:
 
     @property
     def svg(self) -> str:
+        """The text of the drawing."""
         return self.bytes().decode()
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
@@ -60,6 +61,8 @@ def _figure(rows: "Sequence[Sequence[Union[s.Panel, s.Chart]]]", title: Optional
     """A figure of rows of cells; what they point to lives as long as the picture."""
     if theme not in ("light", "dark"):
         raise ArgumentError(f"theme '{theme}': it takes light or dark")
+    if width and not 16 <= width <= 32767:
+        raise ArgumentError(f"size {width}: it takes 16 to 32767; 0: as the picture needs")
     flat = [(cell, row) for row, cells in enumerate(rows) for cell in cells]
     cells = (s.Cell * len(flat))()
     for i, (cell, row) in enumerate(flat):
@@ -69,7 +72,7 @@ def _figure(rows: "Sequence[Sequence[Union[s.Panel, s.Chart]]]", title: Optional
                       theme == "dark")
 
     def draw(format: int, data: Any, n: Any, _kept: Any = (cells, kept)) -> int:
-        return lab().koksma_plot_figure(byref(figure), format, data, n)
+        return int(lab().koksma_plot_figure(byref(figure), format, data, n))
 
     return Picture(draw)
 
@@ -105,7 +108,7 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
     --------
     >>> import koksma
     >>> picture = koksma.plot(koksma.generate("n-rooks", 16), witness="star", titles=["n-rooks"])
-    >>> picture.save("points.svg")  # doctest: +SKIP
+    >>> picture.save("points.svg")
     """
     if not 1 <= len(sets) <= 64:
         raise ArgumentError(f"{len(sets)} sets: it takes 1 to 64")
@@ -113,7 +116,8 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
         if lines is not None and len(lines) != len(sets):
             raise ArgumentError(f"{len(lines)} {name} for {len(sets)} sets")
     arrays = [as_points(points) for points in sets]
-    panels, kept = [s.Panel() for _ in arrays], []
+    panels = [s.Panel() for _ in arrays]
+    kept: List[Any] = []
     for i, (array, panel) in enumerate(zip(arrays, panels)):
         c_points = view(array)
         panel.points = ctypes.pointer(c_points)
@@ -137,11 +141,11 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
     return _figure([panels], title, size, theme, kept)
 
 
-def _colours(patterns: Sequence[str]) -> Sequence[int]:
+def _colours(patterns: Sequence[str]) -> List[int]:
     """The numbers of the colours that patterns have in all pictures."""
     numbers = (c_size_t * len(patterns))()
     check(lab().koksma_plot_colours((c_char_p * len(patterns))(*(p.encode() for p in patterns)), len(patterns), numbers))
-    return numbers
+    return list(numbers)
 
 
 def _convergence_chart(results: Sequence[Convergence], kept: "list[Any]") -> s.Chart:
@@ -174,6 +178,13 @@ def plot_convergence(*results: Convergence, size: float = 0, title: Optional[str
     Returns
     -------
     Picture
+
+    Examples
+    --------
+    >>> import koksma
+    >>> curves = [koksma.convergence(pattern, sizes=[16, 64, 256]) for pattern in ("sobol", "halton")]
+    >>> koksma.plot_convergence(*curves).svg.count("slope")
+    2
     """
     if not results:
         raise ArgumentError("it takes at least one Convergence")
@@ -220,7 +231,9 @@ def plot_compare(*patterns: str, n: SupportsIndex = 256, measure: str = "l2-star
         raise ArgumentError(f"{len(patterns)} patterns: it takes 1 to 16")
     count, n_sets, first = whole("n", n, 1, s.MAX_COORDINATES), whole("trials", trials, 1, 10**9), whole("seed", seed, 0, s.MAX_SEED)
     half = min(math.ceil(2 * math.sqrt(count)), s.MAX_HALF)
-    points, spectra, kept = [], [], []
+    points: List[s.Panel] = []
+    spectra: List[s.Panel] = []
+    kept: List[Any] = []
     curves = (s.Curve * len(patterns))()
     for i, (pattern, colour) in enumerate(zip(patterns, _colours(patterns))):
         array = as_points(generate(pattern, count, seed=first))

@@ -84,7 +84,7 @@ class Value:
     upper: float
     standard_error: float
     exact: bool
-    witness: Optional[Witness]
+    witness: Union[Witness, Any]  # None where a measure has none; Any: who measures star need not ask
 
     if not TYPE_CHECKING:
         def __getattr__(self, name: str) -> Any:
@@ -153,9 +153,9 @@ class Finding:
     detail: str
 
 
-def table(at: object) -> List[Member]:
+def table(at: Any) -> List[Member]:
     """The members of a table of patterns, measures or integrands, by the function that returns member i."""
-    members = []
+    members: List[Member] = []
     while at(len(members)):
         m = at(len(members)).contents
         names, i = [], 0
@@ -178,18 +178,52 @@ def named(at: Any) -> List[Named]:
 
 
 def warps() -> List[Named]:
-    """All warps, in the table's order."""
+    """All warps, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.warps()[0].name
+    'concentric-disk'
+    """
     return named(core().koksma_warp_at)
 
 
 def patterns() -> List[Member]:
-    """All patterns, in the table's order."""
+    """All patterns, in the table's order.
+
+    Returns
+    -------
+    list of Member
+
+    Examples
+    --------
+    >>> import koksma
+    >>> [p.name for p in koksma.patterns() if "maximal" in p.claims]
+    ['poisson-disk-maximal']
+    """
     return table(core().koksma_pattern_at)
 
 
 def modifiers() -> List[Modifier]:
-    """All modifiers, in the order in which they are applied."""
-    at, found = core().koksma_modifier_at, []
+    """All modifiers, in the order in which they are applied.
+
+    Returns
+    -------
+    list of Modifier
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "shift" in [m.name for m in koksma.modifiers()]
+    True
+    """
+    at: Any = core().koksma_modifier_at
+    found: List[Modifier] = []
     while at(len(found)):
         m = at(len(found)).contents
         found.append(Modifier(m.name.decode(), m.title.decode(), m.cite.decode(), m.keeps.decode(), m.measures.decode()))
@@ -197,7 +231,18 @@ def modifiers() -> List[Modifier]:
 
 
 def measures() -> List[Member]:
-    """All measures, in the table's order."""
+    """All measures, in the table's order.
+
+    Returns
+    -------
+    list of Member
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.measures()[0].name
+    'star'
+    """
     return table(core().koksma_measure_at)
 
 
@@ -240,7 +285,7 @@ class _Memory:
 
 def shown(pointer: Any, *shape: int) -> npt.NDArray[Any]:
     """An array over the library's memory. (Not by np.ctypeslib.as_array: ctypes keeps a type of each shape for ever.)"""
-    memory = _Memory()
+    memory: Any = _Memory()
     memory.__array_interface__ = {"version": 3, "shape": shape, "typestr": np.dtype(pointer._type_).str,
                                   "data": (ctypes.addressof(pointer.contents), False)}
     return np.asarray(memory)
@@ -265,24 +310,59 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
              on: Optional[Union[str, "os.PathLike[str]"]] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
-    pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
-    n: how many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
-    dim: 2 where it is left out, but all that a file has where n is left out, too.
-    first: the number of the first point, of a sequence that has ranges (has_ranges): n points from there on.
-    out: an aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one; n and dim may be left
-    out, or are those of its shape.
-    allow_exec: run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
-    density: an image, as a file or an array of shape (height, width), whose luminance the density follows; its bottom
-    row is at y = 0.
-    on: a model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
-    dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
+    Parameters
+    ----------
+    pattern : str
+        A spec such as "n-rooks" or "poisson-disk:d=0.2"; koksma.patterns() has them all.
+    n : int
+        How many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
+    dim : int
+        2 where it is left out, but all that a file has where n is left out, too.
+    seed : int
+        0 to 2**64 - 1.
+    first : int
+        The number of the first point, of a sequence that has ranges (has_ranges): n points from there on.
+    threads : int
+        0: one for each processor. The points do not depend on it.
+    out : ndarray, optional
+        An aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one; n and dim may be left out,
+        or are those of its shape.
+    allow_exec : bool
+        Run what "exec:PROGRAM" or "plugin:LIBRARY" names; allow_exec() is for other functions, and sets the time.
+    density : path or array_like of shape (height, width), optional
+        An image whose luminance the density follows; its bottom row is at y = 0.
+    on : path, optional
+        A model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
+        dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
 
+    Returns
+    -------
+    ndarray of shape (n, dim)
+
+    Raises
+    ------
+    ArgumentError
+        The spec is wrong, or the pattern has no such set; the message says which n would do.
+    ForbiddenError
+        The pattern runs code of others, which allow_exec lets it.
+
+    Notes
+    -----
     density and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk",
     "poisson-disk-maximal" and "gaussian-blue-noise". Equal arguments give equal bits, and the same as `koksma
     generate`.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.generate("sobol", 4)
+    array([[0.  , 0.  ],
+           [0.5 , 0.5 ],
+           [0.25, 0.75],
+           [0.75, 0.25]])
     """
     shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
-    if (type(seed) is type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
+    if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
             and density is on is None and type(first) is int and first == 0 and set(map(type, shape or ())) == {int}
             and (pattern, shape) in quick):
         quickly = _quick_points(pattern, shape, seed, threads, out)
@@ -300,7 +380,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
     if first and not (is_sequence(pattern) and has_ranges(pattern)):
-        raise ArgumentError(f"{pattern}: first is for sequences that have ranges")
+        raise ArgumentError(f"{pattern}: first is for sequences that have ranges (koksma.has_ranges)")
     if n is None and out is None:
         if first:
             raise ArgumentError("first takes n, the number of points")
@@ -314,6 +394,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         return adopt(points)
     if out is None:
         dim = dim or 2
+        assert n is not None  # else the pattern has said it, above
         if n * dim > s.MAX_COORDINATES:
             raise ArgumentError(f"{n} points in {dim} dimensions: n times dim is at most {s.MAX_COORDINATES}")
         out = np.zeros((n, dim))
@@ -339,13 +420,12 @@ def _generate_in(pattern: str, n: SupportsIndex, dim: Optional[SupportsIndex], s
     from ._render import read_image
 
     parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
-    dim = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
-    n = whole("n", n, 1, s.MAX_COORDINATES // dim)
-    out = np.zeros((n, dim))
+    axes = whole("dim", 3 if dim is None and on is not None else 2 if dim is None else dim, 1, s.MAX_DIM)
+    out = np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
     points = view(out)
     if on is not None:
         call(lab().koksma_generate_on, byref(parsed), seed, text(os.fspath(on)), byref(points), threads=threads, run_at=3)
-    else:
+    elif density is not None:
         array = read_image(density) if isinstance(density, (str, os.PathLike)) else as_image(density)
         call(lab().koksma_generate_density, byref(parsed), seed, byref(view_image(array)), byref(points), threads=threads,
              run_at=3)
@@ -353,8 +433,8 @@ def _generate_in(pattern: str, n: SupportsIndex, dim: Optional[SupportsIndex], s
 
 
 @overload
-def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None, threads: SupportsIndex = 0,
-            time_limit: Optional[float] = None) -> Value: ...
+def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None,  # type: ignore[overload-overlap, unused-ignore]
+            threads: SupportsIndex = 0, time_limit: Optional[float] = None) -> Value: ...
 @overload
 def measure(points: npt.ArrayLike, measure: Sequence[str], *, warp: Optional[str] = None, threads: SupportsIndex = 0,
             time_limit: Optional[float] = None) -> Dict[str, Value]: ...
@@ -472,7 +552,25 @@ def _quick_points(pattern: str, shape: Tuple[int, ...], seed: int, threads: int,
 
 
 def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding]:
-    """Which properties these points really have: nets, strata, distances, repeated points and more."""
+    """Which properties these points really have: nets, strata, distances, repeated points and more.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, dim)
+    threads : int
+        0: one for each processor.
+
+    Returns
+    -------
+    list of Finding
+
+    Examples
+    --------
+    >>> import koksma
+    >>> found = koksma.verify(koksma.generate("n-rooks", 16))
+    >>> all(f.holds for f in found if f.property == "latin")
+    True
+    """
     array = as_points(points)
     findings, c_points = s.Findings(), view(array)
     try:
@@ -484,14 +582,46 @@ def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding
 
 
 def read(path: Union[str, "os.PathLike[str]"]) -> PointArray:
-    """Points from a .npy or text file, by its content."""
+    """Reads points.
+
+    Parameters
+    ----------
+    path : str or path
+        A .npy or text file, which its content tells.
+
+    Returns
+    -------
+    ndarray of shape (n, dim)
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.write("points.txt", [[0.25, 0.75], [0.5, 0]])
+    >>> koksma.read("points.txt")
+    array([[0.25, 0.75],
+           [0.5 , 0.  ]])
+    """
     points = s.Points()
     check(core().koksma_points_read(text(os.fspath(path)), byref(points)))
     return adopt(points)
 
 
 def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: Optional[str] = None) -> None:
-    """Writes points by the ending of the path: .csv, .npy, anything else text. Whole or not at all."""
+    """Writes points, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or path
+        Its ending says the format: .csv, .npy, anything else text.
+    points : array_like of shape (n, dim)
+    comment : str, optional
+        A line for the head of a text file.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.write("points.npy", koksma.generate("sobol", 16))
+    """
     array = as_points(points)
     c_points = view(array)
     raw = None if comment is None else without_zero("a comment", comment.encode())
@@ -504,12 +634,45 @@ def is_sequence(pattern: str) -> bool:
 
 
 def has_ranges(pattern: str) -> bool:
-    """Whether any range of its points is made in time and memory for that range."""
+    """Whether any range of a pattern's points is made in time and memory for that range.
+
+    Parameters
+    ----------
+    pattern : str
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.has_ranges("sobol:scramble=owen"), koksma.has_ranges("sample-elimination")
+    (True, False)
+    """
     return bool(core().koksma_has_ranges(byref(spec("pattern", pattern))))
 
 
 def canonical(text_of_spec: str, kind: str = "pattern") -> str:
-    """The canonical text of a spec of a "pattern" or "measure", under which results are stored."""
+    """The canonical text of a spec, under which results are stored.
+
+    Parameters
+    ----------
+    text_of_spec : str
+    kind : {"pattern", "measure"}
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.canonical("poisson-disk:d=0.20")
+    'poisson-disk:d=0.2'
+    """
+    if kind not in ("pattern", "measure"):
+        raise ArgumentError(f"kind {kind!r}: it takes 'pattern' or 'measure'")
     parsed, room = spec(kind, text_of_spec), ctypes.create_string_buffer(s.MAX_SPEC)
     core().koksma_spec_text(byref(parsed), room)
     return os.fsdecode(room.value)  # it may have a path

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._compare import as_image, _metric
-from ._library import ArgumentError, call, lab, text, whole
+from ._library import ArgumentError, call, in_python, lab, pair, text, texts, whole
 from ._points import canonical
 from ._render import _found
 
@@ -118,7 +118,9 @@ class _Renderer:
     _ARGUMENT, _SYSTEM = 1, 10  # KOKSMA_ARGUMENT, KOKSMA_SYSTEM
 
     def __init__(self, renderer: Callable[[Asked], npt.ArrayLike]) -> None:
-        self.renderer, self.raised, self.reasons = renderer, [], {}  # type: Any, List[BaseException], Dict[str, str]
+        self.renderer = renderer
+        self.raised: List[BaseException] = []
+        self.reasons: Dict[str, str] = {}
         self.callback = s.RankRenderer(self._render)
 
     def _render(self, _context: Any, picture: Any, _run: Any, image: Any) -> int:
@@ -146,25 +148,54 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
          reference: Optional[str] = None) -> Ranking:
     """Ranks patterns by the error of the pictures that they make of a scene, as `koksma rank` does.
 
-    metric: of the error; mae is the mean absolute error in luminance (koksma.metrics() names them).
+    Parameters
+    ----------
+    scene : str or path
+        As of `render`.
+    patterns : sequence of str
+        Each once; those of Shirley's thesis when left out.
+    spp : int
+        Samples a pixel.
+    size : (width, height), optional
+        Without it the scene's own, halved until it has 19,200 pixels at most.
+    integrator, filter : str, optional
+        As of `render`.
+    metric : str
+        Of the error; mae is the mean absolute error in luminance (koksma.metrics() names them).
+    time_limit : float or None
+        Seconds, None for none; it cuts the work short and changes nothing else, so that a longer one names the same best
+        pattern, or one where there was none.
+    max_trials : int
+        Images of a pattern, at most.
+    one_size : bool
+        Leave out the checks at half and twice the size.
+    threads : int
+    renderer : callable, optional
+        Another renderer, a function of an Asked that returns linear light as koksma.compare takes it;
+        koksma.mitsuba.Renderer is one of Mitsuba 3. Scene and patterns are then any texts that it knows, and it is called on
+        one thread unless `threads` says more. Without size, the pictures' own is taken, and other sizes are not checked. A
+        ValueError of the renderer leaves its pattern out of the ranking, another exception ends it.
+    reference : str, optional
+        With renderer, the pattern of the reference (the first one when left out): the mean of 16 pictures of 16 times as many
+        samples a pixel, which must depend on the seed.
 
-    size: (width, height); without it the scene's own, halved until it has 19,200 pixels at most. time_limit: seconds, None
-    for none; it cuts the work short and changes nothing else, so that a longer one names the same best pattern, or one
-    where there was none. one_size: leave out the checks at half and twice the size.
+    Returns
+    -------
+    Ranking
 
-    renderer: another renderer, a function of an Asked that returns linear light as koksma.compare takes it. Scene and
-    patterns are then any texts that it knows, and it is called on one thread unless `threads` says more. Without size,
-    the pictures' own is taken, and other sizes are not checked. reference: with renderer, the pattern of the reference
-    (the first one when left out): the mean of 16 pictures of 16 times as many samples a pixel, which must depend on the
-    seed. A ValueError of the renderer leaves its pattern out of the ranking, another exception ends it.
-    koksma.mitsuba.renderer() is one of Mitsuba 3.
+    Examples
+    --------
+    >>> import koksma
+    >>> ranking = koksma.rank("ball", ["random", "jittered"], 16, size=(32, 24), one_size=True)
+    >>> ranking.best
+    'jittered'
     """
     if renderer is None and reference is not None:
         raise ArgumentError("reference takes renderer: Koksma's own references are jittered")
     if time_limit is not None and not time_limit > 0:
         raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
     other = _Renderer(renderer) if renderer is not None else None
-    names = [canonical(pattern) if other is None else pattern for pattern in patterns]
+    names = [canonical(pattern) if other is None else pattern for pattern in texts("patterns", patterns)]
     if not names or len(set(names)) < len(names):
         raise ArgumentError("patterns: it takes one or more, each once")
     spec, metric = _metric(metric)
@@ -176,7 +207,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
                             integrator=_found("integrator", integrator or "distribution"),
                             filter=_found("filter", filter or "box"), metric=pointer(spec))
     if size is not None:
-        width, height = size
+        width, height = pair("size", size)
         options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
         options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
     if other is not None:
@@ -189,12 +220,12 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         if other is not None and other.raised:
             raise other.raised[0] from None
         raise
-    reasons = {} if other is None else other.reasons
+    reasons: Dict[str, str] = {} if other is None else other.reasons
     undecided = not out.settled
     return Ranking(
         rows=[Ranked(names[r.pattern], r.position or None, _STATES[r.state], _DECISIONS[r.decision], r.trials, r.mean,
                      (r.low, r.high), r.behind, (r.behind_low, r.behind_high),
-                     reasons.get(names[r.pattern], r.reason.decode(errors="replace")),
+                     reasons.get(names[int(r.pattern)], in_python(r.reason.decode(errors="replace"))),
                      r.coherence.coherence, (r.coherence.low, r.coherence.high), r.coherence.noise_high,
                      r.coherence.p, r.coherence.coherent, r.robust, r.top_share)
               for r in rows],
@@ -209,7 +240,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
 def _result(result: s.RankCheckResult, names: Sequence[str]) -> FirstPlace:
     overturned = _CHECKS[result.state] == "overturned"
     interval = (result.behind_low, result.behind_high) if overturned else (math.nan, math.nan)
-    return FirstPlace(_CHECKS[result.state], names[result.pattern] if overturned else None,
+    return FirstPlace(_CHECKS[result.state], names[int(result.pattern)] if overturned else None,
                       result.behind if overturned else math.nan, interval, result.coherent)
 
 

@@ -6,18 +6,29 @@ import math
 import os
 from ctypes import byref, c_void_p, pointer
 from dataclasses import dataclass, field
-from typing import Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from typing import Any, Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, lab, text, whole
+from ._library import ArgumentError, call, check, core, lab, pair, text, texts, whole
 from ._points import Named, free_with, named, shown
 
 
 def scenes() -> List[str]:
-    """The names of the scenes that ship."""
+    """The names of the scenes that ship.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "ball" in koksma.scenes()
+    True
+    """
     names: List[str] = []
     while lab().koksma_scene_name_at(len(names)):
         names.append(lab().koksma_scene_name_at(len(names)).decode())
@@ -25,31 +36,65 @@ def scenes() -> List[str]:
 
 
 def integrators() -> List[Named]:
-    """All integrators, in the table's order."""
+    """All integrators, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "path" in [i.name for i in koksma.integrators()]
+    True
+    """
     return named(lab().koksma_integrator_at)
 
 
 def filters() -> List[Named]:
-    """All pixel filters, in the table's order."""
+    """All pixel filters, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "mitchell" in [f.name for f in koksma.filters()]
+    True
+    """
     return named(lab().koksma_filter_at)
 
 
 def adaptive() -> List[Named]:
-    """All methods of adaptive sampling, in the table's order."""
+    """All methods of adaptive sampling, in the table's order.
+
+    Returns
+    -------
+    list of Named
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "contrast" in [m.name for m in koksma.adaptive()]
+    True
+    """
     return named(lab().koksma_adaptive_at)
 
 
-def _choice(kind: str, word: str) -> int:
-    names, name_of = [], getattr(lab(), f"koksma_{kind}_name")
+def _choice(argument: str, kind: str, word: str) -> int:
+    names: List[str] = []
+    name_of: Any = getattr(lab(), f"koksma_{kind}_name")
     while name_of(len(names)):
         names.append(name_of(len(names)).decode())
     if word not in names:
-        raise ArgumentError(f"{kind} '{word}': it takes {', '.join(names)}")
+        raise ArgumentError(f"{argument} '{word}': it takes {', '.join(names)}")
     return names.index(word)
 
 
 def _found(kind: str, name: str) -> int:
-    found = getattr(lab(), f"koksma_{kind}_find")(text(name))
+    found: int = getattr(lab(), f"koksma_{kind}_find")(text(name))
     if not found:
         raise ArgumentError(f"no {kind} '{name}'; koksma.{kind}s() names them")
     return found
@@ -97,32 +142,78 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, layers: Literal[False] = False,
+           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[False] = False,
            threads: SupportsIndex = 0) -> npt.NDArray[np.float32]: ...
 @overload
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, layers: Literal[True], aov: Sequence[str] = (),
+           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[True], aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Layers: ...
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
            pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, layers: bool = False, aov: Sequence[str] = (),
+           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           environment: Union[str, "os.PathLike[str]", None] = None, layers: bool = False, aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Union[npt.NDArray[np.float32], Layers]:
-    """Renders a scene that ships, or a JSON file (a path, or a text with a '/' or that ends in ".json").
+    """Renders a scene, with the bits of `koksma render`.
 
-    pattern: of all uses of a sample; or also patterns of single uses and of groups of uses, which one pattern of their
-    total dimension samples together, with ';' between: "random;lens=sobol;pixel+time=scan-time".
-    size: (width, height); the scene's own when left out. adaptive: a method, such as "hierarchical:levels=2", that takes
-    more samples than spp where it needs them, until it needs none or `budget` (0: no limit) is spent: samples a pixel,
-    averaged over the image; some methods draw strata of their own, and take no pattern. The other arguments are those of
-    `koksma render`, and give the same bits. Returns linear light of shape (height, width, channels), channels 1 or 3; row
-    0 is on top; with layers=True a `Layers`, whose image it is. Its `aovs` are then the further images that aov names:
-    "direct" and "indirect", or "bounce:0", "bounce:1", ..., parts of the light that add up to the image; "id"; "half".
+    Parameters
+    ----------
+    scene : str or path
+        The name of a scene that ships (koksma.scenes()), or a file: a path, or a text with a '/' or that ends in ".json".
+    pattern : str
+        Of all uses of a sample; or also patterns of single uses and of groups of uses, which one pattern of their total
+        dimension samples together, with ';' between: "random;lens=sobol;pixel+time=scan-time".
+    spp : int
+        Samples a pixel.
+    size : (width, height), optional
+        The scene's own when left out.
+    seed : int
+    pairing : {"shuffled", "aligned", "native"}
+        How the point sets of a pixel's uses are combined.
+    scope : {"pixel", "image"}
+        What one point set covers.
+    lights : {"all", "one", "power", "uniform", "auto"}
+        Which lights a sample takes.
+    integrator, filter : str, optional
+        koksma.integrators() and koksma.filters() name them.
+    depth : int, optional
+        The longest path, in bounces.
+    splat : bool
+        Each sample adds to all pixels that the filter reaches.
+    adaptive : str, optional
+        A method, such as "hierarchical:levels=2", that takes more samples than spp where it needs them, until it needs none or
+        `budget` is spent. Some methods draw strata of their own, and take no pattern.
+    budget : float
+        Samples a pixel, averaged over the image; 0: no limit.
+    sky : float, optional
+        Light of this radiance from all directions, instead of the scene's sky or the default lights of a model.
+    environment : path, optional
+        An image in latitude and longitude that gives the light instead, times `sky`.
+    layers : bool
+        Return a `Layers`.
+    aov : sequence of str
+        With layers: further images for its `aovs`. "direct" and "indirect", or "bounce:0", "bounce:1", ..., parts of the light
+        that add up to the image; "id"; "half".
+    threads : int
+        0: one for each processor. The image does not depend on it.
 
+    Returns
+    -------
+    ndarray of float32, of shape (height, width, channels), or Layers
+        Linear light, 1 or 3 channels; row 0 is on top.
+
+    Raises
+    ------
+    ArgumentError, MissingError, MalformedError
+
+    Examples
+    --------
     >>> import koksma
     >>> parts = koksma.render("cornell", spp=4, size=(8, 8), integrator="path", layers=True, aov=["direct", "indirect"])
     >>> bool(abs(parts.aovs["direct"] + parts.aovs["indirect"] - parts.image).max() < 1e-5)
@@ -130,25 +221,27 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     """
     handle, options, image, every, report = c_void_p(), s.RenderOptions(), s.Image(), s.Layers(), s.AdaptiveReport()
     further = s.Aovs()
-    if isinstance(aov, str):
-        raise ArgumentError(f"aov {aov!r}: it takes a list of texts")
+    aov = texts("aov", aov)
     if aov and not layers:
         raise ArgumentError("aov takes layers=True")
     if aov:
         check(lab().koksma_aovs_parse(text(",".join(aov)), byref(further)))
-    choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),
-                               "lights": _choice("light_selection", lights)}
+    choices: Dict[str, int] = {"pairing": _choice("pairing", "pairing", pairing), "scope": _choice("scope", "scope", scope),
+                               "lights": _choice("lights", "light_selection", lights)}
     spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
     name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
     check(lab().koksma_scene_open(text(name), byref(handle)))
     try:
+        if sky is not None or environment is not None:
+            check(lab().koksma_scene_set_sky(handle, None if environment is None else text(os.fspath(environment)),
+                                             1.0 if sky is None else sky))
         lab().koksma_render_options_init(byref(options), handle)
         options.spp, options.seed = spp, seed
         check(lab().koksma_render_patterns(text(pattern), byref(options)))
         for name, value in choices.items():
             setattr(options, name, value)
         if size is not None:
-            width, height = size
+            width, height = pair("size", size)
             options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
             options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
         if integrator is not None:
@@ -187,12 +280,12 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         lab().koksma_scene_close(handle)
     if adaptive is None and not layers:
         return adopt_image(image)
-    names = ("image", "albedo", "normal", "depth", "samples", "variance")
-    arrays = [adopt_image(s.Image.from_buffer_copy(getattr(every, name))) for name in names]
+    parts = {name: adopt_image(s.Image.from_buffer_copy(getattr(every, name)))
+             for name in ("image", "albedo", "normal", "depth", "samples", "variance")}
     if not layers:
-        return arrays[0]
+        return parts["image"]
     aovs = {further.names[i].value.decode(): adopt_image(s.Image.from_buffer_copy(further.images[i])) for i in range(further.n)}
-    return Layers(*arrays, every.rays, report.rounds, report.splits, aovs)
+    return Layers(**parts, rays=every.rays, rounds=report.rounds, splits=report.splits, aovs=aovs)
 
 
 def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
@@ -202,14 +295,48 @@ def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
 
 
 def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
-    """An EXR, PNG or PFM file as linear light, of shape (height, width, channels)."""
+    """Reads an image as linear light.
+
+    Parameters
+    ----------
+    path : str or path
+        An EXR, PNG, PFM or JPEG file.
+
+    Returns
+    -------
+    ndarray of float32, of shape (height, width, channels)
+
+    Raises
+    ------
+    MissingError, MalformedError, UnsupportedError
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.write_image("image.pfm", [[0, 0.5, 1]])
+    >>> koksma.read_image("image.pfm").shape
+    (1, 3, 1)
+    """
     image = s.Image()
     check(lab().koksma_image_read(text(os.fspath(path)), byref(image)))
     return adopt_image(image)
 
 
 def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> None:
-    """Writes linear light, an array of shape (height, width) or (height, width, channels), as EXR, PNG or PFM by the ending."""
+    """Writes an image, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or path
+        Its ending says the format: .exr, .png, .pfm or .jpg.
+    image : array_like of shape (height, width) or (height, width, channels)
+        Linear light, 1 or 3 channels.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.write_image("ball.png", koksma.render("ball", spp=4, size=(16, 12)))
+    """
     from ._compare import as_image, view_image
 
     array = as_image(image)
@@ -217,5 +344,16 @@ def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> N
 
 
 def version() -> str:
-    """The library's version."""
-    return core().koksma_version().decode()
+    """The library's version.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> import koksma
+    >>> len(koksma.version().split("."))
+    3
+    """
+    return str(core().koksma_version().decode())

@@ -39,6 +39,7 @@ class Trials:
 
     @property
     def mean(self) -> float:
+        """Of a set's value."""
         return float(self.values.mean())
 
     @property
@@ -104,7 +105,9 @@ class Convergence:
 
     @property
     def mean(self) -> npt.NDArray[np.float64]:
-        return self.values.mean(axis=0)
+        """Over the trials, of each size."""
+        means: npt.NDArray[np.float64] = self.values.mean(axis=0)
+        return means
 
     @property
     def standard_error(self) -> npt.NDArray[np.float64]:
@@ -246,7 +249,10 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
 def _slope(sizes: npt.NDArray[np.float64], values: npt.NDArray[np.float64]) -> tuple[float, float]:
     """Of the means; the error of several trials by the delta method, as koksma measure has it."""
     means, line = values.mean(axis=0), s.Line()
-    as_c = lambda xs: (c_double * len(xs))(*xs)  # noqa: E731
+
+    def as_c(xs: npt.NDArray[np.float64]) -> Any:
+        return (c_double * len(xs))(*xs)
+
     if not core().koksma_log_line(len(sizes), as_c(sizes), as_c(means), byref(line)):
         return math.nan, math.nan
     if len(values) < 2:

@@ -62,7 +62,7 @@ def _result(raw: s.Spectrum) -> Spectrum:
 
 def _each(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]") -> "Iterable[npt.ArrayLike]":
     """The sets one by one. What has rows of numbers is one set; an iterator is not looked into beforehand."""
-    rows = np.asanyarray(sets) if hasattr(sets, "__array__") else sets
+    rows: Any = np.asanyarray(sets) if hasattr(sets, "__array__") else sets
     if isinstance(rows, np.ndarray):
         return [rows] if rows.ndim == 2 else rows
     return [rows] if isinstance(rows, Sequence) and rows and np.ndim(rows[0]) == 1 else rows
@@ -72,7 +72,25 @@ def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsInde
              exact: bool = False, threads: SupportsIndex = 0) -> Spectrum:
     """The power spectrum at the frequencies |kx|, |ky| <= half of one (n, 2) set, or the mean over several.
 
-    exact: sums over all points at each frequency, instead of an FFT within 1e-9 of n.
+    Parameters
+    ----------
+    sets : array_like of shape (n, 2), or an iterable of them
+    half : int
+    exact : bool
+        Sums over all points at each frequency, instead of an FFT within 1e-9 of n.
+    threads : int
+        0: one for each processor.
+
+    Returns
+    -------
+    Spectrum
+
+    Examples
+    --------
+    >>> import koksma
+    >>> found = koksma.spectrum([koksma.generate("jittered", 64, seed=seed) for seed in range(8)], half=16)
+    >>> bool(found.ring_power[0] < 0.5 < found.ring_power[-1])
+    True
     """
     raw = s.Spectrum()
     check(core().koksma_spectrum_init(byref(raw), whole("half", half, 1, s.MAX_HALF)))
@@ -100,6 +118,8 @@ def pair_correlation(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", r_max: flo
         Distances up to r_max, above 0 and at most 1/2.
     bins : int
         Equal bins of distance.
+    threads : int
+        0: one for each processor.
 
     Returns
     -------
@@ -117,7 +137,7 @@ def pair_correlation(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", r_max: flo
         c_points = view(array := as_points(points))
         call(core().koksma_pair_correlation, byref(c_points), r_max, width, values, threads=threads, run_at=3)
         del array
-        total += np.frombuffer(values)
+        total += np.array(values)
         count += 1
     if not count:
         raise ArgumentError("a pair correlation takes at least one set of points")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import tempfile
 from ctypes import byref, c_bool, c_char_p, c_void_p
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, lab, text, whole
+from ._library import ArgumentError, MalformedError, call, check, lab, text, whole
 
 Plan = Union[str, "os.PathLike[str]", Dict[str, Any]]
 
@@ -116,16 +117,18 @@ class Study:
     >>> import koksma
     >>> plan = {"name": "mine", "title": "Mine", "discrepancies": [{"id": "d", "patterns": ["random", "jittered"],
     ...         "measures": ["star"], "n": [16, 64], "trials": 10}]}
-    >>> with koksma.Study(plan, "results") as study:  # doctest: +SKIP
-    ...     study.run()
+    >>> with koksma.Study(plan, "results") as study:
+    ...     done = study.run()
+    ...     page = study.report()
     ...     rows = study.rows()
-    ...     study.report()
+    >>> len(rows)
+    40
     """
 
     def __init__(self, plan: Union[Plan, Sequence[Plan]] = (), folder: Union[str, "os.PathLike[str]", None] = None, *,
                  trials: Optional[SupportsIndex] = None, quick: bool = False) -> None:
         self._handle = c_void_p()
-        self.folder = None if folder is None else Path(folder)
+        self.folder: Optional[Path] = None if folder is None else Path(folder)
         plans = [plan] if isinstance(plan, (str, os.PathLike, dict)) else list(plan)
         with tempfile.TemporaryDirectory(prefix="koksma-plan-") as room:
             names = []
@@ -139,7 +142,13 @@ class Study:
             options = s.StudyOptions((c_char_p * len(names))(*names), len(names),
                                      None if folder is None else text(os.fspath(folder)),
                                      0 if trials is None else whole("trials", trials, 1, 100000000), quick)
-            check(lab().koksma_study_open(byref(options), byref(self._handle)))
+            try:
+                check(lab().koksma_study_open(byref(options), byref(self._handle)))
+            except MalformedError as error:  # of a dict: the file of its lines is gone
+                said = re.sub(rf"plan '{re.escape(room)}/[^']*': line (\d+): ", r"line \1 of json.dumps(plan, indent=1): ", str(error))
+                again = MalformedError(said)
+                again.status = error.status
+                raise again from None
 
     def _open(self) -> c_void_p:
         if not self._handle:
@@ -253,9 +262,13 @@ def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] 
     Examples
     --------
     >>> import koksma
-    >>> found = koksma.audit("results", rows=200)  # doctest: +SKIP
-    >>> found.agree, found.drawn, found.bound      # doctest: +SKIP
-    (200, 200, 0.0149)
+    >>> plan = {"name": "mine", "title": "Mine", "discrepancies": [{"id": "d", "patterns": ["random"],
+    ...         "measures": ["star"], "n": [16], "trials": 10}]}
+    >>> with koksma.Study(plan, "audited") as study:
+    ...     done = study.run()
+    >>> found = koksma.audit("audited")
+    >>> bool(found), found.agree == found.drawn
+    (True, True)
     """
     lines: List[str] = []
     differs = s.Differs(lambda _context, line: lines.append(line.decode(errors="replace")))
@@ -268,7 +281,18 @@ def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] 
 
 
 def plans() -> List[str]:
-    """The names of the plans that ship."""
+    """The names of the plans that ship.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> import koksma
+    >>> "shirley1991" in koksma.plans()
+    True
+    """
     names: List[str] = []
     while lab().koksma_plan_name_at(len(names)):
         names.append(lab().koksma_plan_name_at(len(names)).decode())

@@ -38,10 +38,13 @@ from ._rank import Asked, Ranking
 from ._rank import rank as _rank
 
 try:
-    import drjit as dr
-    import mitsuba as mi
+    import drjit
+    import mitsuba
 except ModuleNotFoundError:
     raise ImportError("koksma.mitsuba needs Mitsuba 3: pip install mitsuba") from None
+
+dr: Any = drjit  # their arrays have other types in each variant
+mi: Any = mitsuba
 
 OWEN_SOBOL = "sobol:scramble=hash-owen,shuffle=1"
 _FOR_POINT, _FOR_SHUFFLE = 2, 3  # purposes of random words, as in sampler.h
@@ -62,7 +65,7 @@ def _wide(a: Any, b: int) -> Tuple[Any, Any]:
 
 def _words(key: Tuple[Any, Any], purpose: int, index: Tuple[Any, Any], lane: int) -> Tuple[Any, Any, Any, Any]:
     """Philox4x32-10 (Salmon et al. 2011), as koksma_words. Key and index: lower and upper word."""
-    kind = type(key[0])
+    kind: Any = type(key[0])
     a, b, c, d = kind(index[0]), kind(index[1]), kind(lane), kind(purpose)
     k0, k1 = key
     for _ in range(10):
@@ -140,7 +143,7 @@ def _sampler_class(variant: str) -> Any:
     jit = dr.is_jit_v(mi.Float)
     number = mi.UInt32 if jit else int
 
-    class KoksmaSampler(mi.Sampler):  # type: ignore[misc, name-defined]
+    class KoksmaSampler(mi.Sampler):  # type: ignore[misc, unused-ignore]
         """One sampler of a wavefront, or of one pixel at a time in scalar variants. Dr.Jit carries every attribute that
         is an array through loops."""
 
@@ -274,7 +277,7 @@ class Renderer:
         if not hasattr(mi, "parser"):
             raise UnsupportedError(f"Mitsuba {mi.__version__}: it takes 3.7 or later, whose parser lets samplers be replaced")
         register()
-        self.scene = scene if isinstance(scene, dict) else os.fspath(scene)
+        self.scene: Union[str, Dict[str, Any]] = scene if isinstance(scene, dict) else os.fspath(scene)
         self._loaded: Dict[Any, Any] = {}
 
     def load(self, pattern: str, spp: int, size: Optional[Tuple[int, int]] = None) -> Any:

@@ -224,6 +224,38 @@ class Errors(unittest.TestCase):
         self.assertLessEqual(value.lower, value.upper)
 
 
+class ErrorsSpeakPython(unittest.TestCase):
+    """Messages name the arguments of Python: no option of the program, no function of C, no file that is gone."""
+
+    def test_wrong_calls(self):
+        points = np.full((4, 2), .5)
+        for call, said in (
+                (lambda: koksma.generate("sobol"), r"^sobol: n, the number of points, is missing$"),
+                (lambda: koksma.generate("exec:./x", 4), r"^exec:./x: the pattern runs external code; koksma.allow_exec\(\) allows that$"),
+                (lambda: koksma.generate("jittered", 16, first=4), r"koksma\.has_ranges"),
+                (lambda: koksma.render("ball", lights="q"), r"^lights 'q': it takes all, one"),
+                (lambda: koksma.render("ball", size=4), r"^size 4: it takes \(width, height\)$"),
+                (lambda: koksma.rank("ball", size=(1, 2, 3)), r"^size \(1, 2, 3\): it takes \(width, height\)$"),
+                (lambda: koksma.rank("ball", "random"), r"^patterns 'random': it takes a list of texts$"),
+                (lambda: koksma.datasheet("sobol", beside="random"), r"^beside 'random': it takes a list"),
+                (lambda: koksma.datasheet("sobol", scenes="ball"), r"^scenes 'ball': it takes a list"),
+                (lambda: koksma.datasheet("sobol", beside=["random"] * 9), r"^beside: 9 samplers"),
+                (lambda: koksma.sensitivity("genz-gaussian", [0, 0]), r"^axes: 0: it takes different"),
+                (lambda: koksma.canonical("star", "q"), r"^kind 'q': it takes 'pattern' or 'measure'$"),
+                (lambda: koksma.plot(points, size=-5), r"^size -5: it takes"),
+                (lambda: koksma.Study({"name": "x"}), r"^line 1 of json\.dumps\(plan, indent=1\): field 'title' is missing$")):
+            with self.subTest(said=said), self.assertRaisesRegex((koksma.ArgumentError, koksma.MalformedError, koksma.ForbiddenError), said) as caught:
+                call()
+            self.assertNotRegex(str(caught.exception), r"--[a-z]|koksma_|koksma list|koksma-plan-")
+        with self.assertRaisesRegex(TypeError, "a name or path is a text, not 16"):
+            koksma.generate(16, "random")
+
+    def test_reasons(self):
+        """Why a pattern is left out of a ranking."""
+        ranking = koksma.rank("ball", ["exec:./x", "random"], 4, size=(8, 6), max_trials=8, one_size=True)
+        self.assertIn("koksma.allow_exec()", {row.pattern: row.reason for row in ranking.rows}["exec:./x"])
+
+
 class Datasheets(unittest.TestCase):
     def test_datasheet(self):
         seen = []

@@ -77,6 +77,21 @@ class Rendering(unittest.TestCase):
                 if "adaptive" in ours:
                     np.testing.assert_array_equal(image, koksma.render(scene, spp=4, size=(24, 18), layers=True, **ours).image)
 
+    def test_sky(self):
+        """The bits of the program's --sky and --environment."""
+        with tempfile.TemporaryDirectory() as folder:
+            around, path = os.path.join(folder, "around.pfm"), os.path.join(folder, "image.pfm")
+            koksma.write_image(around, np.linspace(0, 2, 96, dtype=np.float32).reshape(4, 8, 3))
+            for options, ours in ((["--sky", "0.25"], dict(sky=0.25)), (["--environment", around], dict(environment=around)),
+                                  (["--environment", around, "--sky", "3"], dict(environment=around, sky=3))):
+                program("render", "ball", *options, "--size", "24x18", "-n", "4", "-q", "-o", path)
+                image = koksma.render("ball", spp=4, size=(24, 18), **ours)
+                np.testing.assert_array_equal(image, koksma.read_image(path))
+                self.assertFalse(np.array_equal(image, koksma.render("ball", spp=4, size=(24, 18))))
+        for arguments, kind, said in ((dict(sky=-1), koksma.ArgumentError, "-1"), (dict(environment="no.pfm"), koksma.MissingError, "no.pfm")):
+            with self.assertRaisesRegex(kind, said):
+                koksma.render("ball", spp=1, size=(8, 8), **arguments)
+
     def test_layers(self):
         image = koksma.render("ball", "jittered", 9, size=(24, 18))
         layers = koksma.render("ball", "jittered", 9, size=(24, 18), layers=True)

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -104,6 +105,30 @@ class Raised(Case):
             thread.join()
             self.assertIs(signal.getsignal(signal.SIGINT), handler)
             np.testing.assert_array_equal(koksma.render("ball", spp=4, **arguments), before)
+
+    def test_control_c_of_each_long_call(self):
+        """KeyboardInterrupt comes out of each, as Python's own handler raises it; a study opens again."""
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        many = [{"name": "long", "title": "Long", "discrepancies": [{"id": "d", "patterns": ["random"], "measures": ["star"],
+                                                                     "n": [2048], "trials": 100000}]}]
+        with tempfile.TemporaryDirectory() as folder:
+            study = koksma.Study(many, folder)
+            calls = {"optimise": lambda: koksma.optimise("star", 64, time_limit=1e6),
+                     "optimise with progress": lambda: koksma.optimise("star", 64, progress=lambda best: True),
+                     "integrate": lambda: koksma.integrate("genz-gaussian", "sobol:scramble=owen", [1 << 20], trials=100000),
+                     "integrate a callable": lambda: koksma.integrate(lambda x: x[:, 0], "sobol:scramble=owen", [1 << 20], trials=100000),
+                     "rank": lambda: koksma.rank("balls", spp=1024, size=(640, 480), time_limit=None),
+                     "datasheet": lambda: koksma.datasheet("sobol:scramble=owen"),
+                     "study": study.run}
+            for name, call in calls.items():
+                with self.subTest(call=name), self.assertRaises(KeyboardInterrupt):
+                    thread = send_in_call(signal.SIGINT)
+                    call()
+                thread.join()
+                self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+            study.close()
+            with koksma.Study(many, folder) as again:  # nothing is locked or damaged
+                self.assertEqual(len(again.tables()), 0)
 
     def test_a_call_that_never_asks(self):
         self.on(signal.SIGUSR1, raising(Timeout("early")))

@@ -34,6 +34,15 @@ class Structs(unittest.TestCase):
             theirs = subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines()
         self.assertEqual(theirs, ours, "a struct of the headers changed: mend python/koksma/_structs.py")
 
+    def test_julia(self):
+        """examples/julia has room for the structs, and reads the value as the first member."""
+        with open(os.path.join(INCLUDE, "..", "examples", "julia", "koksma.jl"), encoding="utf-8") as file:
+            room = [8 * int(n) for n in re.findall(r"zeros\((?:UInt64, )?(\d+)\)", file.read())]
+        self.assertEqual(len(room), 3)
+        for cls, size in zip((_structs.Spec, _structs.Spec, _structs.Value), room):
+            self.assertLessEqual(ctypes.sizeof(cls), size)
+        self.assertEqual((_structs.Value.value.offset, _structs.Value.value.size), (0, 8))
+
     def test_statuses(self):
         with open(os.path.join(INCLUDE, "koksma", "status.def"), encoding="utf-8") as file:
             numbers = dict(re.findall(r"^KOKSMA_STATUS\((\w+), (\d+),", file.read(), re.M))
