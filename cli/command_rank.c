@@ -275,6 +275,7 @@ static int run(const cli_arguments *arguments)
     koksma_status status = KOKSMA_OK;
     bool all_settled = true;
     const double start_s = work.started_s;
+    work.limit_s = time_limit_s;
     for (size_t i = 0; !status && i < n_spp; i++) {
         cli_work_part(&work, i, n_spp);
         const double left_s = fmax(time_limit_s - (cli_seconds() - start_s), 1e-3);
