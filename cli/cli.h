@@ -99,6 +99,9 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
    or "" if no name is close. */
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96]);
 
+/* The same for a word of a list as messages have it, such as "auto, always or never". */
+const char *cli_meant_of(const char *word, const char *list, char text[96]);
+
 /* The three functions below return the name of command, integrator or filter i, or NULL past the end, for
    cli_meant(); `table` is not used. */
 const char *cli_command_name(const void *table, size_t i);

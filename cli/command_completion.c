@@ -427,7 +427,10 @@ static int run(const cli_arguments *arguments)
             return CLI_YES;
         }
     }
-    return cli_usage_error(arguments, "it takes one of bash, zsh, fish");
+    char meant[96] = "";
+    return cli_usage_error(arguments, "%sit takes one of bash, zsh, fish",
+                           arguments->n_operands ? cli_meant_of(arguments->operands[0], "bash, zsh, fish", meant)
+                                                 : "");
 }
 
 static const cli_option options[] = {{0}};

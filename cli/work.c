@@ -107,7 +107,9 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     }
     const bool always = !strcmp(when, "always"), automatic = !strcmp(when, "auto");
     if (!always && !automatic && strcmp(when, "never") != 0) {
-        cli_usage_error(arguments, "--progress %s: it takes auto, always or never", when);
+        char meant[96];
+        cli_usage_error(arguments, "--progress %s: %sit takes auto, always or never", when,
+                        cli_meant_of(when, "auto, always or never", meant));
         return false;
     }
     const bool visible = !cli_flag(arguments, "quiet") && (always || (automatic && isatty(STDERR_FILENO)));
