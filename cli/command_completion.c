@@ -381,7 +381,7 @@ static const koksma_param *params_of(const char *name)
 }
 
 /* Prints the completions of a word that ends in an unfinished spec, such as "-p a,sobol:scr": "NAME=" for each
-   parameter, or the choices of the parameter whose "NAME=" is there. After "pattern:" it prints the names of
+   parameter and modifier, or the choices of the parameter whose "NAME=" is there. After "pattern:" it prints the names of
    patterns. */
 static int put_specs(const char *word)
 {
@@ -408,6 +408,9 @@ static int put_specs(const char *word)
                 printf("%.*s%s\n", (int)(last + key + 1 - word), word, p->choices[i]);
             }
         }
+    }
+    for (size_t i = 0; koksma_pattern_find(name) && !last[key] && koksma_modifier_at(i); i++) {
+        printf("%.*s%s=\n", (int)(last - word), word, koksma_modifier_at(i)->name);
     }
     return CLI_YES;
 }
