@@ -99,6 +99,9 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
    or "" if no name is close. */
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96]);
 
+/* The same for a word of a list as messages have it, such as "auto, always or never". */
+const char *cli_meant_of(const char *word, const char *list, char text[96]);
+
 /* The three functions below return the name of command, integrator or filter i, or NULL past the end, for
    cli_meant(); `table` is not used. */
 const char *cli_command_name(const void *table, size_t i);
@@ -130,6 +133,8 @@ typedef struct cli_work {
     const char *what;    /* the text before the progress bar; may be changed while running */
     double begin, share; /* the progress of `run`, 0 to 1, is shown as begin to begin + share */
     double fraction;     /* the progress shown so far, 0 to 1; it never decreases */
+    double limit_s;      /* the work ends by this time after its start, perhaps earlier; 0: unknown */
+    bool hidden;         /* show nothing */
     double started_s, updated_s;
 } cli_work;
 
@@ -138,6 +143,8 @@ typedef struct cli_work {
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
 /* Begins part i (0..) of n equal parts of the progress bar. */
 void cli_work_part(cli_work *work, size_t i, size_t n);
+/* Clears the progress line and shows no other, because the output that follows would mix with it on the terminal. */
+void cli_work_hide(cli_work *work);
 /* Clears the progress line if one is shown. Printing a message or a row clears it, too. */
 void cli_work_end(void);
 bool cli_interrupted(void);

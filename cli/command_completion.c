@@ -381,7 +381,7 @@ static const koksma_param *params_of(const char *name)
 }
 
 /* Prints the completions of a word that ends in an unfinished spec, such as "-p a,sobol:scr": "NAME=" for each
-   parameter, or the choices of the parameter whose "NAME=" is there. After "pattern:" it prints the names of
+   parameter and modifier, or the choices of the parameter whose "NAME=" is there. After "pattern:" it prints the names of
    patterns. */
 static int put_specs(const char *word)
 {
@@ -409,6 +409,9 @@ static int put_specs(const char *word)
             }
         }
     }
+    for (size_t i = 0; koksma_pattern_find(name) && !last[key] && koksma_modifier_at(i); i++) {
+        printf("%.*s%s=\n", (int)(last - word), word, koksma_modifier_at(i)->name);
+    }
     return CLI_YES;
 }
 
@@ -427,7 +430,10 @@ static int run(const cli_arguments *arguments)
             return CLI_YES;
         }
     }
-    return cli_usage_error(arguments, "it takes one of bash, zsh, fish");
+    char meant[96] = "";
+    return cli_usage_error(arguments, "%sit takes one of bash, zsh, fish",
+                           arguments->n_operands ? cli_meant_of(arguments->operands[0], "bash, zsh, fish", meant)
+                                                 : "");
 }
 
 static const cli_option options[] = {{0}};

@@ -29,7 +29,10 @@ static int run(const cli_arguments *arguments)
     const cli_curve *curve = arguments->n_operands > 1 ? cli_curve_find(CLI_PRINTED, arguments->operands[0]) : NULL;
     if (!curve) {
         cli_curve_names(CLI_PRINTED, NULL, ", ", ", ", names, sizeof names);
-        return cli_usage_error(arguments, "it takes one of %s, and points", names);
+        char meant[96] = "";
+        return cli_usage_error(arguments, "%sit takes one of %s, and points",
+                               arguments->n_operands > 1 ? cli_meant_of(arguments->operands[0], names, meant) : "",
+                               names);
     }
     if (!cli_curves_begin(arguments, curve, CLI_PRINTED, "", &c)) {
         return CLI_USAGE;

@@ -9,15 +9,26 @@
 #include <koksma/verify.h>
 
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "source.h"
 #include "warps.h"
 
+/* Ends the progress line if the points follow it on the terminal. */
+static void make_way(const cli_arguments *arguments, cli_work *work)
+{
+    if (!strcmp(cli_text(arguments, "output", "-"), "-") && isatty(STDOUT_FILENO)) {
+        cli_work_hide(work);
+    }
+}
+
 /* Generates all points in memory and writes them. If points->n is 0, the pattern determines the number of points. */
 static int generate(const cli_arguments *arguments, const koksma_spec *spec, const koksma_warp *warp, uint64_t seed,
-                    const koksma_run *run, koksma_points *points)
+                    cli_work *work, koksma_points *points)
 {
     char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 128];
+    const koksma_run *run = &work->run;
     koksma_status status = points->n ? koksma_generate(spec, seed, run, points)
                                      : koksma_generate_whole(spec, seed, run, points->dim, points);
     if (!status) {
@@ -34,6 +45,7 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, con
         }
     }
     if (!status) {
+        make_way(arguments, work);
         status = (warp ? koksma_points_write_mapped : koksma_points_write)(cli_text(arguments, "output", "-"), points,
                                                                            comment, run);
     }
@@ -42,8 +54,9 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, con
 
 /* Generates and writes the points piece by piece, without the whole set in memory. */
 static int stream(const cli_arguments *arguments, const cli_source *source, uint64_t first, uint64_t seed,
-                  const koksma_run *run)
+                  cli_work *work)
 {
+    make_way(arguments, work);
     char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 128];
     koksma_spec_text(&source->spec, text);
     const int used = snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
@@ -51,14 +64,15 @@ static int stream(const cli_arguments *arguments, const cli_source *source, uint
         snprintf(comment + used, sizeof comment - (size_t)used, "\nfirst %llu", (unsigned long long)first);
     }
     const koksma_status status = koksma_generate_write(&source->spec, seed, first, source->n, source->dim,
-                                                       cli_text(arguments, "output", "-"), comment, run);
+                                                       cli_text(arguments, "output", "-"), comment, &work->run);
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
 /* Generates points whose density follows the image `density`, or points on the model `on`; one of them is NULL. */
 static int generate_in(const cli_arguments *arguments, const cli_source *source, const char *density, const char *on,
-                       uint64_t seed, const koksma_run *run)
+                       uint64_t seed, cli_work *work)
 {
+    const koksma_run *run = &work->run;
     char text[KOKSMA_MAX_SPEC], comment[2 * KOKSMA_MAX_SPEC + 128];
     koksma_points points;
     koksma_image map = {0};
@@ -77,6 +91,7 @@ static int generate_in(const cli_arguments *arguments, const cli_source *source,
         koksma_spec_text(&source->spec, text);
         snprintf(comment, sizeof comment, "pattern %s\nseed %llu\n%s %s", text, (unsigned long long)seed,
                  on ? "on" : "density", on ? on : density);
+        make_way(arguments, work);
         status = (on ? koksma_points_write_mapped : koksma_points_write)(cli_text(arguments, "output", "-"), &points,
                                                                          comment, run);
     }
@@ -121,12 +136,12 @@ static int run(const cli_arguments *arguments)
             return cli_usage_error(arguments,
                                    "--density and --on need -n N, and exclude each other, --first and --warp");
         }
-        code = generate_in(arguments, &source, density, on, seed, &work.run);
+        code = generate_in(arguments, &source, density, on, seed, &work);
         cli_work_end();
         return code;
     }
     if (source.n && !warp && (first || koksma_has_ranges(&source.spec))) {
-        code = stream(arguments, &source, first, seed, &work.run);
+        code = stream(arguments, &source, first, seed, &work);
         cli_work_end();
         return code;
     }
@@ -136,7 +151,7 @@ static int run(const cli_arguments *arguments)
     if (status) {
         return cli_fail(arguments, status);
     }
-    code = generate(arguments, &source.spec, warp, seed, &work.run, &points);
+    code = generate(arguments, &source.spec, warp, seed, &work, &points);
     cli_work_end();
     koksma_points_fini(&points);
     return code;

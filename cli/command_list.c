@@ -325,7 +325,10 @@ static int run(const cli_arguments *arguments)
         found = found || !strcmp(which, lists[i].name);
     }
     if (!found || arguments->n_operands > 1) {
-        return cli_usage_error(arguments, "it takes one of %s", cli_list_names(", ", names, sizeof names));
+        char meant[96] = "";
+        cli_list_names(", ", names, sizeof names);
+        return cli_usage_error(arguments, "%sit takes one of %s", found ? "" : cli_meant_of(which, names, meant),
+                               names);
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {

@@ -182,7 +182,9 @@ static bool parse(job *j)
         k++;
     }
     if (k == 4) {
-        cli_usage_error(arguments, "--keep %s: it takes none, latin, net or sequence", keep);
+        char meant[96];
+        cli_usage_error(arguments, "--keep %s: %sit takes none, latin, net or sequence", keep,
+                        cli_meant_of(keep, "none, latin, net or sequence", meant));
         return false;
     }
     if (!cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||

@@ -33,7 +33,9 @@ static bool choose_looks(const cli_arguments *arguments, cli_curves *c)
     c->height = height;
     c->dark = !strcmp(theme, "dark");
     if (!c->dark && strcmp(theme, "light") != 0) {
-        cli_usage_error(arguments, "--theme %s: it takes light or dark", theme);
+        char meant[96];
+        cli_usage_error(arguments, "--theme %s: %sit takes light or dark", theme,
+                        cli_meant_of(theme, "light or dark", meant));
         return false;
     }
     return true;
@@ -59,7 +61,8 @@ static int run(const cli_arguments *arguments)
     const cli_curve *curve = cli_curve_find(CLI_DRAWN, name);
     if (!curve) {
         cli_curve_names(CLI_DRAWN, NULL, ", ", " or ", names, sizeof names);
-        return cli_usage_error(arguments, "--curve %s: it takes %s", name, names);
+        char meant[96];
+        return cli_usage_error(arguments, "--curve %s: %sit takes %s", name, cli_meant_of(name, names, meant), names);
     }
     if (!cli_curves_begin(arguments, curve, CLI_DRAWN, "--curve ", &c) || !choose_looks(arguments, &c) ||
         (!curve->plot.of_filters && !cli_sources_check(arguments, 0, trials_of_all(&c), 0))) {

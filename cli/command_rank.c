@@ -178,6 +178,58 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_end(rows);
 }
 
+/* Why a pattern is not ranked, without the pattern's name, with which most reasons begin: the message has it. */
+static const char *reason_of(const koksma_rank_options *options, const koksma_rank_row *row)
+{
+    const char *name = options->patterns[row->pattern];
+    const size_t length = strlen(name);
+    const bool repeats = !strncmp(row->reason, name, length) && !strncmp(row->reason + length, ": ", 2);
+    return row->reason + (repeats ? length + 2 : 0);
+}
+
+/* Whether two patterns are not ranked for the same reason. Of slow ones the reasons differ in numbers of trials. */
+static bool same_reason(const koksma_rank_options *options, const koksma_rank_row *a, const koksma_rank_row *b)
+{
+    return a->state == b->state &&
+           (a->state == KOKSMA_RANK_TOO_SLOW || !strcmp(reason_of(options, a), reason_of(options, b)));
+}
+
+/* Prints the patterns that are not ranked: one line for each reason, with all patterns that it concerns. */
+static void say_unranked(const koksma_rank_options *options, const koksma_rank_row *table,
+                         const koksma_ranking *ranking)
+{
+    bool said[MAX_PATTERNS] = {false};
+    for (size_t i = ranking->n; i < options->n_patterns; i++) {
+        /* the advice reports if no pattern was ranked in time */
+        if (said[i] || (!ranking->n && table[i].state != KOKSMA_RANK_REFUSED)) {
+            continue;
+        }
+        char names[MAX_PATTERNS * (KOKSMA_MAX_SPEC + 5)];
+        size_t used = 0, last = i, n = 0;
+        for (size_t j = i; j < options->n_patterns; j++) {
+            said[j] |= same_reason(options, &table[i], &table[j]);
+            last = same_reason(options, &table[i], &table[j]) ? j : last;
+        }
+        for (size_t j = i; j <= last; j++) {
+            if (same_reason(options, &table[i], &table[j])) {
+                used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
+                                         !n         ? ""
+                                         : j < last ? ", "
+                                                    : " and ",
+                                         options->patterns[table[j].pattern]);
+                n++;
+            }
+        }
+        if (n > 1 && table[i].state == KOKSMA_RANK_TOO_SLOW) {
+            cli_say("rank",
+                    "%s are not ranked: too slow: fewer than 8 trials of each were done within the time limit",
+                    names);
+        } else {
+            cli_say("rank", "%s %s not ranked: %s", names, n > 1 ? "are" : "is", reason_of(options, &table[i]));
+        }
+    }
+}
+
 /* Ranks the patterns for one number of samples, and prints the rows and the advice. *settled: whether the best
    pattern is decided. */
 static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_options *options, cli_work *work,
@@ -196,16 +248,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     if (!cli_flag(arguments, "quiet")) {
         cli_rank_advise(options, table, &ranking);
     }
-    for (size_t i = ranking.n; i < options->n_patterns; i++) {
-        /* the advice reports if no pattern was ranked in time */
-        if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) {
-            /* most reasons begin with the name of the pattern, which the message already has */
-            const char *name = options->patterns[table[i].pattern], *reason = table[i].reason;
-            const size_t length = strlen(name);
-            const bool repeats = !strncmp(reason, name, length) && !strncmp(reason + length, ": ", 2);
-            cli_say("rank", "%s is not ranked: %s", name, reason + (repeats ? length + 2 : 0));
-        }
-    }
+    say_unranked(options, table, &ranking);
     *settled = ranking.settled;
     return KOKSMA_OK;
 }
@@ -275,6 +318,7 @@ static int run(const cli_arguments *arguments)
     koksma_status status = KOKSMA_OK;
     bool all_settled = true;
     const double start_s = work.started_s;
+    work.limit_s = time_limit_s;
     for (size_t i = 0; !status && i < n_spp; i++) {
         cli_work_part(&work, i, n_spp);
         const double left_s = fmax(time_limit_s - (cli_seconds() - start_s), 1e-3);

@@ -267,10 +267,11 @@ static int export_rows(const cli_arguments *arguments)
         format++;
     }
     if (!formats[format] && *name) {
-        return cli_usage_error(arguments,
-                               given ? "--format %s: it takes csv, json, npy or sha256"
-                                     : "%s: the name of an export must end in .csv, .json, .npy or .sha256",
-                               given ? given : path);
+        char meant[96];
+        return given ? cli_usage_error(arguments, "--format %s: %sit takes csv, json, npy or sha256", given,
+                                       cli_meant_of(given, "csv, json, npy or sha256", meant))
+                     : cli_usage_error(arguments,
+                                       "%s: the name of an export must end in .csv, .json, .npy or .sha256", path);
     }
     format = formats[format] ? format : 0;
     const koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
@@ -489,7 +490,10 @@ static int run(const cli_arguments *arguments)
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
         }
     }
-    return cli_usage_error(arguments, "it takes run, quick, new, estimate, export, report, audit or images");
+    static const char names[] = "run, quick, new, estimate, export, report, audit or images";
+    char meant[96] = "";
+    return cli_usage_error(arguments, "%sit takes %s",
+                           arguments->n_operands ? cli_meant_of(arguments->operands[0], names, meant) : "", names);
 }
 
 static const cli_option options[] = {

@@ -155,7 +155,10 @@ static int run(const cli_arguments *arguments)
     char name[64];
     if (expect && misspelt(expect, name, sizeof name)) {
         char names[512];
-        return cli_usage_error(arguments, "no property '%s'; it takes %s", name, all_properties(names, sizeof names));
+        char meant[96];
+        all_properties(names, sizeof names);
+        return cli_usage_error(arguments, "no property '%s'; %sit takes %s", name, cli_meant_of(name, names, meant),
+                               names);
     }
     if (cli_text(arguments, "measure", NULL) && !cli_flag(arguments, "record")) {
         return cli_usage_error(arguments, "-m MEASURE has an effect only with --record");

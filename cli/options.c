@@ -77,6 +77,27 @@ const char *cli_meant(const char *word, koksma_name_at *name, const void *table,
     return text;
 }
 
+enum { MAX_LISTED = 64 };
+
+static const char *listed_name(const void *names, size_t i)
+{
+    return i < MAX_LISTED ? ((const char *const *)names)[i] : NULL;
+}
+
+const char *cli_meant_of(const char *word, const char *list, char text[96])
+{
+    char words[1024];
+    const char *names[MAX_LISTED] = {NULL};
+    size_t n = 0;
+    snprintf(words, sizeof words, "%s", list);
+    for (char *at = strtok(words, ", |"); at && n < MAX_LISTED; at = strtok(NULL, ", |")) {
+        if (strcmp(at, "or") != 0) {
+            names[n++] = at;
+        }
+    }
+    return cli_meant(word, listed_name, names, text);
+}
+
 static const char *option_name(const void *options, size_t i)
 {
     return i ? ((const cli_option *)options)[i - 1].name : "help";
@@ -249,7 +270,9 @@ static int read_shared_options(cli_arguments *arguments)
     if (has_option(arguments->command, "unknown")) {
         const char *unknown = cli_text(arguments, "unknown", "approximate");
         if (strcmp(unknown, "approximate") != 0 && strcmp(unknown, "refuse") != 0) {
-            return cli_usage_error(arguments, "--unknown %s: it takes one of approximate, refuse", unknown);
+            char meant[96];
+            return cli_usage_error(arguments, "--unknown %s: %sit takes one of approximate, refuse", unknown,
+                                   cli_meant_of(unknown, "approximate, refuse", meant));
         }
         koksma_scene_refuse_unknown(!strcmp(unknown, "refuse"));
     }

@@ -25,7 +25,9 @@ static bool parse_choice(const cli_arguments *arguments, const char *option, con
         snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", name_of(i));
     }
     if (text) {
-        cli_usage_error(arguments, "--%s %s: it takes one of %s", option, text, all);
+        char meant[96];
+        cli_usage_error(arguments, "--%s %s: %sit takes one of %s", option, text, cli_meant_of(text, all, meant),
+                        all);
     }
     return !text;
 }

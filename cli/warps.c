@@ -14,7 +14,8 @@ const koksma_warp *cli_find_warp(const cli_arguments *arguments, const char *nam
             const size_t used = strlen(names);
             snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", koksma_warp_at(i)->name);
         }
-        cli_usage_error(arguments, "--warp %s: it takes %s", name, names);
+        char meant[96];
+        cli_usage_error(arguments, "--warp %s: %sit takes %s", name, cli_meant_of(name, names, meant), names);
     }
     return warp;
 }

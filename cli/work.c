@@ -67,12 +67,15 @@ static void show(cli_work *work, double fraction)
     const double now = cli_seconds(), elapsed = now - work->started_s;
     char text[256], left[CLI_NUMBER];
     work->fraction = fmax(work->fraction, fmin(work->begin + work->share * fraction, 1));
-    if (now - work->updated_s < 1.0 / 6) {
+    if (work->hidden || now - work->updated_s < 1.0 / 6) {
         return;
     }
     work->updated_s = now;
     const int used = snprintf(text, sizeof text, "%.150s %3.0f %%", work->what, 100 * work->fraction);
-    if (work->fraction > 0.01 && elapsed > 1) {
+    if (work->limit_s > 0) {
+        snprintf(text + used, sizeof text - (size_t)used, ", at most %s left",
+                 cli_duration(fmax(work->limit_s - elapsed, 0), left));
+    } else if (work->fraction > 0.01 && elapsed > 1) {
         snprintf(text + used, sizeof text - (size_t)used, ", %s left",
                  cli_duration(elapsed * (1 - work->fraction) / work->fraction, left));
     }
@@ -104,7 +107,9 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     }
     const bool always = !strcmp(when, "always"), automatic = !strcmp(when, "auto");
     if (!always && !automatic && strcmp(when, "never") != 0) {
-        cli_usage_error(arguments, "--progress %s: it takes auto, always or never", when);
+        char meant[96];
+        cli_usage_error(arguments, "--progress %s: %sit takes auto, always or never", when,
+                        cli_meant_of(when, "auto, always or never", meant));
         return false;
     }
     const bool visible = !cli_flag(arguments, "quiet") && (always || (automatic && isatty(STDERR_FILENO)));
@@ -122,6 +127,12 @@ void cli_work_part(cli_work *work, size_t i, size_t n)
 {
     work->begin = (double)i / (double)n;
     work->share = 1 / (double)n;
+}
+
+void cli_work_hide(cli_work *work)
+{
+    cli_work_end();
+    work->hidden = true;
 }
 
 void cli_work_end(void)

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define EXPLORER_API __attribute__((used, visibility("default")))
 
@@ -30,7 +31,7 @@ EXPLORER_API const char *explorer_line(uint32_t n, int dim);
 EXPLORER_API double *explorer_spectrum(int half, int x, int y);
 EXPLORER_API const char *explorer_rings(void);
 EXPLORER_API const char *explorer_inequality(int x, int y);
-EXPLORER_API const char *explorer_optimise(uint32_t steps, uint32_t seed_low, uint32_t seed_high);
+EXPLORER_API const char *explorer_optimise(uint32_t steps, int brief, uint32_t seed_low, uint32_t seed_high);
 
 /* A function of the page: takes the best points after each step, and returns whether to go on. */
 __attribute__((import_module("page"), import_name("step"))) bool
@@ -445,9 +446,56 @@ static bool show_step(void *context, const koksma_optimum *best)
                      best->method);
 }
 
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* A step of koksma_optimise takes the best methods through whole searches: seconds, after which the value is often the
+   best one known. Here a reader sees the value fall: step k is k walks of two hundred small moves, or as many
+   as fit into an eighth of a second, from the best set so far. The result depends on the machine's speed: no command
+   repeats it. */
+static koksma_status optimise_briefly(const koksma_spec *spec, const koksma_optimise_options *o)
+{
+    const koksma_method *witness = koksma_method_find("witness"), *perturb = koksma_method_find("perturb");
+    const koksma_method *method = witness->serves(spec, o) > perturb->serves(spec, o) ? witness : perturb;
+    const double sign = spec->measure->larger_is_better ? -1 : 1;
+    koksma_optimum best = {.points = points, .lower = (double)NAN, .method = method->name};
+    koksma_value value;
+    koksma_points trial;
+    uint64_t walks = 0;
+    koksma_status status = koksma_points_init(&trial, points.n, points.dim);
+    status = status ? status : koksma_evaluate(spec, &points, &one_thread, &value);
+    best.value = status ? 0 : value.value;
+    while (!status && show_step(NULL, &best) && (o->steps == 0 || best.steps < o->steps)) {
+        const double start_s = seconds();
+        best.steps++;
+        for (uint64_t i = 0; !status && (i == 0 || seconds() - start_s < 0.125); i++) {
+            if (i >= best.steps) {
+                continue; /* the first steps gain much by few walks: the reader sees them one after the other */
+            }
+            memcpy(trial.xs, points.xs, points.n * (size_t)points.dim * sizeof(double));
+            status = method->search(spec, o, o->seed + ++walks, sign * best.value, &trial);
+            status = status ? status : koksma_evaluate(spec, &trial, &one_thread, &value);
+            if (!status && sign * value.value < sign * best.value) {
+                memcpy(points.xs, trial.xs, points.n * (size_t)points.dim * sizeof(double));
+                best.value = value.value;
+                best.last_gain = best.steps;
+            }
+        }
+    }
+    koksma_points_fini(&trial);
+    if (!status) {
+        put("{\"steps\":%lu}", (unsigned long)best.steps);
+    }
+    return status;
+}
+
 /* Searches for points with a small value of the measure whose spec is the text in, beginning with the points: so many
    steps, or, with 0, until page_step returns false. The points are the best set afterwards. */
-const char *explorer_optimise(uint32_t steps, uint32_t seed_low, uint32_t seed_high)
+const char *explorer_optimise(uint32_t steps, int brief, uint32_t seed_low, uint32_t seed_high)
 {
     koksma_spec spec;
     koksma_optimum best;
@@ -457,7 +505,13 @@ const char *explorer_optimise(uint32_t steps, uint32_t seed_low, uint32_t seed_h
                                              .seed = (uint64_t)seed_high << 32 | seed_low,
                                              .steps = steps,
                                              .progress = show_step};
-    if (koksma_measure_spec(text_in, &spec) || koksma_optimise(&spec, &options, &one_thread, &best)) {
+    if (koksma_measure_spec(text_in, &spec)) {
+        return NULL;
+    }
+    if (brief && spec.measure->answer == KOKSMA_ANSWER_EXACT) {
+        return optimise_briefly(&spec, &options) ? NULL : finish();
+    }
+    if (koksma_optimise(&spec, &options, &one_thread, &best)) {
         return NULL;
     }
     memcpy(points.xs, best.points.xs, points.n * (size_t)points.dim * sizeof(double));

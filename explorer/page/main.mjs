@@ -266,12 +266,12 @@ function unmoved(name) {
 
 // ---- The search for better points, of one set at a time: the other workers are for what is shown
 
-function startSearch(name, measure) {
+function startSearch(name, measure, brief) {
   const view = views[name], set = state[name], spec = measures.spec(measure), seed = BigInt(set.seed);
   if (!view.current) return;
   names.forEach(stopSearch);
-  const reproducible = set.edits.size === 0; // a command can start where this search starts
-  view.search.begin(spec);
+  const reproducible = !brief && set.edits.size === 0; // a command can start where this search starts
+  view.search.begin(spec, brief);
   const progress = step => {
     if (view.search.step(step)) {
       const { xs, dim } = step.points;
@@ -286,9 +286,10 @@ function startSearch(name, measure) {
       soon(view.remeasure);
     }
     if (step.value === step.lower) stopSearch(name, "No points are better.");
+    else if (view.search.stuck) stopSearch(name, "Short steps help no more; long ones may.");
     else if (view.search.late) stopSearch(name, `Ended after ${search_s} seconds. Optimise goes on from here.`);
   };
-  jobs.ask(`${name}/search`, ranks.search, { kind: "optimise", points: view.points, measure: spec, seed },
+  jobs.ask(`${name}/search`, ranks.search, { kind: "optimise", points: view.points, measure: spec, seed, brief },
     answer => view.search.end(answer.error), { limited: false, progress });
 }
 
@@ -306,7 +307,7 @@ function openSet(name) {
     changed: () => refresh(name),
     moved: (i, place) => moved(name, i, place),
     unmoved: () => unmoved(name),
-    search: { start: measure => startSearch(name, measure), stop: () => stopSearch(name) },
+    search: { start: (measure, brief) => startSearch(name, measure, brief), stop: () => stopSearch(name) },
     saveSvg: () => save(fileOf(name).replace("csv", "svg"), "image/svg+xml", svgFile(view.plane.node, titleOf(name))),
     saveCsv: () => jobs.ask(`${name}/csv`, 0, { kind: "csv", points: view.points }, answer => {
       if (answer.error) tell(answer.error);

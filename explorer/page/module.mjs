@@ -13,8 +13,9 @@ function system(memory, step) {
   };
   return {
     wasi_snapshot_preview1: {
-      clock_time_get: (id, precision_low, precision_high, out) => {
-        new DataView(memory().buffer).setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true);
+      // The pointer comes last, behind a precision that is one BigInt or, from other versions of emcc, two numbers.
+      clock_time_get: (...values) => {
+        new DataView(memory().buffer).setBigUint64(values.at(-1), BigInt(Math.round(performance.now() * 1e6)), true);
         return 0;
       },
       environ_sizes_get: zeros, environ_get: () => 0,
@@ -92,15 +93,15 @@ export async function openKoksma(module) {
     },
 
     // Searches for better points: report({ points, value, lower, steps, last_gain, method }) is called with the first set
-    // and after each step, and returns whether to go on. steps: at most so many; 0: without end.
-    optimise({ points, measure, steps = 0, seed }, report) {
+    // and after each step, and returns whether to go on. steps: at most so many; 0: without end. brief: a few steps a second.
+    optimise({ points, measure, steps = 0, seed, brief = false }, report) {
       const { n, dim } = points;
       put(points);
       say(measure);
       onStep = (xs, value, lower, done, last_gain, method) => report({
         points: { xs: numbersAt(xs, n * dim), n, dim }, value, lower: Number.isNaN(lower) ? null : lower, steps: done, last_gain, method: textAt(method),
       });
-      return json(c.explorer_optimise(steps, Number(seed & 0xffffffffn), Number(seed >> 32n)));
+      return json(c.explorer_optimise(steps, Number(brief), Number(seed & 0xffffffffn), Number(seed >> 32n)));
     },
 
     // The slope of log value over log n, and theory's; pairs: [[n, value], ..]

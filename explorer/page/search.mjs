@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The search for better points of one set: its controls, the value so far as a text and as a falling line. The library's
-// koksma_optimise runs in a worker until the reader stops it; what it finds are moved points of the set.
+// koksma_optimise, or short steps of its simplest methods, several a second, run in a worker until the reader stops them;
+// what they find are moved points of the set.
 import { chart } from "./chart.mjs";
 import { element, short } from "./dom.mjs";
 
 export const search_s = 60; // a search ends after so long: what is found by then gets better slowly
+const idle_steps = 40; // short steps without a gain, after which no more come
 
 export class Search {
   // events: start(measure), stop()
@@ -12,14 +14,17 @@ export class Search {
     Object.assign(this, { name, events, running: false, gains: [], measures });
     const id = part => `${name}-search-${part}`;
     this.measure = element("select", { id: id("measure") });
+    this.steps = element("select", { id: id("steps") }, element("option", { value: "short" }, "short, to watch"),
+      element("option", { value: "long" }, "long, as koksma optimise"));
     this.button = element("button", { type: "button", id: id("button") }, "Optimise");
-    this.button.onclick = () => this.running ? events.stop() : events.start(this.measure.value);
+    this.button.onclick = () => this.running ? events.stop() : events.start(this.measure.value, this.steps.value === "short");
     this.text = element("p", { class: "note search-text" });
     this.status = element("p", { class: "note search-end", role: "status" });
     this.line = element("div", { class: "wide" });
     this.node = element("div", { class: "search", role: "group", "aria-label": `Set ${label}: search for better points` },
       element("div", { class: "fields" }, element("div", { class: "field" },
-        element("label", { for: this.measure.id }, "Optimise the points for"), this.measure), this.button),
+        element("label", { for: this.measure.id }, "Optimise the points for"), this.measure),
+        element("div", { class: "field" }, element("label", { for: this.steps.id }, "Steps"), this.steps), this.button),
       this.text, this.line, this.status);
   }
 
@@ -37,15 +42,16 @@ export class Search {
     if (why) this.status.textContent = why;
   }
 
-  begin(measure) {
-    Object.assign(this, { running: true, gains: [], spec: measure, started: performance.now() });
+  begin(measure, brief) {
+    Object.assign(this, { running: true, gains: [], spec: measure, brief, stuck: false, started: performance.now() });
     this.button.textContent = "Stop";
-    this.measure.disabled = true;
+    this.measure.disabled = this.steps.disabled = true;
     this.status.textContent = this.text.textContent = "";
   }
 
   // A step of the search, or of the first set. True: it has found better points.
-  step({ value, lower, steps, method }) {
+  step({ value, lower, steps, last_gain, method }) {
+    this.stuck = this.brief && steps - last_gain >= idle_steps;
     const gain = !this.gains.length || this.gains[this.gains.length - 1][1] !== value;
     if (gain) this.gains.push([steps, value]);
     this.text.textContent = `${this.spec} ${short(this.gains[0][1])} → ${short(value)} in ${steps} ${steps === 1 ? "step" : "steps"} (method ${method})` +
@@ -70,7 +76,7 @@ export class Search {
   end(text) {
     this.running = false;
     this.button.textContent = "Optimise";
-    this.measure.disabled = false;
+    this.measure.disabled = this.steps.disabled = false;
     this.status.textContent = text;
   }
 

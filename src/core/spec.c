@@ -14,6 +14,11 @@
 #include "core/status.h"
 #include "core/suggestion.h"
 
+static const char *choice_at(const void *choices, size_t i)
+{
+    return ((const char *const *)choices)[i];
+}
+
 static koksma_status parse_choice(const char *member, const koksma_param *param, const char *text, double *value)
 {
     char words[256] = "";
@@ -24,7 +29,9 @@ static koksma_status parse_choice(const char *member, const koksma_param *param,
         }
         snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", i ? ", " : "", param->choices[i]);
     }
-    return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%s: it takes %s", member, param->name, text, words);
+    char meant[KOKSMA__MEANT];
+    return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%s: %sit takes %s", member, param->name, text,
+                        koksma__meant(text, choice_at, param->choices, meant), words);
 }
 
 /* Checks a value's range. The value 0 of a modifier, which may be below its range, means that the modifier is not

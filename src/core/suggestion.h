@@ -9,7 +9,8 @@ enum { KOKSMA__MEANT = 96 };
 
 /* Writes "did you mean 'NAME'? " with the nearest name of a table (koksma_closest_name()), or "" if none is near.
    Returns text. */
-const char *koksma__meant(const char *word, koksma_name_at *name, const void *table, char text[KOKSMA__MEANT]);
+KOKSMA__LAB const char *koksma__meant(const char *word, koksma_name_at *name, const void *table,
+                                      char text[KOKSMA__MEANT]);
 
 /* Fails with KOKSMA_UNKNOWN and "no WHAT 'WORD'; did you mean 'NAME'? WHERE", where WHERE says how to list the known
    names. `name` and `table` are those of koksma_closest_name(). */

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/suggestion.h"
 #include "core/vector.h"
 #include "image/formats.h"
 #include "image/image.h"
@@ -165,6 +166,12 @@ koksma_status koksma__parse_fields(const field *object, const koksma__kind *kind
     return status;
 }
 
+static const char *kind_name(const void *kinds, size_t i)
+{
+    const koksma__kind *kind = ((const koksma__kind *const *)kinds)[i];
+    return kind ? kind->is_implied ? "" : kind->name : NULL;
+}
+
 koksma_status koksma__parse_kind(const field *object, const koksma__kind *const *kinds, size_t *out)
 {
     const char *name = "";
@@ -179,5 +186,8 @@ koksma_status koksma__parse_kind(const field *object, const koksma__kind *const 
             snprintf(known + used, sizeof known - used, " %s", kinds[*out]->name);
         }
     }
-    return status ? status : koksma__json_fail(object, "no kind '%s'; known here:%s", name, known);
+    char meant[KOKSMA__MEANT];
+    return status ? status
+                  : koksma__json_fail(object, "no kind '%s'; %sknown here:%s", name,
+                                      koksma__meant(name, kind_name, kinds, meant), known);
 }

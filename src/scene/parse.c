@@ -129,6 +129,12 @@ static koksma_status refuse_image(const field *f)
     return koksma__json_fail(f, "this kind takes no material with an image; these do:%s", known);
 }
 
+static const char *material_name(const void *scene, size_t i)
+{
+    const koksma_scene *s = scene;
+    return i < s->n_materials ? s->materials[i].name : NULL;
+}
+
 /* Finds the index of the shape's material; it stays -1 for a shape with "emission". */
 static koksma_status parse_material(const field *f, const koksma_scene *scene, koksma__shape *shape)
 {
@@ -141,7 +147,10 @@ static koksma_status parse_material(const field *f, const koksma_scene *scene, k
     const koksma_status status = koksma__json_get_text(f, "material", true, &name);
     shape->material = status ? -1 : koksma__find_material(scene, name);
     if (status || shape->material < 0) {
-        return status ? status : koksma__json_fail(f, "no material '%s'", name);
+        const char *closest = status ? NULL : koksma_closest_name(name, material_name, scene);
+        return status ? status
+                      : koksma__json_fail(f, closest ? "no material '%s'; did you mean '%s'?" : "no material '%s'",
+                                          name, closest);
     }
     const koksma__material *m = &scene->materials[shape->material];
     KOKSMA__JSON_FAIL_IF(m->checker && !shape->type->takes_checker, f, "a %s takes no material with a checkerboard",

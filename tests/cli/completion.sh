@@ -47,6 +47,7 @@ end
 END
 mkdir "$work/empty"
 touch "$work/empty/a-file"
+modifiers=$(koksma list modifiers | sed 1d | awk '{ printf "%s= ", $1 }')
 all() { koksma list "$1" | sed 1d | cut -d' ' -f1 | tr '\n' ' '; }
 properties=$(koksma verify random@16 | sed 1d | awk '{ print $4 }' | sort -u | tr '\n' ' ')
 grep -v '^$' >"$work/cases" <<END
@@ -87,6 +88,9 @@ rank ^ $(all scenes) FILES
 rank ball --patterns ^ thesis later all $(all patterns)
 measure x -p ^ all $(all patterns)
 render ball -p sobol:sc^ scramble=
+generate sobol:^ scramble= numbers= shuffle= $modifiers
+generate random:^ $modifiers
+generate sobol:scramble=owen,dig^ digital-shift=
 render ball -p sobol:scramble=^ none digital-shift lms owen hash-owen
 render ball -p lens=sobol:scramble=ow^ owen
 render ball -p sobol:scramble=owen,nu^ numbers=

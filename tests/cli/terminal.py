@@ -120,6 +120,14 @@ with tempfile.TemporaryDirectory() as folder:
         check(parts == sorted(parts) and parts[-1] <= 100 and all(len(bar) < 80 for bar, _, _ in bars), f"{command}: {parts}")
         check("%" not in subprocess.run([KOKSMA, command, *more], capture_output=True, text=True, check=False).stderr.split("workers")[0].split("leaves")[0],
               f"{command}: a bar in a pipe")
+    # Points follow on the terminal: no bar stands before them or between them.
+    for points in (["random", "-n", "5"], ["gaussian-jittered", "-n", "400"], ["random", "-n", "9", "--warp", "polar-disk"]):
+        text = on_terminal(["generate", *points], 80, None, subprocess.STDOUT)
+        check(re.sub(r"\r\x1b\[K([^\r\n]*\r\x1b\[K)?", "", text) == piped("generate", *points), f"generate {points}: {text[:200]!r}")
+    # A ranking may end at any time before its limit, so its bar is the share of the limit that has passed.
+    text = on_terminal(["rank", "ball", "--size", "16x12", "--max-trials", "8", "--one-size", "-p", "random,jittered", "--time-limit", "1e6",
+                        "--spp", "4"], 80, None, subprocess.STDOUT)
+    check(re.findall(r"ranking +(\d+) %, at most (?:\d+) h", text) and set(re.findall(r"ranking +(\d+) %", text)) == {"0"}, f"rank: {text[:400]!r}")
     cost = piped("study", "estimate", "./plan.json", "--threads", "2", "--time-limit", "0.2")
     check(re.fullmatch(r"about (\d+ (min|h) )?[\d.]+ (s|min) on 2 threads, \d+ MB: 1680 jobs, 4560 rows, and 2 reference images "
                        r"\([^()]+ of this time\)\n", cost), f"estimate: {cost}")

@@ -113,6 +113,14 @@ for (const [measure, n, dim, steps] of [["star", 16, 2, 2], ["l2-star", 24, 3, 2
   check(xs.every((x, i) => Math.abs(x - best.points.xs[i]) < 1e-9), `${what}: other points`);
   check(koksma.measure({ points: best.points, measure }).value === best.value, `${what}: the points have another value`);
 }
+// Short steps: each is better than the one before or the same, in every family of measures; the points have the value.
+for (const [measure, n, dim] of [["star", 64, 2], ["l2-star", 64, 2], ["l2-star", 24, 3], ["edge", 12, 2], ["min-distance", 32, 2], ["t-value", 16, 2]]) {
+  const { points } = koksma.generate({ spec: "random", n, dim, seed: 7n }), seen = [], sign = measure === "min-distance" ? -1 : 1;
+  koksma.optimise({ points, measure, steps: 6, seed: 7n, brief: true }, step => { seen.push(step); return true; });
+  check(seen.length === 7 && seen.every((step, i) => i === 0 || sign * step.value <= sign * seen[i - 1].value), `short steps of ${measure}: ${seen.map(step => step.value)}`);
+  check(measure === "t-value" || sign * seen[6].value < sign * seen[0].value, `short steps of ${measure} gain nothing`);
+  check(koksma.measure({ points: seen[6].points, measure }).value === seen[6].value, `short steps of ${measure}: the points have another value`);
+}
 let calls = 0;
 koksma.optimise({ points: koksma.generate({ spec: "random", n: 8, dim: 2, seed: 1n }).points, measure: "min-distance", seed: 1n }, () => ++calls < 4);
 check(calls === 4, `a search without end went on for ${calls} steps`);

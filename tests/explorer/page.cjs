@@ -346,6 +346,7 @@ async function searching(browser) {
     const page = await open(browser, { hash, width, colorScheme, limit_s: 60 }), text = page.locator(".set-a .search-text"), button = page.locator("#a-search-button");
     const before = await values(page, "a"), path0 = await page.locator(".set-a svg.plane .points").getAttribute("d");
     check(await page.locator("#a-search-measure").inputValue() === measure, "the search is not for the chosen measure");
+    await page.locator("#a-search-steps").selectOption("long");
     await button.focus();
     await page.keyboard.press("Enter");
     await until(page, () => /in (?:[3-9]|\d\d+) steps/.test(document.querySelector(".set-a .search-text").textContent));
@@ -374,6 +375,18 @@ async function searching(browser) {
     check(await button.textContent() === "Optimise" && !await text.textContent(), "a search for another set goes on");
     await page.context().close();
   }
+  // Short steps let the value fall before one's eyes: it has at least four values on the way, each less than the one before.
+  const live = await open(browser, { hash: "#a=random@64&a.seed=3&witness=star", limit_s: 60 }), falling = [];
+  await live.locator("#a-search-button").click();
+  for (const start = Date.now(); falling.length < 5 && Date.now() - start < 300000; await live.waitForTimeout(30)) {
+    const [, value] = / → ([\d.]+) in \d+ steps? \(method (?:witness|perturb)\)/.exec(await live.locator(".set-a .search-text").textContent()) || [];
+    if (value && falling[falling.length - 1] !== +value) falling.push(+value);
+  }
+  check(falling.length === 5 && falling.every((value, i) => i === 0 || value < falling[i - 1]), `short steps: ${falling}`);
+  await live.locator("#a-search-button").click();
+  await idle(live);
+  check(!(await commandLines(live, "a")).some(line => line.startsWith("koksma optimise")), "a command for steps that none repeats");
+  await live.context().close();
   const page = await open(browser, { hash: "#a=n-rooks@16&a.seed=7&b=random@16" }), before = await values(page, "a");
   await page.locator("#a-search-button").click();
   await until(page, () => /in [1-9]/.test(document.querySelector(".set-a .search-text").textContent));
@@ -493,7 +506,7 @@ async function looks(browser) {
     await page.keyboard.press("Tab");
     reached.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.textContent || ""));
   }
-  for (const name of ["start-tour", "all-measures", "all-digits", "picture-shift", "strata", "compare", "a-pattern", "a-n", "a-seed", "a-param-shift", "a-point", "a-search-measure", "a-search-button", "Save SVG", "Save CSV", "a-commands", "decay-measure"]) {
+  for (const name of ["start-tour", "all-measures", "all-digits", "picture-shift", "strata", "compare", "a-pattern", "a-n", "a-seed", "a-param-shift", "a-point", "a-search-measure", "a-search-steps", "a-search-button", "Save SVG", "Save CSV", "a-commands", "decay-measure"]) {
     check(reached.has(name) || [...reached].some(text => text.startsWith(name)), `Tab does not reach ${name}`);
   }
   await page.context().close();

@@ -384,7 +384,8 @@ static void texts_that_are_wrong_say_so(void **state)
         koksma_status status;
         const char *said;
     } cases[] = {
-        {"pixel+tme=random", KOKSMA_UNKNOWN, "pixel+tme=random: no such use; the uses are pixel, lens"},
+        {"pixel+tme=random", KOKSMA_UNKNOWN,
+         "pixel+tme=random: no such use; did you mean 'time'? the uses are pixel, lens"},
         {"pixel+=random", KOKSMA_UNKNOWN, "no such use"},
         {"+pixel=random", KOKSMA_UNKNOWN, "no such use"},
         {"pixel+time=rendom", KOKSMA_UNKNOWN, "no pattern 'rendom'"},

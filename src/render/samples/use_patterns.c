@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "core/suggestion.h"
 #include "patterns/shared/file_names.h"
 #include "render/samples/uses.h"
 
@@ -200,16 +201,31 @@ static int find_use(const char *name, size_t length)
     return -1;
 }
 
+static const char *use_name(const void *table, size_t i)
+{
+    (void)table;
+    return koksma_use_at(i) ? koksma_use_at(i)->name : NULL;
+}
+
+static koksma_status fail_unknown_use(const char *part, const char *name, size_t length)
+{
+    char word[64], meant[KOKSMA__MEANT];
+    snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), name);
+    return koksma__fail(KOKSMA_UNKNOWN,
+                        "%s: no such use; %sthe uses are pixel, lens, time, light-choice, light, lobe, lobe-choice, "
+                        "roulette and distance",
+                        part, koksma__meant(word, use_name, NULL, meant));
+}
+
 static koksma_status parse_uses(const char *part, const char *text, size_t length, koksma_use_group *group)
 {
     *group = (koksma_use_group){0};
     for (const char *at = text, *end = text + length; at <= end; at++) {
         const size_t name = strcspn(at, "+=");
         const int use = find_use(at, name);
-        KOKSMA__FAIL_IF(use < 0, KOKSMA_UNKNOWN,
-                        "%s: no such use; the uses are pixel, lens, time, light-choice, light, lobe, lobe-choice, "
-                        "roulette and distance",
-                        part);
+        if (use < 0) {
+            return fail_unknown_use(part, at, name);
+        }
         for (int i = 0; i < group->n_uses; i++) {
             KOKSMA__FAIL_IF(group->uses[i] == use, KOKSMA_ARGUMENT,
                             "%s: use %s occurs twice; a group takes each use once", part,

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "core/suggestion.h"
 #include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 
@@ -24,9 +25,16 @@ typedef struct option {
     koksma_status (*set)(koksma__variant *variant, const char *word);
 } option;
 
+typedef const char *name_at_index(int i);
+
+static const char *name_of(const void *name_at, size_t i)
+{
+    return (*(name_at_index *const *)name_at)((int)i);
+}
+
 /* Finds a word among the names of name_at(), which returns NULL after the last; `what` names the option in the
    error. */
-static koksma_status find(const char *what, const char *(*name_at)(int i), const char *word, int *index)
+static koksma_status find(const char *what, name_at_index *name_at, const char *word, int *index)
 {
     char list[MAX_WORD] = "";
     for (*index = 0; name_at(*index); (*index)++) {
@@ -36,7 +44,9 @@ static koksma_status find(const char *what, const char *(*name_at)(int i), const
         const size_t used = strlen(list);
         snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", name_at(*index));
     }
-    return koksma__fail(KOKSMA_ARGUMENT, "%s '%s': it takes %s", what, word, list);
+    char meant[KOKSMA__MEANT];
+    return koksma__fail(KOKSMA_ARGUMENT, "%s '%s': %sit takes %s", what, word,
+                        koksma__meant(word, name_of, &name_at, meant), list);
 }
 
 #define NAMES(function, call)                                                                                        \

@@ -501,6 +501,7 @@ koksma_status koksma_rank_patterns(const koksma_rank_options *options, const kok
         .scene = {.name = options->scene, .render = options->render, .render_context = options->render_context},
         .start_s = koksma__now_s()};
     koksma__run_control_begin(run, options->time_limit_s, &r.control);
+    r.control.by_time = true; /* nobody knows how many rounds will decide the order */
     *out = (koksma_ranking){.reference_error = NAN};
     koksma__variant_text(options->integrator, options->filter, r.variant);
     koksma_status status = open_scene(options, &r.control, &r.scene);

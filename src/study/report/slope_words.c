@@ -16,7 +16,7 @@
 
 #include "study/run/tasks.h"
 
-enum { NAMED = 4, NAMED_ZEROS = 12 };
+enum { NAMED = 4, NAMED_ZEROS = 12, MOST_TRIALS = 1000 };
 
 /* The result for all patterns that have a slope; `counted`, `tied`, `faster` and `off_line` are numbers of
    patterns. */
@@ -120,6 +120,9 @@ static void say_trials(koksma__document *d, const koksma__slopes *of, size_t a, 
     } else if (koksma__has_one_set(of->patterns[a]) || koksma__has_one_set(of->patterns[b])) {
         koksma__doc_say(d, "; more sizes might tell %s from %s, more trials would not", of->patterns[a],
                         of->patterns[b]);
+    } else if (factor > MOST_TRIALS) {
+        koksma__doc_say(d, "; more than %d times as many trials would be needed to tell %s from %s", MOST_TRIALS,
+                        of->patterns[a], of->patterns[b]);
     } else if (isfinite(factor)) {
         koksma__doc_say(d, "; about %.0f times as many trials would tell %s from %s", ceil(factor), of->patterns[a],
                         of->patterns[b]);

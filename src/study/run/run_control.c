@@ -4,6 +4,8 @@
    jobs on other threads read the flag that it sets, so that the caller's function needs no lock. */
 #include "study/run/run_control.h"
 
+#include <math.h>
+
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 
@@ -11,7 +13,10 @@
    precedence over the time limit. */
 static bool look(koksma__run_control *control)
 {
-    if (!atomic_load(&control->interrupted) && !koksma__keep_going(control->caller_run, control->fraction)) {
+    const double part = control->by_time && control->end_s > 0
+                            ? fmin((koksma__now_s() - control->start_s) / (control->end_s - control->start_s), 1)
+                            : control->fraction;
+    if (!atomic_load(&control->interrupted) && !koksma__keep_going(control->caller_run, part)) {
         atomic_store(&control->interrupted, true);
         atomic_store(&control->stop, true);
     }
@@ -44,10 +49,12 @@ static bool keep_at_job(void *context, double fraction)
 
 void koksma__run_control_begin(const koksma_run *run, double time_limit_s, koksma__run_control *control)
 {
+    const double now_s = koksma__now_s();
     *control = (koksma__run_control){.caller_run = run,
                                      .share = 1,
                                      .caller = pthread_self(),
-                                     .end_s = time_limit_s > 0 ? koksma__now_s() + time_limit_s : 0};
+                                     .start_s = now_s,
+                                     .end_s = time_limit_s > 0 ? now_s + time_limit_s : 0};
     control->run = (koksma_run){.threads = koksma__threads(run), .keep_going = keep_running, .context = control};
     control->job = (koksma_run){.threads = 1, .keep_going = keep_at_job, .context = control};
 }

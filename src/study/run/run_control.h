@@ -15,9 +15,10 @@
 typedef struct koksma__run_control {
     const koksma_run *caller_run; /* may be NULL */
     pthread_t caller;
-    double end_s;            /* the deadline as a time of koksma__now_s, or 0 if there is none */
+    double start_s, end_s;   /* the start, and the deadline or 0 if there is none, as times of koksma__now_s */
     double fraction;         /* completed fraction of the run, as last reported on the caller's thread */
     double begin, share;     /* the current phase covers the fractions begin .. begin + share of the run */
+    bool by_time;            /* whether the caller gets the fraction of the time limit that has passed instead */
     atomic_bool stop;        /* whether all work must end */
     atomic_bool is_up;       /* whether the time limit was reached */
     atomic_bool interrupted; /* whether the caller's keep_going has returned false, before or after the time limit */

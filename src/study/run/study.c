@@ -9,10 +9,17 @@
 #include "core/capacity.h"
 #include "core/read_file.h"
 #include "core/status.h"
+#include "core/suggestion.h"
 #include "scene/scene.h"
 #include "study/plan/plan_owned.h"
 #include "study/run/mpi_rank.h"
 #include "study/run/study.h"
+
+static const char *plan_name_at(const void *table, size_t i)
+{
+    (void)table;
+    return koksma_plan_name_at(i);
+}
 
 static koksma_status load_plan(const char *name, const koksma__plan_trials *trials, koksma__plan *plan,
                                char **text_out)
@@ -23,9 +30,10 @@ static koksma_status load_plan(const char *name, const koksma__plan_trials *tria
     koksma_status status = KOKSMA_OK;
     if (!strchr(name, '/') && !(length > 5 && !strcmp(name + length - 5, ".json"))) {
         const char *shipped = koksma__plan_shipped(name, &size);
+        char meant[KOKSMA__MEANT];
         KOKSMA__FAIL_IF(!shipped, KOKSMA_UNKNOWN,
-                        "koksma has no built-in plan '%s'; give your own plan as a file, such as ./%s.json", name,
-                        name);
+                        "koksma has no built-in plan '%s'; %sgive your own plan as a file, such as ./%s.json", name,
+                        koksma__meant(name, plan_name_at, NULL, meant), name);
         text = (unsigned char *)strdup(shipped);
         status = text ? KOKSMA_OK : koksma__fail_memory(size);
     } else {

@@ -24,8 +24,8 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
         "koksma %s, plan `%s`. The rows are in `results.sqlite` beside this file, and the numbers of "
         "this page in `report.json`. The key of a row is enough to make the row again. Results do "
         "not depend on the number of threads or on interruptions: `koksma study audit` makes rows again and "
-        "compares them. The SHA-256 of all rows, as `koksma study export` writes them, is `%s`. A run that was "
-        "killed has left its rows in the store, but is missing from this list:",
+        "compares them. The SHA-256 of all rows, as `koksma study export` writes them, is `%s`. The runs "
+        "(one that was killed leaves its rows in the store, but no line here):",
         koksma_version(), scope->study->plan.name, scope->rows);
     koksma__doc_list_begin(d, "runs", false);
     for (long long i = 0; !status && found; i++) {
