@@ -27,6 +27,7 @@ static const char example[] =
     "fields.\",\n"
     "  \"name\": \"%s\",\n"
     "  \"title\": \"Which pattern for 16 samples a pixel?\",\n"
+    "  \"metric\": \"mae\",\n"
     "  \"discrepancies\": [\n"
     "    {\n"
     "      \"comment\": \"patterns x n x measures, each over `trials` point sets; `quick` trials with --quick\",\n"
@@ -478,7 +479,7 @@ static int run(const cli_arguments *arguments)
         const char *options; /* names of the options that the verb accepts in addition to the common ones */
     } verbs[] = {
         {"run", run_plans, " output trials quick time-limit "},
-        {"quick", run_quick, " output trials quick time-limit patterns measures integrands points scene spp "},
+        {"quick", run_quick, " output trials quick time-limit patterns measures integrands points scene spp metric "},
         {"new", new_plan, " output "},
         {"estimate", estimate, " trials quick time-limit json digits long "},
         {"export", export_rows, " output format "},
@@ -512,7 +513,9 @@ static const cli_option options[] = {
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: seed of the random draw (default: 1)"},
     {0, "reference", "FILE", "images: the reference image"},
-    {0, "metric", "METRIC", "images: metric of the error: mae (default), relmse, hdr-flip, ..."},
+    {0, "metric", "METRIC,..",
+     "quick, images: metric of the error that ranks: mae (default), relmse, hdr-flip, ...; quick: further ones to "
+     "measure"},
     {0, "format", "csv|json|npy|sha256", "export: the format (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -523,7 +526,7 @@ const cli_command cli_command_study = {
     .name = "study",
     .summary = "evaluate patterns with measures or scenes, as a plan says",
     .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
-                "quick [-p LIST] [-m LIST] [-n LIST] [--scene LIST] -o DIR\n"
+                "quick [-p LIST] [-m LIST] [-n LIST] [--scene LIST [--metric METRIC,..]] -o DIR\n"
                 "new [FILE]\n"
                 "estimate PLAN... [--json]\n"
                 "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
@@ -538,6 +541,10 @@ const cli_command cli_command_study = {
         "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
         "quick: writes DIR/plan.json from the options and runs it. Numbers of points that a pattern does not accept "
         "are left out and listed. A pattern file:PATH is a file of points.\n"
+        "Images are always compared by mae, rmse, relmse and smape; --metric names the one that ranks the patterns, "
+        "and\n"
+        "further ones, such as ldr-flip, which takes longer than many renders. In a plan they are 'metric' and "
+        "'metrics'.\n"
         "new: writes an example plan; it overwrites no file.\n"
         "estimate: measures samples and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"

@@ -280,7 +280,10 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
     }
 }
 
-/* Prints a warning if few pixels carry most of the error of some patterns. */
+/* The number of patterns whose robust errors the warning prints, the best first. */
+enum { MOST_ROBUST = 8 };
+
+/* Prints a warning if few pixels carry most of the error of some patterns, and the errors without these pixels. */
 static void warn_of_few_pixels(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n)
 {
     size_t count = 0, most = 0;
@@ -291,8 +294,18 @@ static void warn_of_few_pixels(const koksma_rank_options *options, const koksma_
     if (count) {
         fprintf(stderr,
                 "  warning: 0.1 %% of the pixels carry most of the error of %zu of %zu patterns (%s: %.0f %%), and "
-                "decide this order; a metric that weighs them less, such as smape, may give another order\n",
+                "decide this order; a metric that weighs them less, such as smape, may give another order\n"
+                "  without these pixels the errors are",
                 count, n, name_of(options, rows[most].pattern), 100 * rows[most].top_share);
+        for (size_t i = 0; i < n && i < MOST_ROBUST; i++) {
+            char robust[CLI_NUMBER];
+            fprintf(stderr, "%s %s %s", i ? "," : "", name_of(options, rows[i].pattern),
+                    cli_number(rows[i].robust, robust));
+        }
+        if (n > MOST_ROBUST) {
+            fprintf(stderr, " (--json has all)");
+        }
+        fprintf(stderr, "\n");
     }
 }
 

@@ -7,6 +7,8 @@
  */
 #include "study_quick.h"
 
+#include "metric_option.h"
+
 #include <errno.h>
 #include <limits.h>
 #include <stdint.h>
@@ -108,12 +110,33 @@ static bool put_numbers(FILE *out, const cli_arguments *arguments, const char *k
     return true;
 }
 
+/* Prints the metrics of --metric: the first ranks the patterns, the others are measured, too. Returns false after an
+   error. */
+static bool put_metrics(FILE *out, const cli_arguments *arguments)
+{
+    cli_metrics metrics = {.n = 0};
+    if (!cli_metrics_parse(arguments, &metrics)) {
+        return false;
+    }
+    for (size_t i = 0; i < metrics.n; i++) {
+        char name[KOKSMA_MAX_SPEC];
+        koksma_metric_text(&metrics.specs[i], name);
+        fprintf(out, i == 0 ? ",\n  \"metric\": \"%s\"" : i == 1 ? ",\n  \"metrics\": [\"%s\"" : ", \"%s\"", name);
+    }
+    fputs(metrics.n > 1 ? "]" : "", out);
+    return true;
+}
+
 static bool put_plan(FILE *out, const cli_arguments *arguments)
 {
     const char *patterns = cli_text(arguments, "patterns", default_patterns);
     const char *scenes = cli_text(arguments, "scene", NULL);
     const char *measures = cli_text(arguments, "measures", "star,l2-star");
     const char *integrands = cli_text(arguments, "integrands", NULL);
+    if (!scenes && cli_text(arguments, "metric", NULL)) {
+        cli_usage_error(arguments, "--metric needs --scene, because it measures the error of images");
+        return false;
+    }
     fputs("{\n  \"comment\": \"Made by koksma study quick; studies/README.md has all fields.\",\n"
           "  \"name\": \"quick\",\n  \"title\": \"Patterns by ",
           out);
@@ -145,6 +168,9 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
         fputs(", \"size\": [96, 72], \"trials\": 20, \"quick\": 6, \"skip\": true,\n     \"references\": [{\"name\": "
               "\"converged\", \"pattern\": \"jittered\", \"spp\": 1024, \"replicates\": 4}]}\n  ]",
               out);
+        if (!put_metrics(out, arguments)) {
+            return false;
+        }
     }
     fputs("\n}\n", out);
     return true;

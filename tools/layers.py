@@ -42,7 +42,7 @@ MAY_USE = {
     "plot": "core patterns measures image api modules",
     "render": "core modules json kernels stats patterns warps image meshes api",
     "scene": "core json image meshes warps render",
-    "study/plan": "core json patterns measures warps integrands scene render api",
+    "study/plan": "core json patterns measures warps integrands image scene render api",
     "study/store": "core study/plan",
     "study/run": "core modules stats patterns measures warps integrands image scene render study/plan study/store api",
     "study/ranking": "core stats image scene render study/plan study/run api",

@@ -127,6 +127,9 @@ typedef struct koksma_metric {
     int channels;               /* 1: the metric compares Rec. 709 luminance; 3: it compares linear red, green and
                                    blue */
     bool root;                  /* true: the value is the square root of the mean error */
+    int order;                  /* the value is proportional to this power of small differences; 0: to no power */
+    int revision;               /* raised with every change of any bit of a value: studies keep rows under it */
+    bool in_all_studies;        /* true: cheap beside a render, so that studies evaluate it for every image */
     /* Computes the error of each pixel; `errors` receives width x height numbers. Returns OK or MEMORY. */
     koksma_status (*errors)(const koksma_metric_input *input, double *errors);
 } koksma_metric;

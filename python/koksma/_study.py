@@ -176,7 +176,11 @@ class Study:
 
     def rows(self) -> npt.NDArray[np.void]:
         """All results, sorted by key, as a structured array (pandas.DataFrame takes it); texts are Unicode. Closes the
-        study: the folder can be read by one at a time."""
+        study: the folder can be read by one at a time.
+
+        Rows of kind "metric" have the error of an image by the metric in the column `metric`: its `value`, the `robust`
+        value without the 0.1 % of the pixels with the largest errors, and their `top_share` of the error. The other columns
+        are in studies/README.md; NaN and empty texts: not of this kind."""
         if self.folder is None:
             raise ArgumentError("the study has no folder")
         self.close()

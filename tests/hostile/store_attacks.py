@@ -84,8 +84,10 @@ def foreign():
         "another program's": ["CREATE TABLE moz_places (id INTEGER PRIMARY KEY, url TEXT)", "INSERT INTO moz_places VALUES (1, 'x')"],
         "empty of tables": ["PRAGMA user_version=6"],
         "with an application's id": ["PRAGMA application_id=252006673", "CREATE TABLE t (x)"],
-        "with our id": ["PRAGMA application_id=1263236973", "PRAGMA user_version=6", "CREATE TABLE t (x)"],
-        "of a newer schema": ["PRAGMA application_id=1263236973", "PRAGMA user_version=7", "CREATE TABLE t (x)"],
+        "with our id": ["PRAGMA application_id=1265333101", "PRAGMA user_version=7", "CREATE TABLE t (x)"],
+        "of schema 6": ["PRAGMA application_id=1265333101", "PRAGMA user_version=6", "CREATE TABLE t (x)"],
+        "of a newer schema": ["PRAGMA application_id=1265333101", "PRAGMA user_version=8", "CREATE TABLE t (x)"],
+        "without a schema": ["PRAGMA application_id=1265333101", "CREATE TABLE t (x)"],
         "with a meta of its own": ["CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
                                    "INSERT INTO meta VALUES ('schema', '5')"],
     }.items():
@@ -199,7 +201,14 @@ def found(name, folder, in_words=""):
 
 def rows():
     first = "(SELECT min(id) FROM result)"
+    of_metric = "id = (SELECT min(result.id) FROM result JOIN series ON result.id & 4294967295 = series.id WHERE kind = 'metric')"
     edits = {
+        "a metric": (f"UPDATE result SET v0 = v0 * (1 + 2.3e-16) WHERE {of_metric}", "the stored value is"),
+        "a robust value": (f"UPDATE result SET v1 = v1 * (1 + 2.3e-16) WHERE {of_metric}", "the stored value is"),
+        "a top share": (f"UPDATE result SET v2 = 2.3e-16 WHERE {of_metric}", "the stored value is 2.29"),
+        "no top share": (f"UPDATE result SET v2 = NULL WHERE {of_metric}", "the stored value is"),
+        "a parameter of a metric": ("UPDATE series SET metric = 'smape:epsilon=1' WHERE metric = 'smape'", "the stored value is"),
+        "no such metric": ("UPDATE series SET metric = 'smap' WHERE metric = 'smape'", "can't be computed again"),
         "value": (f"UPDATE result SET v0 = v0 * (1 + 2.3e-16) WHERE id = {first}", "the stored value is"),
         "seed": (f"UPDATE result SET seed = seed + 1 WHERE id = {first}", "seed"),
         "a row of another": ("UPDATE result SET v0 = (SELECT v0 FROM result ORDER BY id LIMIT 1 OFFSET 1)", "the stored value is"),

@@ -58,12 +58,13 @@ def main():
     killed = 0
     for group in range(KILLS // IN_A_ROW):
         folder = f"d{group}"
-        kind = group % 5
+        kind = group % 6
         os.mkdir(folder)
-        if kind < 3:
+        if kind < 4:
             verbs = ["run"] * IN_A_ROW
-            shutil.copy(f"{HERE}/../study/stores/schema_{3 + kind}.sqlite", folder + "/results.sqlite")
-        elif kind == 3:
+            past = f"schema_{3 + kind}" if kind < 3 else "plan_6"
+            shutil.copy(f"{HERE}/../study/stores/{past}.sqlite", folder + "/results.sqlite")
+        elif kind == 4:
             verbs = ["run", "run", "export", "report", "audit"]
         else:
             shutil.rmtree(folder)

@@ -40,14 +40,18 @@ def checksum(table, values):
 
 def reseal(folder):
     database = sqlite3.connect(folder + "/results.sqlite")
+    columns = [column[1] for column in database.execute("PRAGMA table_info(series)")]
+    metric = "metric" if "metric" in columns else "''"  # schema 6 had none
     tables = [
         (1, "SELECT id, seed, v0, v1, v2, v3 FROM result"),
-        (2, "SELECT id, kind, scene, scene_hash, options, pattern, what, made_by, measured_by, n, dim, width, height "
-            "FROM series"),
+        (2, "SELECT id, kind, scene, scene_hash, options, pattern, what, made_by, measured_by, n, dim, width, height, "
+            f"{metric} FROM series"),
         (3, "SELECT width, height, scene, scene_hash, options, reference, made_by, pixels, standard_error FROM reference"),
         (4, "SELECT key, value FROM meta WHERE key <> 'seal'"),
     ]
-    sums = [checksum(table, row) for table, query in tables for row in database.execute(query)]
+    rows = [(table, row) for table, query in tables for row in database.execute(query)]
+    # the metric of a series is the last word, and only where there is one
+    sums = [checksum(table, row[:-1] if table == 2 and not row[-1] else row) for table, row in rows]
     database.execute("UPDATE meta SET value = ? WHERE key = 'seal'", ("%d %d" % (len(sums), sum(sums) & ONES),))
     database.commit()
     database.close()

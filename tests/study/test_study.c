@@ -127,6 +127,34 @@ static void wrong_groups(void **state)
                    "plan 'p': line 3: questions[0].groups: a question of kind equal takes no groups");
 }
 
+static void wrong_metric(const char *members, const char *reason)
+{
+    static const char *const format =
+        "{\"name\": \"a\", \"title\": \"b\", \"images\": [{\"id\": \"i\", \"scenes\": [\"ball\"], \"patterns\": "
+        "[\"random\"], \"spp\": [4], \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": \"random\", "
+        "\"spp\": 4}]}],\n%s}";
+    char text[2048];
+    snprintf(text, sizeof text, format, members);
+    wrong_plan(text, reason);
+}
+
+static void wrong_metrics(void **state)
+{
+    (void)state;
+    wrong_metric(
+        "\"metric\": \"relmsee\"",
+        "plan 'p': line 2: metric: no metric 'relmsee'; did you mean 'relmse'? 'koksma list metrics' names them");
+    wrong_metric("\"metrics\": [\"smape\",\n\"smape:epsilon=0.01\"]",
+                 "plan 'p': line 3: metrics[1]: 'smape' is listed twice");
+    wrong_metric("\"metrics\": []", "plan 'p': line 2: metrics: an empty list");
+    wrong_metric("\"questions\": [{\"id\": \"q\", \"title\": \"q\", \"kind\": \"table\", \"images\": \"i\",\n"
+                 "\"metric\": \"flip\"}]",
+                 "plan 'p': line 3: questions[0].metric: no metric 'flip'; 'koksma list metrics' names them");
+    wrong_plan("{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "
+               "[\"star\"], \"n\": [4], \"trials\": 1}],\n\"metric\": \"relmse\"}",
+               "plan 'p': line 2: metric: the plan has no 'images', whose error it would measure");
+}
+
 static const koksma__figure *figure_of(const koksma__plan *plan, const char *id)
 {
     size_t i = 0;
@@ -185,7 +213,14 @@ static void store_keeps_rows(void **state)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/r.sqlite", folder);
     koksma__store *store, *second;
-    const koksma__series series = {"discrepancy", "", "", "", "random", "star", 16, 2, 0, 0, NULL, NULL, 0};
+    const koksma__series series = {.kind = "discrepancy",
+                                   .scene = "",
+                                   .scene_hash = "",
+                                   .options = "",
+                                   .pattern = "random",
+                                   .what = "star",
+                                   .n = 16,
+                                   .dim = 2};
     const koksma__result first = {3, UINT64_MAX, {0.1, NAN, NAN, NAN}}, again = {3, UINT64_MAX, {0.7, NAN, NAN, NAN}};
     koksma__result *results;
     long long id, same;
@@ -239,7 +274,14 @@ static void store_keeps_many_rows(void **state)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/r.sqlite", folder);
     koksma__store *store;
-    koksma__series series = {"discrepancy", "", "", "", "random", "l2-star", 16, 2, 0, 0, NULL, NULL, 0};
+    koksma__series series = {.kind = "discrepancy",
+                             .scene = "",
+                             .scene_hash = "",
+                             .options = "",
+                             .pattern = "random",
+                             .what = "l2-star",
+                             .n = 16,
+                             .dim = 2};
     koksma__result *results;
     long long ids[2], seen = 0;
     size_t n;
@@ -442,6 +484,7 @@ int main(void)
         cmocka_unit_test(largest_of_blocks),
         cmocka_unit_test(wrong_plans),
         cmocka_unit_test(wrong_groups),
+        cmocka_unit_test(wrong_metrics),
         cmocka_unit_test(shipped_plans_parse),
         cmocka_unit_test(store_keeps_rows),
         cmocka_unit_test(store_keeps_many_rows),

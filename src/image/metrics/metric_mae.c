@@ -18,5 +18,7 @@ const koksma_metric koksma__metric_mae = {
     .title = "mean absolute error in luminance",
     .cite = "shirley1991",
     .channels = 1,
+    .order = 1,
+    .in_all_studies = true,
     .errors = errors,
 };

@@ -31,5 +31,7 @@ const koksma_metric koksma__metric_relmse = {
     .cite = "rousselle2011",
     .params = params,
     .channels = 3,
+    .order = 2,
+    .in_all_studies = true,
     .errors = errors,
 };

@@ -18,5 +18,7 @@ const koksma_metric koksma__metric_rmse = {
     .cite = "shirley1991",
     .channels = 1,
     .root = true,
+    .order = 1,
+    .in_all_studies = true,
     .errors = errors,
 };

@@ -34,5 +34,7 @@ const koksma_metric koksma__metric_smape = {
     .cite = "vogels2018",
     .params = params,
     .channels = 3,
+    .order = 1,
+    .in_all_studies = true,
     .errors = errors,
 };

@@ -141,27 +141,61 @@ koksma_metric_value koksma__metric_pool(const koksma_metric *metric, double *err
     return out;
 }
 
+/* Evaluates the metrics with this number of channels. buffer: has space for the values of both images and for one
+   error a pixel. */
+static koksma_status evaluate(const koksma_metric_spec *specs, size_t n, int channels, const koksma_image *image,
+                              const koksma_image *reference, double *buffer, koksma_metric_value *out)
+{
+    const size_t pixels = (size_t)image->width * (size_t)image->height, values = pixels * (size_t)channels;
+    double *const errors = buffer + 2 * values;
+    koksma_status status = KOKSMA_OK;
+    bool converted = false;
+    for (size_t m = 0; !status && m < n; m++) {
+        const koksma_metric *metric = specs[m].metric;
+        if (metric->channels != channels) {
+            continue;
+        }
+        if (!converted) {
+            koksma__metric_values(metric, image, buffer);
+            koksma__metric_values(metric, reference, buffer + values);
+            converted = true;
+        }
+        const koksma_metric_input in = {.params = specs[m].params,
+                                        .width = image->width,
+                                        .height = image->height,
+                                        .image = buffer,
+                                        .reference = buffer + values};
+        status = metric->errors(&in, errors);
+        if (!status) {
+            out[m] = koksma__metric_pool(metric, errors, pixels);
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__metrics_evaluate(const koksma_metric_spec *specs, size_t n, const koksma_image *image,
+                                       const koksma_image *reference, koksma_metric_value *out)
+{
+    size_t channels = 1;
+    for (size_t m = 0; m < n; m++) {
+        KOKSMA__TRY(koksma__metric_spec_check(&specs[m]));
+        channels = specs[m].metric->channels == 3 ? 3 : channels;
+    }
+    KOKSMA__TRY(koksma__image_check_sizes(image, reference));
+    const size_t size = (2 * channels + 1) * (size_t)image->width * (size_t)image->height * sizeof(double);
+    double *buffer = malloc(size);
+    KOKSMA__REQUIRE_MEMORY(buffer, size);
+    koksma_status status = KOKSMA_OK;
+    for (int c = 1; !status && c <= 3; c += 2) {
+        status = evaluate(specs, n, c, image, reference, buffer, out);
+    }
+    free(buffer);
+    return status;
+}
+
 koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, const koksma_image *image,
                                      const koksma_image *reference, koksma_metric_value *out)
 {
     KOKSMA__REQUIRE(spec, image, reference, out);
-    KOKSMA__TRY(koksma__metric_spec_check(spec));
-    KOKSMA__TRY(koksma__image_check_sizes(image, reference));
-    const size_t n = (size_t)image->width * (size_t)image->height, values = n * (size_t)spec->metric->channels;
-    double *buffer = malloc((2 * values + n) * sizeof *buffer);
-    KOKSMA__REQUIRE_MEMORY(buffer, (2 * values + n) * sizeof *buffer);
-    double *errors = buffer + 2 * values;
-    koksma__metric_values(spec->metric, image, buffer);
-    koksma__metric_values(spec->metric, reference, buffer + values);
-    const koksma_metric_input in = {.params = spec->params,
-                                    .width = image->width,
-                                    .height = image->height,
-                                    .image = buffer,
-                                    .reference = buffer + values};
-    const koksma_status status = spec->metric->errors(&in, errors);
-    if (!status) {
-        *out = koksma__metric_pool(spec->metric, errors, n);
-    }
-    free(buffer);
-    return status;
+    return koksma__metrics_evaluate(spec, 1, image, reference, out);
 }

@@ -23,6 +23,11 @@ koksma_metric_value koksma__metric_pool(const koksma_metric *metric, double *err
 /* Computes the same value as koksma__metric_pool and nothing else; adds the errors in the order of the pixels. */
 double koksma__metric_mean(const koksma_metric *metric, const double *errors, size_t n);
 
+/* Evaluates n metrics of one image, as koksma_metric_evaluate does each, but converts the pixels once for all metrics
+   with equal channels. Errors: those of koksma_metric_evaluate. */
+koksma_status koksma__metrics_evaluate(const koksma_metric_spec *specs, size_t n, const koksma_image *image,
+                                       const koksma_image *reference, koksma_metric_value *out);
+
 #define METRIC(name) extern const koksma_metric koksma__metric_##name;
 #include "image/metrics/metrics.def"
 #undef METRIC

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/image.h>
 #include <koksma/integrate.h>
 #include <koksma/warp.h>
 
@@ -87,8 +88,18 @@ static koksma_status of_image(const char *pattern, bool first, char text[KOKSMA_
     return KOKSMA_OK;
 }
 
-koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what, bool first,
-                                   koksma__made_by *out)
+static koksma_status of_metric(const char *text, bool first, char made_by[KOKSMA__MADE_BY])
+{
+    koksma_metric_spec spec;
+    const koksma_status status = koksma_metric_parse(text, &spec);
+    if (!status) {
+        add(made_by, spec.metric->name, first ? 0 : spec.metric->revision);
+    }
+    return status;
+}
+
+koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what,
+                                   const char *metric, bool first, koksma__made_by *out)
 {
     char name[KOKSMA_MAX_SPEC], of_reference[KOKSMA_MAX_SPEC];
     long long spp, replicates;
@@ -97,6 +108,7 @@ koksma_status koksma__find_made_by(bool image, const char *pattern, const char *
         return of_points(pattern, options, what, first, out);
     }
     koksma_status status = pattern[0] ? of_image(pattern, first, out->points) : KOKSMA_OK;
+    status = status || !metric[0] ? status : of_metric(metric, first, out->value);
     status = status ? status : koksma__reference_parse(what, name, of_reference, &spp, &replicates);
     return status ? status : of_image(of_reference, first, out->value);
 }

@@ -16,15 +16,16 @@ enum { KOKSMA__RENDERER_REVISION = 1 };
 /* Revisions as texts of the form "name revision, name revision". */
 typedef struct koksma__made_by {
     char points[KOKSMA__MADE_BY]; /* revisions of the pattern; for an image, of the renderer and all patterns */
-    /* Revisions of the measure and the warp; for an image, of the renderer and patterns of its reference. */
+    /* Revisions of the measure and the warp; for an image, of the renderer and patterns of its reference, and before
+       them that of the metric if the row is of one. */
     char value[KOKSMA__MADE_BY];
 } koksma__made_by;
 
 /* Writes the revisions of all code that makes a row of the series that the texts describe. For a reference, pattern
-   is "". If `first`, every revision is written as 0, otherwise as it is in this program. Errors: those of the
+   is ""; metric is "" unless the row is of a metric. If `first`, every revision is written as 0, otherwise as it is in this program. Errors: those of the
    specs. */
-koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what, bool first,
-                                   koksma__made_by *out);
+koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what,
+                                   const char *metric, bool first, koksma__made_by *out);
 
 /* Splits the text of a reference, "name:pattern@spp x replicates" without blanks, into its parts. Errors:
    MALFORMED. */

@@ -182,8 +182,9 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
 
 static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {
-    static const char *const keys[] = {"comment", "name",   "title",   "about",     "order", "discrepancies",
-                                       "images",  "tables", "figures", "questions", NULL};
+    static const char *const keys[] = {"comment",       "name",    "title",  "about",   "order",
+                                       "discrepancies", "images",  "tables", "figures", "questions",
+                                       "metric",        "metrics", NULL};
     koksma_status status = koksma__json_only(root, keys);
     status = status ? status : koksma__plan_text(root, "name", true, &p->name);
     status = status ? status : koksma__plan_text(root, "title", true, &p->title);
@@ -195,6 +196,7 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     status = status ? status
                     : koksma__plan_list(root, "images", false, sizeof *p->images, parse_image, trials,
                                         (void **)&p->images, &p->n_images);
+    status = status ? status : koksma__plan_metrics(root, p);
     status = status ? status
                     : koksma__plan_list(root, "tables", false, sizeof *p->tables, koksma__plan_table, trials,
                                         (void **)&p->tables, &p->n_tables);
@@ -208,6 +210,7 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     KOKSMA__JSON_FAIL_IF(!status && p->n_discrepancies + p->n_images == 0, root,
                          "the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
     status = status ? status : koksma__plan_check_tables(root, p);
+    status = status ? status : koksma__plan_set_metrics(root, p);
     return status ? status : koksma__plan_own(p);
 }
 

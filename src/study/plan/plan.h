@@ -56,7 +56,17 @@ typedef struct koksma__image_block {
     long long trials;
     size_t n_references;
     koksma__reference *references;
+    /* canonical specs of the metrics by which every image is compared with the last reference: those of all studies,
+       then those that the plan names */
+    koksma__texts metrics;
 } koksma__image_block;
+
+/* Maximum number of metrics of a block. */
+enum { KOKSMA__MOST_METRICS = 32 };
+
+/* The metric that ranks patterns unless a plan names another. It is the value of a row of kind "image", so that every
+   store has it. */
+#define KOKSMA__DEFAULT_METRIC "mae"
 
 /* A number printed in a paper; NaN and "" where the paper prints none. */
 typedef struct koksma__printed {
@@ -148,6 +158,7 @@ typedef struct koksma__question {
     size_t part; /* index of the part (of a joined plan) that has this question */
     const koksma__question_kind *kind;
     char *discrepancies, *images; /* ids of the question's blocks; NULL: none */
+    char *metric;                 /* canonical spec of the metric that ranks patterns; NULL: that of the plan */
     size_t n_groups;
     koksma__scene_group *groups;
 } koksma__question;
@@ -157,6 +168,7 @@ typedef struct koksma__plan_part {
     char *title;
     /* order: the overall order of the patterns as the paper prints it; either text may be NULL */
     char *about, *order;
+    char *metric;            /* canonical spec of the metric that ranks patterns */
     bool asks;               /* whether the part has tables or questions */
     size_t discrepancies[2]; /* indices of the part's blocks: the index of the first, and 1 + the index of the last */
     size_t images[2];
@@ -165,7 +177,9 @@ typedef struct koksma__plan_part {
 
 typedef struct koksma__plan {
     char *name, *title, *about;
-    char *order; /* order of the patterns, which is set while the plan is parsed and then moved to its part */
+    /* order of the patterns, and the metric that ranks them; set while the plan is parsed and then moved to its part */
+    char *order, *metric;
+    koksma__texts metrics; /* further metrics that the plan names; used only while the plan is parsed */
     size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions;
     koksma__plan_part *parts;
     koksma__question *questions;

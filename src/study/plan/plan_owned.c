@@ -56,11 +56,12 @@ koksma_status koksma__plan_own(koksma__plan *p)
     *part = (koksma__plan_part){.title = title,
                                 .about = about,
                                 .order = p->order,
+                                .metric = p->metric,
                                 .asks = p->n_tables || p->n_questions,
                                 .discrepancies = {0, p->n_discrepancies},
                                 .images = {0, p->n_images},
                                 .figures = {0, p->n_figures}};
-    p->order = NULL;
+    p->order = p->metric = NULL;
     p->parts = part;
     p->n_parts = 1;
     return KOKSMA_OK;
@@ -148,6 +149,7 @@ static void free_image_block(koksma__image_block *b)
         free(b->references[r].pattern);
     }
     free(b->references);
+    koksma__texts_fini(&b->metrics);
 }
 
 void koksma__plan_fini(koksma__plan *p)
@@ -172,8 +174,8 @@ void koksma__plan_fini(koksma__plan *p)
         koksma__texts_fini(&p->figures[i].spaces);
     }
     for (size_t i = 0; i < p->n_questions; i++) {
-        KOKSMA__FREE(p->questions[i].id, p->questions[i].title, p->questions[i].discrepancies,
-                     p->questions[i].images);
+        KOKSMA__FREE(p->questions[i].id, p->questions[i].title, p->questions[i].discrepancies, p->questions[i].images,
+                     p->questions[i].metric);
         for (size_t g = 0; g < p->questions[i].n_groups; g++) {
             free(p->questions[i].groups[g].title);
             koksma__texts_fini(&p->questions[i].groups[g].scenes);
@@ -184,9 +186,11 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->parts[i].title);
         free(p->parts[i].about);
         free(p->parts[i].order);
+        free(p->parts[i].metric);
     }
+    koksma__texts_fini(&p->metrics);
     KOKSMA__FREE(p->parts, p->questions, p->discrepancies, p->images, p->tables, p->figures, p->name, p->title,
-                 p->about, p->order);
+                 p->about, p->order, p->metric);
     *p = (koksma__plan){0};
 }
 

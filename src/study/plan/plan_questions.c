@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads and checks the questions of a plan. A question has an id, a title, a kind, the ids of the blocks that it
- * is about and, for some kinds, groups of scenes. The table of kinds, questions.def, defines which members a kind
+ * is about, perhaps the metric that ranks its patterns and, for some kinds, groups of scenes. The table of kinds, questions.def, defines which members a kind
  * needs or takes. The blocks and scenes that a question names are checked after the whole plan has been read,
  * because a plan may list blocks after questions.
  */
@@ -64,6 +64,7 @@ static koksma_status check_fields(const koksma__json_node *node, const koksma__q
                          : images         ? "images"
                          : points         ? "discrepancies"
                                           : "discrepancies or images");
+    KOKSMA__JSON_FAIL_IF(q->metric && !q->images, node, "a question with a metric needs images");
     if (!(q->kind->fields & KOKSMA__TAKES_GROUPS) && koksma__json_has(node, "groups")) {
         koksma__json_node groups;
         koksma__json_member(node, "groups", &groups);
@@ -74,13 +75,15 @@ static koksma_status check_fields(const koksma__json_node *node, const koksma__q
 
 koksma_status koksma__plan_question(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "id", "title", "kind", "discrepancies", "images", "groups", NULL};
+    static const char *const keys[] = {"comment", "id",     "title",  "kind", "discrepancies",
+                                       "images",  "groups", "metric", NULL};
     koksma__question *q = item;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, true, &q->id);
     status = status ? status : koksma__plan_text(node, "title", true, &q->title);
     status = status ? status : koksma__plan_text(node, "discrepancies", false, &q->discrepancies);
     status = status ? status : koksma__plan_text(node, "images", false, &q->images);
+    status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, &q->metric);
     status = status ? status : parse_kind(node, q);
     status = status ? status : check_fields(node, q);
     return status ? status

@@ -24,6 +24,9 @@ koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 /* Parses an integrand; the canonical text is "error of SPEC". */
 koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
+/* Parses a metric of image errors (plan_metrics.c). */
+koksma_status koksma__metric_text(const char *text, char out[KOKSMA_MAX_SPEC]);
+
 /* Reads the member `key` as a spec that `parser` checks; *out is its canonical form, which the caller frees. */
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                 bool needed, char **out);
@@ -48,6 +51,11 @@ void koksma__plan_sort(koksma__wholes *wholes);
 koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
                                 koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
                                 size_t *n);
+
+/* koksma__plan_metrics reads the members "metric" and "metrics", after the images; koksma__plan_set_metrics lists the
+   metrics of all image blocks, after the questions (plan_metrics.c). */
+koksma_status koksma__plan_metrics(const koksma__json_node *root, koksma__plan *plan);
+koksma_status koksma__plan_set_metrics(const koksma__json_node *root, koksma__plan *plan);
 
 /* Reads an item of "questions"; checks that the blocks and scenes that questions name exist (plan_questions.c). */
 koksma_status koksma__plan_question(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);

@@ -195,7 +195,8 @@ static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, co
     }
     const koksma__image_block *i = rendered_in(c, at, pattern, b);
     koksma_status status = koksma__discrepancy_mean(c->study, d, "", pattern, at->spp, at->of->measure, NULL, &x);
-    status = status ? status : koksma__image_mean(c->study, i, at->scene, at->variant, pattern, at->spp, NULL, &y);
+    const koksma__image_mean of = {i, at->scene, at->variant, pattern, at->spp};
+    status = status ? status : koksma__image_mean_by(c->study, &of, c->topic->metric, NULL, &y);
     if (!status && x.n && y.n) {
         out->x[out->n] = x.mean;
         out->y[out->n] = y.mean;

@@ -263,6 +263,20 @@ void koksma__doc_answer_begin(koksma__document *d, bool decided)
     koksma__json_begin_array(&d->json, "text");
 }
 
+void koksma__doc_metric_begin(koksma__document *d, const char *metric)
+{
+    begin_block(d, "paragraph", NULL);
+    koksma__json_write_text(&d->json, "metric", metric);
+    koksma__json_begin_array(&d->json, "text");
+}
+
+void koksma__doc_warning_begin(koksma__document *d)
+{
+    begin_block(d, "paragraph", NULL);
+    koksma__json_write_flag(&d->json, "warning", true);
+    koksma__json_begin_array(&d->json, "text");
+}
+
 void koksma__doc_paragraph_end(koksma__document *d)
 {
     end_words(d);

@@ -61,6 +61,10 @@ void koksma__doc_paragraph_end(koksma__document *d);
 /* Begins a paragraph that answers the question of its section, which the page also shows in its overview. decided:
    whether the data decide the question. */
 void koksma__doc_answer_begin(koksma__document *d, bool decided);
+/* Begins a paragraph that names the metric of the image errors in its section. metric: its canonical spec. */
+void koksma__doc_metric_begin(koksma__document *d, const char *metric);
+/* Begins a paragraph that warns of a doubtful number. */
+void koksma__doc_warning_begin(koksma__document *d);
 
 /* A list. koksma__doc_item begins each item, and koksma__doc_say writes its words. numbered: the items are notes
    that table cells refer to by number. */

@@ -16,12 +16,19 @@
 #include "study/store/store.h"
 
 /* The first N_FIRST text columns come before the numbers, the other text columns after them. */
-enum { N_FIRST = 6, N_TEXTS = 8, N_WHOLES = 4, N_VALUES = 7 };
+enum { N_FIRST = 6, N_TEXTS = 9, N_WHOLES = 4, N_VALUES = 9 };
 
-static const char *const text_names[N_TEXTS] = {"kind",    "scene", "scene_hash", "options",
-                                                "pattern", "what",  "made_by",    "measured_by"};
+static const char *const text_names[N_TEXTS] = {"kind", "scene",  "scene_hash", "options",    "pattern",
+                                                "what", "metric", "made_by",    "measured_by"};
 static const char *const whole_names[N_WHOLES] = {"n", "dim", "width", "height"};
-static const char *const value_names[N_VALUES] = {"value", "sd", "max", "rmse", "p", "frequency_x", "frequency_y"};
+static const char *const value_names[N_VALUES] = {"value",       "sd",          "max",    "rmse",     "p",
+                                                  "frequency_x", "frequency_y", "robust", "top_share"};
+
+/* The columns of a kind of rows: `value`, and then n from column `first` on. */
+static const struct {
+    const char *kind;
+    int first, n;
+} columns[] = {{"image", 1, 3}, {"coherence", 4, 3}, {"metric", 7, 2}};
 
 typedef struct writer {
     FILE *stream;
@@ -34,8 +41,8 @@ typedef struct writer {
 
 static const char *text_of(const koksma__series *s, int k)
 {
-    const char *const texts[N_TEXTS] = {s->kind,    s->scene, s->scene_hash, s->options,
-                                        s->pattern, s->what,  s->made_by,    s->measured_by};
+    const char *const texts[N_TEXTS] = {s->kind, s->scene,  s->scene_hash, s->options,    s->pattern,
+                                        s->what, s->metric, s->made_by,    s->measured_by};
     return texts[k];
 }
 
@@ -48,12 +55,15 @@ static long long whole_of(const koksma__series *s, int k)
 /* Puts the values of a result into the columns of its kind, and NaN into the other columns. */
 static void values_of(const koksma__series *s, const koksma__result *result, double values[N_VALUES])
 {
-    const int first = strcmp(s->kind, "coherence") ? 1 : KOKSMA__RESULT_VALUES;
     for (int k = 0; k < N_VALUES; k++) {
         values[k] = NAN;
     }
     values[0] = result->values[0];
-    memcpy(&values[first], &result->values[1], (KOKSMA__RESULT_VALUES - 1) * sizeof *values);
+    for (size_t k = 0; k < sizeof columns / sizeof *columns; k++) {
+        if (!strcmp(s->kind, columns[k].kind)) {
+            memcpy(&values[columns[k].first], &result->values[1], (size_t)columns[k].n * sizeof *values);
+        }
+    }
 }
 
 /* ---- CSV (RFC 4180) ------------------------------------------------------------------------------------ */

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/status.h"
 #include "study/run/references.h"
@@ -69,25 +70,50 @@ koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discre
     return mean_of(study, &series, true, block->trials, results, mean);
 }
 
-koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block *block, const char *scene,
-                                 const char *variant, const char *pattern, long long spp, koksma__result **results,
-                                 koksma__summary *mean)
+/* The key of the images' rows of a kind; `name` holds a text that the key points to. */
+static koksma__series series_of(koksma_study *study, const koksma__image_mean *of, const char *kind,
+                                const char *metric, char name[KOKSMA__REFERENCE_NAME])
 {
-    const koksma__study_scene *s = koksma__study_scene_of(study, scene);
-    char name[KOKSMA__REFERENCE_NAME];
+    const koksma__study_scene *s = koksma__study_scene_of(study, of->scene);
     int width, height;
-    koksma__block_size(block, s, &width, &height);
-    koksma__reference_name(&block->references[block->n_references - 1], name);
-    const koksma__series series = {.kind = "image",
-                                   .scene = s->name,
-                                   .scene_hash = s->hash,
-                                   .options = variant,
-                                   .pattern = pattern,
-                                   .what = name,
-                                   .n = spp,
-                                   .width = width,
-                                   .height = height};
-    return mean_of(study, &series, false, block->trials, results, mean);
+    koksma__block_size(of->block, s, &width, &height);
+    koksma__reference_name(&of->block->references[of->block->n_references - 1], name);
+    return (koksma__series){.kind = kind,
+                            .metric = metric,
+                            .scene = s->name,
+                            .scene_hash = s->hash,
+                            .options = of->variant,
+                            .pattern = of->pattern,
+                            .what = name,
+                            .n = of->spp,
+                            .width = width,
+                            .height = height};
+}
+
+koksma_status koksma__image_mean_by(koksma_study *study, const koksma__image_mean *of, const char *metric,
+                                    koksma__result **results, koksma__summary *mean)
+{
+    char name[KOKSMA__REFERENCE_NAME];
+    const bool in_image = !strcmp(metric, KOKSMA__DEFAULT_METRIC); /* the row of the image has it as its value */
+    const koksma__series series = series_of(study, of, in_image ? "image" : "metric", in_image ? "" : metric, name);
+    return mean_of(study, &series, false, of->block->trials, results, mean);
+}
+
+koksma_status koksma__image_metric(koksma_study *study, const koksma__image_mean *of, const char *metric,
+                                   koksma__metric_means *out)
+{
+    char name[KOKSMA__REFERENCE_NAME];
+    koksma__result *results;
+    size_t n;
+    const koksma__series series = series_of(study, of, "metric", metric, name);
+    koksma_status status = koksma__series_results(study, &series, of->block->trials, &results, &n);
+    if (status) {
+        return status;
+    }
+    out->robust = koksma__summarize(&results->values[1], n, KOKSMA__RESULT_STRIDE);
+    out->top_share = koksma__summarize(&results->values[2], n, KOKSMA__RESULT_STRIDE);
+    free(results);
+    return koksma__image_mean_by(study, of, metric, NULL, &out->value);
 }
 
 koksma_status koksma__reference_error(koksma_study *study, const koksma__image_block *block, const char *scene,
@@ -107,18 +133,22 @@ koksma_status koksma__reference_error(koksma_study *study, const koksma__image_b
 }
 
 koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, const koksma__image_block *block,
-                                    const char *scene, const char *variant)
+                                    const char *scene, const char *variant, const char *metric)
 {
     double error;
     const koksma__reference *r = &block->references[block->n_references - 1];
     const koksma_status status = koksma__reference_error(study, block, scene, variant, &error);
     koksma__doc_paragraph_begin(d);
-    koksma__doc_say(d,
-                    "Mean absolute errors against the reference _%s_, the mean of %lld render%s with %lld samples a "
-                    "pixel of %s; ",
-                    r->name, r->replicates, koksma__plural((double)r->replicates), r->spp, r->pattern);
+    koksma__doc_say(
+        d,
+        "Errors by `%s` against the reference _%s_, the mean of %lld render%s with %lld samples a pixel of "
+        "%s; ",
+        metric, r->name, r->replicates, koksma__plural((double)r->replicates), r->spp, r->pattern);
     if (isfinite(error)) {
         koksma__doc_say(d, "its own error is about %.2g", error);
+        if (strcmp(metric, KOKSMA__DEFAULT_METRIC) != 0) {
+            koksma__doc_say(d, " by `%s`", KOKSMA__DEFAULT_METRIC);
+        }
     } else {
         koksma__doc_say(d, "its own error is not known");
     }

@@ -23,19 +23,35 @@ koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discre
                                        const char *pattern, long long n, const char *measure,
                                        koksma__result **results, koksma__summary *mean);
 
-/* The mean error of a block's images against the block's last reference; `results` has the same meaning as in
-   koksma__discrepancy_mean. */
-koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block *block, const char *scene,
-                                 const char *variant, const char *pattern, long long spp, koksma__result **results,
-                                 koksma__summary *mean);
+/* The images of one mean: those of a pattern with `spp` samples a pixel, in all trials of a block. */
+typedef struct koksma__image_mean {
+    const koksma__image_block *block;
+    const char *scene, *variant, *pattern;
+    long long spp;
+} koksma__image_mean;
+
+/* The mean error of images against the block's last reference, by a metric. `results` has the same meaning as in
+   koksma__discrepancy_mean; the error is the first value of each result. If the metric was not measured, mean->n is 0. */
+koksma_status koksma__image_mean_by(koksma_study *study, const koksma__image_mean *of, const char *metric,
+                                    koksma__result **results, koksma__summary *mean);
+
+/* Means over the images of the members of koksma_metric_value. n is 0 where the store has no rows: an upgraded store has
+   values of the default metric alone. */
+typedef struct koksma__metric_means {
+    koksma__summary value, robust, top_share;
+} koksma__metric_means;
+
+koksma_status koksma__image_metric(koksma_study *study, const koksma__image_mean *of, const char *metric,
+                                   koksma__metric_means *out);
 
 /* The mean error of the block's last reference itself; NaN: unknown. */
 koksma_status koksma__reference_error(koksma_study *study, const koksma__image_block *block, const char *scene,
                                       const char *variant, double *error);
 
-/* Writes a paragraph that describes the reference of a case's errors, which is the block's last reference. */
+/* Writes a paragraph that names the metric of a case's errors and describes their reference, which is the block's last
+   reference. */
 koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, const koksma__image_block *block,
-                                    const char *scene, const char *variant);
+                                    const char *scene, const char *variant, const char *metric);
 
 /* Writes the name of a scene with its options, such as "checker, filter=tent". */
 void koksma__case_name(const char *scene, const char *variant, char *text, size_t size);

@@ -4,7 +4,7 @@
  * other patterns may be that one, because none surely falls faster than they (the interval of the difference of two
  * slopes contains 0), it names those whose slopes have the narrowest intervals, and how many trials would separate
  * two of them. A pattern with a wide interval thus hides no order among patterns with narrow ones. The
- * sentence also gives the number of patterns that fall faster than random points (or N^-1/2), the number that follow
+ * sentence also gives the number of patterns that fall faster than random points (or the power of theory), the number that follow
  * no power law, and the patterns with means of 0. For measures of quality or distance, for which a
  * fast fall is not better, it does not compare the patterns.
  */
@@ -69,8 +69,8 @@ static standing stand(const koksma__slopes *of)
             s.off_line += of->trends[i].off_line;
         }
     }
-    const koksma__estimate half_power = {-0.5, -0.5, -0.5};
-    const koksma__estimate *random = s.random < of->n ? &of->trends[s.random].slope : &half_power;
+    const koksma__estimate power = {of->random_slope, of->random_slope, of->random_slope};
+    const koksma__estimate *random = s.random < of->n ? &of->trends[s.random].slope : &power;
     for (size_t i = 0; i < of->n; i++) {
         const koksma__estimate *e = &of->trends[i].slope;
         s.tied += may_be_fastest(of, i);
@@ -155,9 +155,10 @@ static void say_fastest(koksma__document *d, const koksma__slopes *of, const sta
         koksma__doc_say(d, "%s falls %sas ", of->patterns[s->best], s->counted > 1 ? "fastest, " : "");
         say_power(d, &of->trends[s->best].slope);
     }
-    if (s->random == of->n) {
-        koksma__doc_say(d, "; %zu of %zu patterns surely fall faster than N^%.1f^", s->faster, s->counted, -0.5);
-    } else if (s->counted > 1) {
+    if (s->random == of->n && !isnan(of->random_slope)) {
+        koksma__doc_say(d, "; %zu of %zu patterns surely fall faster than N^%.1f^", s->faster, s->counted,
+                        of->random_slope);
+    } else if (s->random < of->n && s->counted > 1) {
         koksma__doc_say(d, "; %zu of %zu other patterns surely fall faster than %s, which falls as ", s->faster,
                         s->counted - 1, of->patterns[s->random]);
         say_power(d, &of->trends[s->random].slope);

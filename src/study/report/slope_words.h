@@ -22,6 +22,8 @@ typedef struct koksma__slopes {
     const size_t *zeros;
     size_t n, sizes;
     koksma__slope_sense sense;
+    double
+        random_slope; /* the slope of independent random points, for comparison if no pattern is one; NaN: unknown */
 } koksma__slopes;
 
 /* Writes which pattern falls fastest, how many fall faster than random samples, and which means are left out. Writes

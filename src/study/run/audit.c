@@ -109,7 +109,7 @@ static koksma__audit_group *group_of(audit *a, const koksma__task *t)
 /* Reads the values of a series in a row of the store: an image has four values, a measure one. */
 static koksma_status stored(audit *a, const koksma__audit_series *s, bool image, koksma__result *out, bool *found)
 {
-    const long long place = image ? 0 : s->id % KOKSMA__AUDIT_MEMBERS;
+    const long long place = image ? 0 : s->id % KOKSMA__RESULT_VALUES;
     double values[KOKSMA__RESULT_VALUES];
     const koksma_status status =
         koksma__store_row(a->study->store, s->id - place, out->trial, &out->seed, values, found);

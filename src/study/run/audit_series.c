@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Builds a plan from the series of a store: one block for each row of table `result` (up to four measures of one
-   point set), and one for each image with one reference, whose error and coherence are two rows. The jobs of this
+   point set), and one for each image with one reference, whose error, coherence and metrics are rows. The jobs of this
    plan are those of a run, except that an image with several references is rendered once for each reference. */
 #include "study/run/audit_series.h"
 
@@ -20,11 +20,13 @@ static const long long MOST_HOLES = 100000;
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
+enum { N_TEXTS = 9, KEY_TEXTS = 6 }; /* KEY_TEXTS: the first texts, up to `what`, are the key of an image */
+
 /* Stores the addresses of a key's strings, so that the caller can copy or free them. */
-static void texts_of(koksma__series *key, const char **texts[8])
+static void texts_of(koksma__series *key, const char **texts[N_TEXTS])
 {
-    const char **const all[8] = {&key->kind,    &key->scene, &key->scene_hash, &key->options,
-                                 &key->pattern, &key->what,  &key->made_by,    &key->measured_by};
+    const char **const all[N_TEXTS] = {&key->kind, &key->scene,  &key->scene_hash, &key->options,    &key->pattern,
+                                       &key->what, &key->metric, &key->made_by,    &key->measured_by};
     memcpy(texts, all, sizeof all);
 }
 
@@ -32,12 +34,12 @@ static koksma_status add_series(void *context, const koksma__series *key, long l
 {
     koksma__audit_list *list = context;
     koksma__audit_series *at = koksma__add_one(&list->at, &list->n, sizeof *at);
-    const char **texts[8];
+    const char **texts[N_TEXTS];
     KOKSMA__TRY(at ? KOKSMA_OK : KOKSMA_MEMORY);
     *at = (koksma__audit_series){.key = *key, .id = id};
     bool copied = true;
     texts_of(&at->key, texts);
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < N_TEXTS; i++) {
         *texts[i] = strdup(*texts[i]);
         copied = copied && *texts[i];
     }
@@ -77,9 +79,9 @@ koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *
 void koksma__audit_list_fini(koksma__audit_list *list)
 {
     for (size_t i = 0; i < list->n; i++) {
-        const char **texts[8];
+        const char **texts[N_TEXTS];
         texts_of(&list->at[i].key, texts);
-        for (int k = 0; k < 8; k++) {
+        for (int k = 0; k < N_TEXTS; k++) {
             free((char *)*texts[k]);
         }
         free(list->at[i].drawn);
@@ -96,9 +98,9 @@ void koksma__audit_name(const koksma__series *key, long long trial, char *text, 
     } else {
         snprintf(place, sizeof place, "dim %lld, ", key->dim);
     }
-    snprintf(text, size, "%s %.100s%s%.100s%s%.200s, n = %lld, %s%.200s, trial %lld", key->kind, key->scene,
+    snprintf(text, size, "%s %.100s%s%.100s%s%.200s, n = %lld, %s%.200s%s%.100s, trial %lld", key->kind, key->scene,
              key->scene[0] ? ", " : "", key->options, key->options[0] ? ", " : "", key->pattern, key->n, place,
-             key->what, trial);
+             key->what, key->metric[0] ? ", " : "", key->metric, trial);
 }
 
 /* ---- Checks of series ---------------------------------------------------------------------------------- */
@@ -134,7 +136,8 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
     const bool image = strcmp(key->kind, "discrepancy") != 0;
     char hash[KOKSMA__HASH_TEXT];
     series->state = KOKSMA__AUDIT_WRONG;
-    koksma_status status = koksma__find_made_by(image, key->pattern, key->options, key->what, false, here);
+    koksma_status status =
+        koksma__find_made_by(image, key->pattern, key->options, key->what, key->metric, false, here);
     if (!status && (strcmp(here->points, key->made_by) != 0 || strcmp(here->value, key->measured_by) != 0)) {
         series->state = KOKSMA__AUDIT_OTHER;
         return KOKSMA_OK;
@@ -198,7 +201,7 @@ static koksma_status add_measure(koksma__plan *plan, koksma__audit_list *list, k
                                  long long *row)
 {
     const koksma__series *key = &s->key;
-    const long long place = s->id % KOKSMA__AUDIT_MEMBERS;
+    const long long place = s->id % KOKSMA__RESULT_VALUES;
     koksma__discrepancy_block *b = plan->n_discrepancies ? &plan->discrepancies[plan->n_discrepancies - 1] : NULL;
     koksma_status status = KOKSMA_OK;
     if (*row != s->id - place ||
@@ -242,43 +245,47 @@ static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, con
     return status ? status : r->name && r->pattern ? KOKSMA_OK : koksma__fail_memory(strlen(pattern));
 }
 
-/* Orders images by all parts of their keys; the error of an image comes before its coherence. */
+/* Orders images by their keys; the rows of one image are equal. The revisions need no comparison, because all rows are
+   of this program's. */
 static int compare_images(const void *a, const void *b)
 {
     koksma__series s = (*(koksma__audit_series *const *)a)->key, t = (*(koksma__audit_series *const *)b)->key;
     const long long numbers[3][2] = {{s.n, t.n}, {s.width, t.width}, {s.height, t.height}};
-    const char **of_s[8], **of_t[8];
+    const char **of_s[N_TEXTS], **of_t[N_TEXTS];
     int order = 0;
     texts_of(&s, of_s);
     texts_of(&t, of_t);
     for (int i = 0; !order && i < 3; i++) {
         order = numbers[i][0] < numbers[i][1] ? -1 : numbers[i][0] > numbers[i][1];
     }
-    for (int i = 1; !order && i < 8; i++) {
+    for (int i = 1; !order && i < KEY_TEXTS; i++) {
         order = strcmp(*of_s[i], *of_t[i]);
     }
-    return order ? order : -strcmp(s.kind, t.kind);
+    return order;
 }
 
-static bool is_coherence_of(const koksma__audit_series *s, const koksma__audit_series *image)
+/* Adds a series to the last image block, whose key it has. */
+static koksma_status add_member(koksma__plan *plan, koksma__audit_list *list, koksma__audit_series *s)
 {
-    koksma__audit_series other = *s;
-    const koksma__audit_series *a = &other, *b = image;
-    other.key.kind = image->key.kind;
-    return strcmp(s->key.kind, image->key.kind) != 0 && !compare_images(&a, &b);
+    koksma__image_block *b = &plan->images[plan->n_images - 1];
+    const bool metric = !strcmp(s->key.kind, "metric");
+    const size_t place = metric ? 2 + b->metrics.n : strcmp(s->key.kind, "coherence") ? 0 : 1;
+    const koksma_status status = metric ? set_text(&b->metrics, s->key.metric) : KOKSMA_OK;
+    if (!status) {
+        list->images[plan->n_images - 1].members[place] = s;
+        b->trials = s->end > b->trials ? s->end : b->trials;
+    }
+    return status;
 }
 
 static koksma_status add_images(koksma__plan *plan, koksma__audit_list *list, koksma__audit_series **images, size_t n)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < n; i++) {
-        const bool pair = i > 0 && is_coherence_of(images[i], images[i - 1]);
-        status = pair ? KOKSMA_OK : add_image(plan, list, &images[i]->key);
-        if (!status) {
-            koksma__image_block *b = &plan->images[plan->n_images - 1];
-            list->images[plan->n_images - 1].members[!strcmp(images[i]->key.kind, "coherence")] = images[i];
-            b->trials = images[i]->end > b->trials ? images[i]->end : b->trials;
-        }
+        const bool same = i > 0 && !compare_images(&images[i - 1], &images[i]) &&
+                          plan->images[plan->n_images - 1].metrics.n < KOKSMA__MOST_METRICS;
+        status = same ? KOKSMA_OK : add_image(plan, list, &images[i]->key);
+        status = status ? status : add_member(plan, list, images[i]);
     }
     return status;
 }

@@ -20,9 +20,9 @@ typedef struct koksma__audit_series {
     unsigned char *drawn; /* one bit per trial, which tells whether the trial was drawn for the audit */
 } koksma__audit_series;
 
-/* The series that one job computes: the measures in a row of table `result`, or the error and coherence of an
-   image. */
-enum { KOKSMA__AUDIT_MEMBERS = KOKSMA__RESULT_VALUES };
+/* The series that one job computes: the measures in a row of table `result`; or the error of an image, its coherence,
+   and the metrics of the block, in this order. */
+enum { KOKSMA__AUDIT_MEMBERS = 2 + KOKSMA__MOST_METRICS };
 typedef struct koksma__audit_group {
     koksma__audit_series *members[KOKSMA__AUDIT_MEMBERS]; /* NULL: unused entry */
 } koksma__audit_group;

@@ -159,7 +159,7 @@ static void add_task(const koksma__task *t, double seconds, koksma_study_cost *c
     cost->rows += (uint64_t)t->trials * t->n_series;
     cost->seconds += seconds * trials;
     const size_t rows = t->image ? t->n_series : (t->n_series + VALUES - 1) / VALUES;
-    const size_t values = t->image ? VALUES * t->n_series : t->n_series;
+    const size_t values = t->image ? VALUES * t->n_series - t->image->metrics.n : t->n_series;
     cost->bytes += trials * (ROW * (double)rows + VALUE * (double)values);
 }
 

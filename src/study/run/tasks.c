@@ -2,7 +2,7 @@
 /* Tasks and jobs. The blocks of a plan become tasks (a pattern at one size, with all its measures or references),
    sorted by descending number of trials. Rounds of trials in which the same tasks have trials left form a group, and
    job i is found by binary search among these groups. A job generates and measures one point set, or renders one
-   image and compares it with its references. */
+   image and compares it with its references, with the last one by several metrics. */
 #include "study/run/tasks.h"
 
 #include <math.h>
@@ -19,6 +19,7 @@
 #include "core/hash.h"
 #include "core/status.h"
 #include "image/coherence.h"
+#include "image/metrics/metrics.h"
 #include "study/run/references.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
@@ -102,16 +103,16 @@ static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block 
                              .n = b->spp.at[i / b->variants.n % b->spp.n],
                              .variant = b->variants.at[i % b->variants.n],
                              .trials = b->trials,
-                             .n_series = b->n_references + 1};
+                             .n_series = b->n_references + 1 + b->metrics.n};
         koksma__block_size(b, scene, &task.width, &task.height);
         status = add_task(tasks, &task);
         for (size_t r = 0; !status && r < b->n_references; r++) {
             status = koksma__reference_index(tasks->study, b, scene, task.variant, r,
                                              &tasks->at[tasks->n - 1].references[r]);
         }
-        if (!status) { /* the coherence is measured against the last reference */
+        for (size_t k = b->n_references; !status && k < task.n_series; k++) { /* all others use the last reference */
             koksma__task *added = &tasks->at[tasks->n - 1];
-            added->references[b->n_references] = added->references[b->n_references - 1];
+            added->references[k] = added->references[b->n_references - 1];
         }
     }
     return status;
@@ -202,10 +203,12 @@ bool koksma__task_is_done(const koksma__task *task, long long trial)
 
 koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KOKSMA__REFERENCE_NAME])
 {
-    const bool is_error = t->image && k < t->image->n_references;
-    koksma__series s = {.kind = is_error   ? "image"
-                                : t->image ? "coherence"
-                                           : "discrepancy",
+    const size_t references = t->image ? t->image->n_references : 0;
+    koksma__series s = {.kind = !t->image         ? "discrepancy"
+                                : k < references  ? "image"
+                                : k == references ? "coherence"
+                                                  : "metric",
+                        .metric = t->image && k > references ? t->image->metrics.at[k - references - 1] : "",
                         .scene = t->image ? t->scene->name : "",
                         .scene_hash = t->image ? t->scene->hash : "",
                         .options = t->variant,
@@ -215,7 +218,7 @@ koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KO
                         .width = t->width,
                         .height = t->height};
     if (t->image) {
-        koksma__reference_name(&t->image->references[is_error ? k : k - 1], name);
+        koksma__reference_name(&t->image->references[k < references ? k : references - 1], name);
         s.what = name;
     } else {
         s.what = t->discrepancy->measures.at[k];
@@ -424,6 +427,24 @@ static koksma_status find_coherence(const koksma_image *image, const koksma_imag
     return status;
 }
 
+/* Evaluates the metrics of an image block; results[m] is that of metric m. */
+static koksma_status evaluate_metrics(const koksma__texts *metrics, const koksma_image *image,
+                                      const koksma_image *reference, koksma__result *results)
+{
+    koksma_metric_spec specs[KOKSMA__MOST_METRICS];
+    koksma_metric_value found[KOKSMA__MOST_METRICS];
+    koksma_status status = KOKSMA_OK;
+    for (size_t m = 0; !status && m < metrics->n; m++) {
+        status = koksma_metric_parse(metrics->at[m], &specs[m]);
+    }
+    status = status || !metrics->n ? status : koksma__metrics_evaluate(specs, metrics->n, image, reference, found);
+    for (size_t m = 0; !status && m < metrics->n; m++) {
+        const double values[KOKSMA__RESULT_VALUES] = {found[m].value, found[m].robust, found[m].top_share, NAN};
+        memcpy(results[m].values, values, sizeof values);
+    }
+    return status;
+}
+
 static koksma_status do_image(const koksma_study *study, const koksma__task *t, uint64_t seed, const koksma_run *run,
                               koksma__result *results)
 {
@@ -436,15 +457,16 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
                                      .seed = seed};
     KOKSMA__TRY(koksma__study_render(t->scene, &picture, run, &image));
     koksma_status status = KOKSMA_OK;
-    const size_t last = t->n_series - 1;
+    const size_t last = t->image->n_references;
+    const koksma_image *const reference = &study->references[t->references[last]].image;
     for (size_t r = 0; !status && r < last; r++) {
         koksma_image_error error = {0};
         status = koksma_image_compare(&image, &study->references[t->references[r]].image, &error);
         const double values[KOKSMA__RESULT_VALUES] = {error.mean, error.sd, error.max, error.rmse};
         memcpy(results[r].values, values, sizeof values);
     }
-    status =
-        status ? status : find_coherence(&image, &study->references[t->references[last]].image, results[last].values);
+    status = status ? status : find_coherence(&image, reference, results[last].values);
+    status = status ? status : evaluate_metrics(&t->image->metrics, &image, reference, &results[last + 1]);
     koksma_image_fini(&image);
     return status;
 }

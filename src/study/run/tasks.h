@@ -21,8 +21,8 @@ typedef struct koksma__task {
     /* the hash of the common beginning of the texts from which the jobs' seeds are made (core/hash.h) */
     uint64_t key;
     size_t place; /* index of the task in the plan's order */
-    /* Number of results of a job: one per measure; or, for an image, its error against each reference and the
-       coherence of its error against the last reference. */
+    /* Number of results of a job: one per measure; or, for an image, its error against each reference, then the
+       coherence of its error against the last reference, then that error by each metric. */
     size_t n_series;
     size_t *references;    /* for an image: indices into study->references, one per result */
     long long *series;     /* ids of the series in the store, set by koksma__tasks_look_up */

@@ -103,6 +103,10 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
     koksma__doc_column(d, &(koksma__column){.name = "decision", .hidden = true});
     koksma__doc_column(
         d, &(koksma__column){.name = "images", .type = KOKSMA__COLUMN_NUMBER, .digits = 9, .hidden = true});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "robust", .type = KOKSMA__COLUMN_NUMBER, .digits = 4, .hidden = true});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "top share", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
     for (size_t k = 0; k < sheet->n_spp; k++) {
         const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
         for (size_t i = 0; i < sheet->n_samplers; i++) {
@@ -117,9 +121,42 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
             koksma__doc_number(d, row->coherence.images ? row->coherence.coherence : (double)NAN);
             koksma__doc_text(d, decision_of(row));
             koksma__doc_number(d, (double)row->trials);
+            koksma__doc_number(d, row->robust);
+            koksma__doc_number(d, row->top_share);
         }
     }
     koksma__doc_table_end(d);
+}
+
+/* Warns if a few pixels carry most of the error in some rows of a scene's table. */
+static void warn_of_few_pixels(const koksma__sheet *sheet, size_t scene, koksma__document *d)
+{
+    const koksma_rank_row *worst = NULL;
+    size_t few = 0, ranked = 0;
+    int spp = 0;
+    for (size_t k = 0; k < sheet->n_spp * sheet->n_samplers; k++) {
+        const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k / sheet->n_samplers];
+        const koksma_rank_row *row = &r->rows[k % sheet->n_samplers];
+        ranked += row->state == KOKSMA_RANK_RANKED;
+        if (row->top_share >= KOKSMA_FEW_PIXELS) {
+            few++;
+            if (!worst || row->top_share > worst->top_share) {
+                worst = row;
+                spp = r->spp;
+            }
+        }
+    }
+    if (worst) {
+        koksma__doc_warning_begin(d);
+        koksma__doc_say(
+            d,
+            "Warning: 0.1 %% of the pixels carry most of the error in %zu of %zu rows, and decide the order "
+            "there. They carry most with %d samples of %s: %.0f %% of the error; without them `%s` is %.4g "
+            "instead of %.4g. A metric that weighs them less, such as `smape`, may give another order.",
+            few, ranked, spp, sheet->samplers[worst->pattern]->text, 100 * worst->top_share, sheet->metric_text,
+            worst->robust, worst->mean);
+        koksma__doc_paragraph_end(d);
+    }
 }
 
 /* Draws errors against samples per pixel, if there are several numbers of samples. */
@@ -176,14 +213,16 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_paragraph(d, "No scene was rendered: no set has 4, 16, 64 or another number of up to 256 points, "
                                  "one for each sample of a pixel.");
     } else {
-        koksma__doc_paragraph(d,
-                              "Error of an image: %s (%s). Samplers as a renderer uses them: a set for each pixel "
-                              "and use. "
-                              "Behind: relative difference to the first. Bands: the error has a pattern, which "
-                              "eyes notice more than noise. "
-                              "Intervals and decisions of a scene hold together with 95 %%; coherence and "
-                              "decisions are in the CSV files.",
-                              sheet->metric_text, sheet->metric.metric->title);
+        koksma__doc_metric_begin(d, sheet->metric_text);
+        koksma__doc_say(d,
+                        "Error of an image: %s (%s). Samplers as a renderer uses them: a set for each pixel "
+                        "and use. "
+                        "Behind: relative difference to the first. Bands: the error has a pattern, which "
+                        "eyes notice more than noise. "
+                        "Intervals and decisions of a scene hold together with 95 %%; coherence and "
+                        "decisions are in the CSV files.",
+                        sheet->metric_text, sheet->metric.metric->title);
+        koksma__doc_paragraph_end(d);
     }
     if (sheet->samplers[0]->sets != SIZE_MAX && sheet->n_spp) {
         koksma__doc_paragraph(
@@ -198,6 +237,7 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
             put_chart(sheet, i, d);
         }
         put_table(sheet, i, d);
+        warn_of_few_pixels(sheet, i, d);
         for (size_t k = 0; k < sheet->n_spp * sheet->n_samplers; k++) {
             const koksma__sheet_ranking *r = &sheet->rankings[i * sheet->n_spp + k / sheet->n_samplers];
             const koksma_rank_row *row = &r->rows[k % sheet->n_samplers];

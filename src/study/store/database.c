@@ -315,6 +315,12 @@ koksma_status koksma__database_attach(koksma__database *database, const koksma__
         status = koksma__statement_run(database, s);
         koksma__statement_close(s);
     }
+    char *path = strdup(old->path);
+    if (!path) {
+        return status ? status : koksma__fail_memory(strlen(old->path));
+    }
+    free(database->path);
+    database->path = path;
     return status ? status : koksma__database_execute(database, "PRAGMA old.locking_mode=EXCLUSIVE");
 }
 

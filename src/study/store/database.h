@@ -35,7 +35,8 @@ koksma_status koksma__database_open(const char *path, koksma__database_mode mode
 /* Closes a database whose statements are closed; what was not committed is lost. */
 void koksma__database_close(koksma__database *database);
 
-/* Attaches the file `old` in its present state: its tables are then called old.NAME. The file must remain open. */
+/* Attaches the file `old` in its present state: its tables are then called old.NAME. The file must remain open. Error
+   messages about `database` name `old` from then on. */
 koksma_status koksma__database_attach(koksma__database *database, const koksma__database *old);
 
 /* Whether the path now leads to another file than when the database was opened. */

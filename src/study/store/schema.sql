@@ -1,4 +1,4 @@
--- The results of studies, schema 6 (user_version; application_id 1263236977, "Kksm" in the header of the file). A name
+-- The results of studies, schema 7 (user_version; application_id 1265333101, "Kksm" in the header of the file). A name
 -- in a text never changes its meaning. Numbers are the computed doubles, bit for bit. `SELECT * FROM rows` shows all
 -- results with their keys. Koksma opens a file only if it has exactly these tables and nothing else.
 
@@ -10,7 +10,8 @@ CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 
 CREATE TABLE series (        -- the key of results without the trial; each series is one mean in a table
   id INTEGER PRIMARY KEY CHECK (id BETWEEN 1 AND 67108864), -- a multiple of 4 for images; measures of the same
                                            -- point sets have consecutive ids
-  kind TEXT NOT NULL CHECK (kind IN ('discrepancy', 'image', 'coherence')), -- coherence of an image's error
+  kind TEXT NOT NULL CHECK (kind IN ('discrepancy', 'image', 'coherence', 'metric')), -- coherence: of an image's
+                                           -- error; metric: an image's error by a metric
   scene TEXT NOT NULL,                     -- '' for discrepancies, as is scene_hash
   scene_hash TEXT NOT NULL,                -- hexadecimal hash of the scene's text, and of a file: pattern's points
   options TEXT NOT NULL,                   -- options that differ from the defaults: pairing=aligned, warp=polar-disk
@@ -20,9 +21,11 @@ CREATE TABLE series (        -- the key of results without the trial; each serie
   width INTEGER NOT NULL CHECK (width >= 0), -- 0 for discrepancies, as is height
   height INTEGER NOT NULL CHECK (height >= 0),
   what TEXT NOT NULL,                      -- the measure's canonical spec, or name:pattern@spp x replicates
+  metric TEXT NOT NULL CHECK ((metric <> '') = (kind = 'metric')), -- the metric's canonical spec, e.g. relmse
   made_by TEXT NOT NULL,                   -- revisions: renderer 0, n-rooks 0 (src/study/plan/made_by.h)
-  measured_by TEXT NOT NULL,               -- revisions of the measure and warp, or of the reference's generators
-  UNIQUE (kind, scene, scene_hash, options, pattern, n, dim, width, height, what, made_by, measured_by)
+  measured_by TEXT NOT NULL,               -- revisions of the measure and warp, or of the metric and the
+                                           -- reference's generators
+  UNIQUE (kind, scene, scene_hash, options, pattern, n, dim, width, height, what, metric, made_by, measured_by)
 ) STRICT;
 
 CREATE TABLE result (        -- up to four measures of one point set, or one render and one reference
@@ -31,11 +34,14 @@ CREATE TABLE result (        -- up to four measures of one point set, or one ren
   seed INTEGER NOT NULL,                   -- of koksma_generate or koksma_render, as a signed 64-bit number
   v0 REAL CHECK (abs(v0) < 9e999),         -- value of the measure `series`; for an image the mean over the pixels
                                            -- of the absolute error in luminance; for a coherence the peak of the
-                                           -- error's power spectrum divided by its mean, 0 without an error
+                                           -- error's power spectrum divided by its mean, 0 without an error; the
+                                           -- value of a metric
   v1 REAL CHECK (abs(v1) < 9e999),         -- value of series + 1; for an image the SD of the absolute error; for a
-                                           -- coherence p, the probability that white noise has as large a peak
-  v2 REAL CHECK (abs(v2) < 9e999),         -- value of series + 2; the error's maximum; the peak's x frequency (1/pixel)
-  v3 REAL CHECK (abs(v3) < 9e999)          -- value of series + 3; the RMSE; the peak's y frequency
+                                           -- coherence p, the probability that white noise has as large a peak; the
+                                           -- metric without the 0.1 % of the pixels with the largest errors
+  v2 REAL CHECK (abs(v2) < 9e999),         -- value of series + 2; the error's maximum; the peak's x frequency
+                                           -- (1/pixel); these pixels' share, 0 to 1, of the sum of all errors
+  v3 REAL CHECK (abs(v3) < 9e999)          -- value of series + 3; the RMSE; the peak's y frequency; none of a metric
 ) STRICT;
 
 CREATE TABLE reference (     -- the errors of reference images
@@ -73,6 +79,8 @@ CREATE VIEW rows AS
          CASE kind WHEN 'coherence' THEN v1 END AS p,
          CASE kind WHEN 'coherence' THEN v2 END AS frequency_x,
          CASE kind WHEN 'coherence' THEN v3 END AS frequency_y,
-         made_by, measured_by
+         CASE kind WHEN 'metric' THEN v1 END AS robust,
+         CASE kind WHEN 'metric' THEN v2 END AS top_share,
+         metric, made_by, measured_by
   FROM result JOIN series ON series.id BETWEEN result.id & 4294967295 AND (result.id & 4294967295) + 3
   WHERE value IS NOT NULL;

@@ -12,7 +12,7 @@ CREATE TEMP TABLE number AS -- new ids of series: measures of the same point set
 CREATE UNIQUE INDEX temp.number_by_old ON number (old);
 
 INSERT INTO main.series
-  SELECT first + place, kind, scene, scene_hash, options, pattern, n, dim, width, height, what, '', ''
+  SELECT first + place, kind, scene, scene_hash, options, pattern, n, dim, width, height, what, '', '', ''
   FROM old.series JOIN number ON old = id;
 
 INSERT INTO main.result

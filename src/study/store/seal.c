@@ -10,7 +10,7 @@
  *
  * Checksum of the words x: h = 0, and for each h = (h + x) c mod 2^64, h ^= h >> 32, with c = 0x9e3779b97f4a7c15.
  * The first word is the table's number; a text's word is its hash (core/hash.h), a number's are the bits of the
- * double.
+ * double. The word of a series' metric comes last, and only if it is not empty.
  */
 #include "study/store/seal.h"
 
@@ -62,7 +62,8 @@ uint64_t koksma__checksum_of_series(const koksma__series *key, long long id)
     for (size_t i = 0; i < sizeof wholes / sizeof *wholes; i++) {
         h = fold(h, (uint64_t)wholes[i]);
     }
-    return h;
+    /* Schema 6 had no metric: the seals of its stores remain right in their upgraded copies. */
+    return key->metric[0] ? fold_text(h, key->metric) : h;
 }
 
 uint64_t koksma__checksum_of_reference(const koksma__series *key, double standard_error, const char *pixels)

@@ -164,8 +164,9 @@ void koksma__store_bind_key(koksma__store *store, const koksma__series *series, 
     const char *of = strcmp(series->pattern, "") ? series->pattern : series->what;
     *key = *series;
     koksma__hash_with_points(&store->files, series->scene_hash, of, store->hash);
+    key->metric = series->metric ? series->metric : "";
     koksma__find_made_by(strcmp(series->kind, "discrepancy") != 0, series->pattern, series->options, series->what,
-                         false, &store->made_by);
+                         key->metric, false, &store->made_by);
     key->scene_hash = store->hash;
     key->made_by = store->made_by.points;
     key->measured_by = store->made_by.value;

@@ -12,7 +12,8 @@ typedef struct koksma__store koksma__store;
 
 /* The key of a row, except for the trial. */
 typedef struct koksma__series {
-    const char *kind; /* "discrepancy", "image" or "coherence" */
+    const char *kind;   /* "discrepancy", "image", "coherence" or "metric" */
+    const char *metric; /* canonical spec of the metric of a series of kind "metric"; else "", or NULL in a lookup */
     const char *scene, *scene_hash, *options, *pattern, *what;
     long long n, dim, width, height;
     /* revisions (made_by.h) of a series that was read; ignored when a series is looked up or added: this
@@ -22,7 +23,8 @@ typedef struct koksma__series {
 } koksma__series;
 
 /* The values of a result. A discrepancy has one value; an image the mean, SD, maximum and RMSE of its error; a
-   coherence the coherence, its p and the peak's frequency in x and y. NaN: no value. */
+   coherence the coherence, its p and the peak's frequency in x and y; a metric its value, the robust value and the
+   share of the pixels with the largest errors (koksma_metric_value). NaN: no value. */
 enum { KOKSMA__RESULT_VALUES = 4 };
 
 typedef struct koksma__result {

@@ -39,13 +39,13 @@ typedef enum koksma__query {
 } koksma__query;
 
 /* Number of rows that PUT_ROWS inserts; number of columns before the id in GET_SERIES; version of the schema. */
-enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SERIES_COLUMNS = 12, KOKSMA__SCHEMA = 6 };
+enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SERIES_COLUMNS = 13, KOKSMA__SCHEMA = 7 };
 
 /* Rows are gathered in memory and written together, because one statement for each row would take most of the
    time of small jobs. A killed run loses the rows of this many seconds, or of one job if that takes longer. */
 static const double KOKSMA__WRITE_AFTER_S = 0.2;
 
-/* A row of table result has four values. For an image or a coherence these are one result. For point sets they
+/* A row of table result has four values. For an image, a coherence or a metric these are one result. For point sets they
    are one value each of up to four measures: series with equal pattern, n, dim and options have consecutive ids
    from a multiple of GROUP, as far as they were created one after the other. The ids of rows ascend in the order
    in which a run makes them, so that rows are appended. */

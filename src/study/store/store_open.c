@@ -14,18 +14,19 @@
 #include "study/store/store_internal.h"
 
 #define GROUP_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, made_by"
-#define SERIES_KEY GROUP_KEY ", what, measured_by"
-#define SORT_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, what, made_by, measured_by"
+#define SERIES_KEY GROUP_KEY ", what, metric, measured_by"
+#define SORT_KEY                                                                                                     \
+    "kind, scene, scene_hash, options, pattern, n, dim, width, height, what, metric, made_by, measured_by"
 
 #define ROW "(?,?,?,?,?,?)"
 #define TIMES_8(row) row "," row "," row "," row "," row "," row "," row "," row
 #define TIMES_32(row) TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row)
 
 static const char *const queries[KOKSMA__N_QUERIES] = {
-    [KOKSMA__FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?,?,?)",
+    [KOKSMA__FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?,?,?,?)",
     [KOKSMA__NEXT_SERIES] = "SELECT max(id), (SELECT max(id) FROM series) FROM series WHERE (" GROUP_KEY ") = "
                             "(?,?,?,?,?,?,?,?,?,?) AND kind = 'discrepancy'",
-    [KOKSMA__ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ", id) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)",
+    [KOKSMA__ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ", id) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
     [KOKSMA__PUT_ROW] = "INSERT OR REPLACE INTO result VALUES " ROW,
     [KOKSMA__PUT_ROWS] = "INSERT OR FAIL INTO result VALUES " TIMES_32(ROW),
     [KOKSMA__GET_ROW] = "SELECT seed, v0, v1, v2, v3 FROM result WHERE id = ?",
@@ -125,6 +126,9 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
     char temporary[KOKSMA__TEMPORARY_PATH];
     koksma__atomic_temporary(&file, temporary);
     koksma_status status = build(temporary, old, schema, &store);
+    if (!status && old && !koksma__store_is_sealed(store)) {
+        status = koksma__seal_fail(store); /* the old file is damaged, and stays as it is */
+    }
     const koksma_status closed = koksma__store_close(store);
     status = status ? status : closed;
     status = status ? status : mark_as_logged(temporary, path);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Checks which tables a file has. The SQL of every table and view, as SQLite stores it, is compared with the
-   statements of schema.sql (of schema_past.sql for files older than schema 6), after removing comments and
+   statements of schema.sql (of schema_6.sql, or of schema_past.sql for files older than schema 6), after removing comments and
    replacing white space by one blank: the file must have each statement once and nothing else. A file from an
    untrusted source thus has no triggers, further tables or views, virtual tables, or computed columns. */
 #include <ctype.h>
@@ -10,13 +10,14 @@
 
 #include "core/status.h"
 #include "study/store/schema.h"
+#include "study/store/schema_6.h"
 #include "study/store/schema_past.h"
 #include "study/store/store_internal.h"
 
 /* "Kksm", which no other program has in SQLite's own list of application ids (magic.txt). */
 static const uint32_t APPLICATION = 0x4b6b736d;
 
-enum { OLDEST = 3, MAX_STATEMENTS = 16, STATEMENTS = 6 };
+enum { OLDEST = 3, FIRST_WITH_ID = 6, MAX_STATEMENTS = 16, STATEMENTS = 6 };
 
 /* Writes one statement to `out` without comments and with one blank for each stretch of white space. The statement
    ends at the first ';' outside quotes, or at the end of the text. Returns the rest of the SQL. */
@@ -110,17 +111,18 @@ koksma_status koksma__schema_of(koksma__database *database, const koksma__databa
     const char *path = koksma__database_path(database);
     const bool ours = koksma__schema_is_ours(header);
     int n = 0;
-    KOKSMA__FAIL_IF(ours && header->version != KOKSMA__SCHEMA, KOKSMA_MALFORMED,
+    KOKSMA__FAIL_IF(ours && header->version != KOKSMA__SCHEMA && header->version != FIRST_WITH_ID, KOKSMA_MALFORMED,
                     "%s: the file has schema %u, but this program has schema %d; choose another folder", path,
                     (unsigned)header->version, KOKSMA__SCHEMA);
-    *schema = KOKSMA__SCHEMA;
-    koksma_status status = ours || !header->application_id
-                               ? compare(database, ours ? koksma__schema_sql : koksma__schema_past_sql, &n)
-                               : KOKSMA_OK;
+    *schema = ours ? (int)header->version : KOKSMA__SCHEMA;
+    const char *const sql = !ours                       ? koksma__schema_past_sql
+                            : *schema == KOKSMA__SCHEMA ? koksma__schema_sql
+                                                        : koksma__schema_6_sql;
+    koksma_status status = ours || !header->application_id ? compare(database, sql, &n) : KOKSMA_OK;
     if (!status && !ours && n == STATEMENTS) {
         status = old_schema(database, schema);
     }
-    if (!status && (n != STATEMENTS || *schema < OLDEST || (!ours && *schema >= KOKSMA__SCHEMA))) {
+    if (!status && (n != STATEMENTS || *schema < OLDEST || (!ours && *schema >= FIRST_WITH_ID))) {
         status = koksma__fail(KOKSMA_MALFORMED, "%s: not a store of koksma study; choose another folder", path);
     }
     return status;

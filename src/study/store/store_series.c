@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds and creates the ids of series, and records which series have rows of their own (images and coherences)
-   and which share rows with up to three others. */
+/* Finds and creates the ids of series, and records which series have rows of their own (images, coherences and
+   metrics) and which share rows with up to three others. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,6 +30,7 @@ static void bind_series(koksma__statement *s, int *column, const koksma__series 
 {
     bind_group(s, column, key);
     koksma__bind_text(s, column, key->what);
+    koksma__bind_text(s, column, key->metric);
     koksma__bind_text(s, column, key->measured_by);
 }
 

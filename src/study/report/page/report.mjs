@@ -146,7 +146,7 @@ function commands({ lines }) {
 
 const kinds = {
   section, table, list, figure, pictures, commands,
-  paragraph: block => element("p", { class: block.answer }, ...words(block.text)),
+  paragraph: block => element("p", { class: block.answer ?? (block.warning ? "warning" : null) }, ...words(block.text)),
   chart: chartFigure,
 };
 

@@ -129,7 +129,7 @@ static koksma_status add_scatter(const koksma__cases *cases, void *context, cons
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld sample%s: error against %.60s, Spearman %.2f", name, p->spp,
                      koksma__plural((double)p->spp), p->of->label, koksma__spearman(found.x, found.y, found.n));
-    koksma__doc_chart_begin(d, &(koksma__chart){title, p->of->label, "mean absolute error", true, true, 0});
+    koksma__doc_chart_begin(d, &(koksma__chart){title, p->of->label, cases->topic->metric, true, true, 0});
     for (size_t i = 0; i < found.n; i++) {
         koksma__doc_series_begin(d, found.patterns[i], KOKSMA__SERIES_MARKS);
         koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);
@@ -179,8 +179,12 @@ koksma_status koksma__answer_correlation(koksma_study *study, koksma__document *
     koksma__doc_head_number(&list, "samples", 7);
     koksma__doc_head(&list, "measure");
     koksma__doc_head_number(&list, "patterns", 7);
-    koksma__doc_head_interval(&list, "Spearman", 3);
-    koksma__doc_head_interval(&list, "Kendall", 3);
+    for (size_t i = 0; i < 2; i++) {
+        koksma__doc_column(&list, &(koksma__column){.name = i ? "Kendall" : "Spearman",
+                                                    .group = topic->metric,
+                                                    .type = KOKSMA__COLUMN_INTERVAL,
+                                                    .digits = 3});
+    }
     koksma_status status = koksma__cases_open(study, topic, &cases);
     koksma__combinations combinations = {.cases = &cases};
     listing l = {&list, &s, &combinations, 0};

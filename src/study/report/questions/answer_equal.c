@@ -18,7 +18,7 @@ enum { EQUAL_TO = 16 };
 /* A scene of a block, with its options. */
 typedef struct compared {
     const koksma__image_block *image;
-    const char *scene, *variant;
+    const char *scene, *variant, *metric;
 } compared;
 
 /* Reads the mean errors of a pattern over the block's numbers of samples. n, mean, error: arrays of that many
@@ -30,7 +30,8 @@ static koksma_status convergence(koksma_study *study, const compared *c, const c
     *out = (koksma__convergence){n, mean, error, 0};
     for (size_t k = 0; !status && k < c->image->spp.n; k++) {
         koksma__summary s;
-        status = koksma__image_mean(study, c->image, c->scene, c->variant, pattern, c->image->spp.at[k], NULL, &s);
+        const koksma__image_mean of = {c->image, c->scene, c->variant, pattern, c->image->spp.at[k]};
+        status = koksma__image_mean_by(study, &of, c->metric, NULL, &s);
         if (!status && s.n && s.mean > 0) {
             n[out->count] = (double)c->image->spp.at[k];
             mean[out->count] = s.mean;
@@ -50,8 +51,8 @@ static koksma_status add_equal(koksma_study *study, koksma__document *d, const c
     if (!n) {
         return koksma__fail_memory(3 * sizes * sizeof *n);
     }
-    koksma_status status =
-        koksma__image_mean(study, c->image, c->scene, c->variant, patterns->at[0], EQUAL_TO, NULL, &target);
+    const koksma__image_mean first = {c->image, c->scene, c->variant, patterns->at[0], EQUAL_TO};
+    koksma_status status = koksma__image_mean_by(study, &first, c->metric, NULL, &target);
     for (size_t i = 0; !status && target.n && i < patterns->n; i++) {
         bool outside = false;
         char name[KOKSMA__VARIANT_TEXT + 64];
@@ -91,11 +92,14 @@ koksma_status koksma__answer_equal(koksma_study *study, koksma__document *d, con
         koksma__doc_head(d, "scene");
         koksma__doc_head(d, "pattern");
         snprintf(text, sizeof text, "samples as good as %d of %s", EQUAL_TO, i->patterns.at[0]);
-        koksma__doc_head_interval(d, text, 3);
+        koksma__doc_column(
+            d, &(koksma__column){.name = text, .group = topic->metric, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
         koksma__doc_head(d, "how");
         for (size_t k = 0; !status && k < i->scenes.n * i->variants.n; k++) {
-            const compared c = {
-                .image = i, .scene = i->scenes.at[k / i->variants.n], .variant = i->variants.at[k % i->variants.n]};
+            const compared c = {.image = i,
+                                .scene = i->scenes.at[k / i->variants.n],
+                                .variant = i->variants.at[k % i->variants.n],
+                                .metric = topic->metric};
             status = add_equal(study, d, &c);
         }
         koksma__doc_table_end(d);

@@ -106,7 +106,7 @@ static void say_change(koksma__document *d, const char *base, const char *other,
 /* A case whose rows (one per pattern and n) have the first option's mean and the other options' relative
    differences. */
 typedef struct option_case {
-    const char *name, *measure;
+    const char *name, *measure, *metric; /* metric: of the error of images */
     const koksma__texts *patterns, *options;
     const koksma__wholes *n;
     const koksma__image_block *image;
@@ -124,8 +124,8 @@ static koksma_status add_row(koksma_study *study, koksma__document *d, const opt
     koksma__doc_number(d, (double)n);
     for (size_t v = 0; !status && v < c->options->n; v++) {
         side s = {0};
-        status = c->image ? koksma__image_mean(study, c->image, c->name, c->options->at[v], pattern, n, &s.results,
-                                               &s.mean)
+        const koksma__image_mean of = {c->image, c->name, c->options->at[v], pattern, n};
+        status = c->image ? koksma__image_mean_by(study, &of, c->metric, &s.results, &s.mean)
                           : koksma__discrepancy_mean(study, c->discrepancy, c->options->at[v], pattern, n, c->measure,
                                                      &s.results, &s.mean);
         if (!status && v == 0) {
@@ -157,7 +157,9 @@ static void add_heads(koksma__document *d, const option_case *c)
     koksma__doc_head_number(d, "N", 7);
     for (size_t v = 0; v < c->options->n; v++) {
         snprintf(text, sizeof text, "%s%s", v ? "relative change: " : "", name_of(c->options->at[v]));
-        koksma__doc_head_interval(d, text, 3);
+        koksma__doc_column(
+            d, &(koksma__column){
+                   .name = text, .group = c->image ? c->metric : NULL, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
     }
 }
 
@@ -198,7 +200,8 @@ koksma_status koksma__answer_options(koksma_study *study, koksma__document *d, c
     }
     for (size_t b = 0; !status && b < topic->n_images; b++) {
         const koksma__image_block *i = topic->images[b];
-        option_case c = {.image = i, .patterns = &i->patterns, .options = &i->variants, .n = &i->spp};
+        option_case c = {
+            .image = i, .metric = topic->metric, .patterns = &i->patterns, .options = &i->variants, .n = &i->spp};
         status = i->variants.n > 1 ? add_block(study, d, topic->id, ++number, &c) : KOKSMA_OK;
     }
     return status;

@@ -42,6 +42,7 @@ typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
     const char *measure, *warp, *scene, *variant;
+    const char *metric; /* of the error of images */
 } subject;
 
 static const koksma__wholes *sizes(const subject *s)
@@ -61,7 +62,8 @@ static koksma_status collect(koksma_study *study, const subject *s, const char *
     out->n = out->zeros = 0;
     for (size_t i = 0; !status && i < n->n; i++) {
         koksma__summary mean = {0};
-        status = s->image ? koksma__image_mean(study, s->image, s->scene, s->variant, pattern, n->at[i], NULL, &mean)
+        const koksma__image_mean of = {s->image, s->scene, s->variant, pattern, n->at[i]};
+        status = s->image ? koksma__image_mean_by(study, &of, s->metric, NULL, &mean)
                           : koksma__discrepancy_mean(study, s->discrepancy, s->warp, pattern, n->at[i], s->measure,
                                                      NULL, &mean);
         out->all[i] = mean;
@@ -119,6 +121,16 @@ static koksma__slope_sense sense_of(const subject *s)
                                                         : KOKSMA__FALLS;
 }
 
+/* The slope of independent random points: standard deviations fall as N^-1/2, and a metric as a power of them. */
+static double random_slope(const subject *s)
+{
+    koksma_metric_spec spec;
+    if (!s->image) {
+        return -0.5;
+    }
+    return koksma_metric_parse(s->metric, &spec) || !spec.metric->order ? (double)NAN : -0.5 * spec.metric->order;
+}
+
 static void name_subject(const subject *s, char *text, size_t size)
 {
     if (s->image) {
@@ -132,7 +144,9 @@ static void add_heads(koksma__document *d, const subject *s)
 {
     char text[64];
     koksma__doc_head(d, "pattern");
-    koksma__doc_head_interval(d, "slope", 3);
+    koksma__doc_column(
+        d, &(koksma__column){
+               .name = "slope", .group = s->image ? s->metric : NULL, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
     koksma__doc_head(d, "power law?");
     for (size_t i = 0; i < sizes(s)->n; i++) {
         snprintf(text, sizeof text, "N = %lld", sizes(s)->at[i]);
@@ -220,7 +234,7 @@ static koksma_status add_subject(koksma_study *study, koksma__document *d, const
     koksma_status status = trends && zeros ? KOKSMA_OK : koksma__fail_memory(n * sizeof *trends);
     if (!status) {
         koksma__doc_chart_begin(&chart, &(koksma__chart){title, s->image ? "samples a pixel" : "points",
-                                                         s->image ? "mean absolute error" : s->measure, true, true,
+                                                         s->image ? s->metric : s->measure, true, true,
                                                          sense_of(s) == KOKSMA__LARGER ? 1 : -1});
         koksma__doc_sorted_table_begin(&rows, file, "slope", true, false);
         add_heads(&rows, s);
@@ -228,7 +242,7 @@ static koksma_status add_subject(koksma_study *study, koksma__document *d, const
         koksma__doc_table_end(&rows);
         koksma__doc_end(&chart);
         const koksma__slopes slopes = {
-            name, (const char *const *)patterns(s)->at, trends, zeros, n, sizes(s)->n, sense_of(s)};
+            name, (const char *const *)patterns(s)->at, trends, zeros, n, sizes(s)->n, sense_of(s), random_slope(s)};
         if (!status) {
             koksma__slopes_sentence(d, &slopes);
         }
@@ -259,7 +273,8 @@ koksma_status koksma__answer_slopes(koksma_study *study, koksma__document *d, co
         for (size_t i = 0; !status && i < image->scenes.n * image->variants.n; i++) {
             const subject s = {.image = image,
                                .scene = image->scenes.at[i / image->variants.n],
-                               .variant = image->variants.at[i % image->variants.n]};
+                               .variant = image->variants.at[i % image->variants.n],
+                               .metric = topic->metric};
             status = add_subject(study, d, topic->id, ++number, &s);
         }
     }

@@ -5,7 +5,8 @@
  * first. A sentence reports whether the best pattern differs from all others in that column, which the intervals of
  * the differences decide, at 95 % for all of them together (Bonferroni). If it does not, the sentence says how many
  * trials might separate it from the next. A table of images has the numbers of samples at which a pattern's error is
- * in visible bands (coherence_rows.h), and the sentence names the best pattern without bands.
+ * in visible bands (coherence_rows.h), and the sentence names the best pattern without bands. Below it the same images
+ * are compared by all metrics of the block, with the largest number of samples.
  */
 #include <math.h>
 #include <stdio.h>
@@ -24,8 +25,8 @@ enum { NAMED = 4 };
 typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
-    const char *scene, *variant; /* for images */
-    const char *measure, *warp;  /* set for measures of points; if warp is "", the points are not warped */
+    const char *scene, *variant, *metric; /* for images */
+    const char *measure, *warp;           /* set for measures of points; if warp is "", the points are not warped */
     const koksma__texts *patterns;
     const koksma__wholes *n;
     const char *name, *last; /* heading of the table; head of its last column */
@@ -43,7 +44,9 @@ static koksma_status cell_of(koksma_study *study, const subject *c, size_t patte
 {
     const char *name = c->patterns->at[pattern];
     return c->image
-               ? koksma__image_mean(study, c->image, c->scene, c->variant, name, c->n->at[k], NULL, mean)
+               ? koksma__image_mean_by(study,
+                                       &(koksma__image_mean){c->image, c->scene, c->variant, name, c->n->at[k]},
+                                       c->metric, NULL, mean)
                : koksma__discrepancy_mean(study, c->discrepancy, c->warp, name, c->n->at[k], c->measure, NULL, mean);
 }
 
@@ -62,7 +65,9 @@ static void add_heads(koksma__document *d, const subject *c)
     koksma__doc_head(d, "pattern");
     for (size_t k = 0; k < c->n->n; k++) {
         name_column(c, k, text);
-        koksma__doc_head_interval(d, text, 4);
+        koksma__doc_column(
+            d, &(koksma__column){
+                   .name = text, .group = c->image ? c->metric : NULL, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
     }
     if (c->image) {
         koksma__doc_head(d, "in bands with");
@@ -249,6 +254,120 @@ static koksma_status add_rows(koksma_study *study, koksma__document *d, const su
     return status;
 }
 
+/* ---- The other metrics ------------------------------------------------------------------------------------- */
+
+/* The means by all metrics of the block, of the images with the largest number of samples: means[p * metrics + m]. */
+typedef struct by_metrics {
+    const koksma__texts *metrics;
+    koksma__metric_means *means;
+    size_t patterns;
+} by_metrics;
+
+static koksma_status read_metrics(koksma_study *study, const subject *c, by_metrics *all)
+{
+    koksma_status status = KOKSMA_OK;
+    const size_t n = all->metrics->n;
+    for (size_t i = 0; !status && i < all->patterns * n; i++) {
+        const koksma__image_mean of = {c->image, c->scene, c->variant, c->patterns->at[i / n], c->n->at[c->n->n - 1]};
+        status = koksma__image_metric(study, &of, all->metrics->at[i % n], &all->means[i]);
+    }
+    return status;
+}
+
+/* The position of a pattern by a metric: 1 + the number of patterns with a smaller mean; NaN: no mean. */
+static double position_of(const by_metrics *all, size_t pattern, size_t metric)
+{
+    const size_t n = all->metrics->n;
+    const koksma__summary *mean = &all->means[pattern * n + metric].value;
+    double position = mean->n ? 1 : (double)NAN;
+    for (size_t p = 0; p < all->patterns; p++) {
+        const koksma__summary *other = &all->means[p * n + metric].value;
+        position += other->n && other->mean < mean->mean;
+    }
+    return position;
+}
+
+/* Names the pattern with the least mean by each metric. */
+static void say_metrics(koksma__document *d, const subject *c, const by_metrics *all)
+{
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d, "The least error with %s, by each metric:", c->last);
+    for (size_t m = 0; m < all->metrics->n; m++) {
+        const char *best = NULL;
+        for (size_t p = all->patterns; p-- > 0;) {
+            best = position_of(all, p, m) < 1.5 ? c->patterns->at[p] : best; /* NaN: no mean */
+        }
+        koksma__doc_say(d, "%s `%s` %s", m ? "," : "", all->metrics->at[m], best ? best : "not measured");
+    }
+    koksma__doc_say(d, ".");
+    koksma__doc_paragraph_end(d);
+}
+
+static void add_metric_heads(koksma__document *d, const by_metrics *all)
+{
+    koksma__doc_head(d, "pattern");
+    for (size_t m = 0; m < all->metrics->n; m++) {
+        char name[KOKSMA_MAX_SPEC + 32];
+        const char *group = all->metrics->at[m];
+        koksma__doc_column(
+            d,
+            &(koksma__column){
+                .name = group, .title = "mean 95 %", .group = group, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
+        snprintf(name, sizeof name, "%s, position", group);
+        koksma__doc_column(
+            d, &(koksma__column){
+                   .name = name, .title = "position", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 3});
+        snprintf(name, sizeof name, "%s, robust", group);
+        koksma__doc_column(
+            d,
+            &(koksma__column){
+                .name = name, .title = "without 0.1 %", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4});
+        snprintf(name, sizeof name, "%s, top share", group);
+        koksma__doc_column(
+            d, &(koksma__column){
+                   .name = name, .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
+    }
+}
+
+static void add_metric_rows(koksma__document *d, const subject *c, const standing *s, const by_metrics *all)
+{
+    for (size_t i = 0; i < all->patterns; i++) {
+        koksma__doc_row(d);
+        koksma__doc_text(d, c->patterns->at[s->by[i]]);
+        for (size_t m = 0; m < all->metrics->n; m++) {
+            const koksma__metric_means *of = &all->means[s->by[i] * all->metrics->n + m];
+            koksma__doc_interval(d, koksma__estimate_of(&of->value));
+            koksma__doc_number(d, position_of(all, s->by[i], m));
+            koksma__doc_number(d, of->robust.mean);
+            koksma__doc_number(d, of->top_share.mean);
+        }
+    }
+}
+
+/* Adds the table of the means by all metrics, in the order of the table above it. */
+static koksma_status add_metrics(koksma_study *study, koksma__document *d, const char *id, size_t number,
+                                 const subject *c, const standing *s)
+{
+    by_metrics all = {.metrics = &c->image->metrics, .patterns = c->patterns->n};
+    const size_t size = all.patterns * all.metrics->n * sizeof *all.means;
+    char file[64];
+    all.means = malloc(size);
+    KOKSMA__REQUIRE_MEMORY(all.means, size);
+    const koksma_status status = read_metrics(study, c, &all);
+    if (!status) {
+        snprintf(file, sizeof file, "metrics-%.32s-%zu", id, number);
+        koksma__doc_section(d, NULL, "By all metrics");
+        say_metrics(d, c, &all);
+        koksma__doc_table_begin(d, file);
+        add_metric_heads(d, &all);
+        add_metric_rows(d, c, s, &all);
+        koksma__doc_table_end(d);
+        koksma__doc_end(d);
+    }
+    free(all.means);
+    return status;
+}
+
 static koksma_status add_table(koksma_study *study, koksma__document *d, const char *id, size_t number, subject *c)
 {
     const size_t n = c->patterns->n;
@@ -266,11 +385,13 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const c
             status = c->image ? say_bands(study, d, c, &s) : KOKSMA_OK;
             koksma__doc_paragraph_end(d);
         }
-        status = !status && c->image ? koksma__say_reference(study, d, c->image, c->scene, c->variant) : status;
+        status =
+            !status && c->image ? koksma__say_reference(study, d, c->image, c->scene, c->variant, c->metric) : status;
         koksma__doc_sorted_table_begin(d, file, last, false, c->larger);
         add_heads(d, c);
         status = status ? status : add_rows(study, d, c, &s);
         koksma__doc_table_end(d);
+        status = !status && c->image ? add_metrics(study, d, id, number, c, &s) : status;
         koksma__doc_end(d);
     }
     free(s.means);
@@ -305,7 +426,7 @@ static koksma_status add_points(koksma_study *study, koksma__document *d, const 
 }
 
 /* Adds the tables of a block of images: one for each scene and combination of options. */
-static koksma_status add_images(koksma_study *study, koksma__document *d, const char *id,
+static koksma_status add_images(koksma_study *study, koksma__document *d, const koksma__topic *topic,
                                 const koksma__image_block *i, size_t *number)
 {
     koksma_status status = KOKSMA_OK;
@@ -314,11 +435,12 @@ static koksma_status add_images(koksma_study *study, koksma__document *d, const 
         subject c = {.image = i,
                      .scene = i->scenes.at[k / i->variants.n],
                      .variant = i->variants.at[k % i->variants.n],
+                     .metric = topic->metric,
                      .patterns = &i->patterns,
                      .n = &i->spp,
                      .name = name};
         koksma__case_name(c.scene, c.variant, name, sizeof name);
-        status = add_table(study, d, id, ++*number, &c);
+        status = add_table(study, d, topic->id, ++*number, &c);
     }
     return status;
 }
@@ -331,7 +453,7 @@ koksma_status koksma__answer_table(koksma_study *study, koksma__document *d, con
         status = add_points(study, d, topic->id, topic->discrepancies[b], &number);
     }
     for (size_t b = 0; !status && b < topic->n_images; b++) {
-        status = add_images(study, d, topic->id, topic->images[b], &number);
+        status = add_images(study, d, topic, topic->images[b], &number);
     }
     return status;
 }

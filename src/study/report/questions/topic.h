@@ -12,7 +12,8 @@ typedef struct koksma__topic {
     const koksma__discrepancy_block **discrepancies; /* has capacity for all blocks of the plan */
     const koksma__image_block **images;
     size_t n_discrepancies, n_images;
-    size_t n_groups; /* number of the question's groups of scenes */
+    const char *metric; /* canonical spec of the metric by which images are compared */
+    size_t n_groups;    /* number of the question's groups of scenes */
     const koksma__scene_group *groups;
 } koksma__topic;
 

@@ -165,7 +165,7 @@ static koksma_status are_done(koksma_study *study, const koksma__task *first, si
             continue;
         }
         task.pattern = first->image->patterns.at[p];
-        const koksma__series series = koksma__task_series(&task, task.n_series - 1, name);
+        const koksma__series series = koksma__task_series(&task, first->image->n_references, name);
         status = koksma__series_results(study, &series, trials, &results, &found);
         free(results);
         *done = (long long)found == trials;

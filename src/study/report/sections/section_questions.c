@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "study/report/metric_words.h"
 #include "study/report/questions/topic.h"
 #include "study/report/report.h"
 
@@ -52,7 +53,7 @@ static bool is_asked(const char *wanted, const char *id)
     return wanted && id && !strcmp(id, wanted);
 }
 
-/* Collects the blocks of a plan that the question q names, or all blocks if q is NULL. */
+/* Collects the blocks of a plan that the question q names, or all blocks if q is NULL, and the metric. */
 static void choose_blocks(const koksma__plan *plan, const koksma__plan_part *part, const koksma__question *q,
                           koksma__topic *topic)
 {
@@ -61,6 +62,7 @@ static void choose_blocks(const koksma__plan *plan, const koksma__plan_part *par
             topic->discrepancies[topic->n_discrepancies++] = &plan->discrepancies[b];
         }
     }
+    topic->metric = q && q->metric ? q->metric : part->metric;
     for (size_t b = part->images[0]; b < part->images[1]; b++) {
         if (!q || is_asked(q->images, plan->images[b].id)) {
             topic->images[topic->n_images++] = &plan->images[b];
@@ -68,15 +70,25 @@ static void choose_blocks(const koksma__plan *plan, const koksma__plan_part *par
     }
 }
 
+/* Whether the answer to a kind of question depends on the metric of image errors. */
+static bool names_metric(const koksma__question_kind *kind, const koksma__topic *topic)
+{
+    return topic->n_images && (!(kind->fields & KOKSMA__NEEDS_POINTS) || kind->fields & KOKSMA__NEEDS_IMAGES);
+}
+
 static koksma_status answer_question(koksma_study *study, koksma__document *d, const koksma__question *q)
 {
     const koksma__plan *plan = &study->plan;
     koksma__topic topic;
+    koksma__metric_facts facts;
     koksma__document content = {0};
     koksma_status status = topic_init(plan, q->id, &topic);
     if (!status) {
-        char id[128];
         choose_blocks(plan, &plan->parts[q->part], q, &topic);
+        status = koksma__metric_facts_find(study, &topic, &facts);
+    }
+    if (!status) {
+        char id[128];
         topic.groups = q->groups;
         topic.n_groups = q->n_groups;
         snprintf(id, sizeof id, "question-%.110s", q->id);
@@ -86,6 +98,8 @@ static koksma_status answer_question(koksma_study *study, koksma__document *d, c
         status = answers[q->kind - koksma__question_kinds](study, &content, &topic);
         if (koksma__doc_is_empty(&content)) {
             koksma__doc_paragraph(d, "No answer: this needs %s.", q->kind->rows);
+        } else if (names_metric(q->kind, &topic)) {
+            koksma__metric_say(d, topic.metric, &facts);
         }
         koksma__doc_append(d, &content);
         koksma__doc_end(d);
@@ -99,10 +113,12 @@ static koksma_status answer_all(koksma_study *study, koksma__document *d, size_t
 {
     const koksma__plan *plan = &study->plan;
     koksma__topic topic;
+    koksma__metric_facts facts;
     size_t number = 0;
     koksma_status status = topic_init(plan, "", &topic);
     if (!status) {
         choose_blocks(plan, &plan->parts[part], NULL, &topic);
+        status = koksma__metric_facts_find(study, &topic, &facts);
     }
     for (size_t k = 0; !status && k < sizeof answers / sizeof *answers; k++) {
         const koksma__question_kind *kind = &koksma__question_kinds[k];
@@ -116,6 +132,9 @@ static koksma_status answer_all(koksma_study *study, koksma__document *d, size_t
         status = answers[k](study, &content, &topic);
         if (!koksma__doc_is_empty(&content)) {
             koksma__doc_section(d, NULL, kind->heading);
+            if (names_metric(kind, &topic)) {
+                koksma__metric_say(d, topic.metric, &facts);
+            }
             koksma__doc_append(d, &content);
             koksma__doc_end(d);
         }

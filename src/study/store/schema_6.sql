@@ -1,0 +1,76 @@
+-- The tables of schema 6 (user_version). A store with exactly these tables is upgraded in a copy (store_upgrade.c).
+
+CREATE TABLE meta (          -- the file's 'plan', 'plan-texts', 'plan-text-0', 'plan-name-0', ..., and 'seal'
+  key TEXT PRIMARY KEY,                    -- of seal "N SUM": how many rows meta (but seal), series,
+  value TEXT NOT NULL                      -- result and reference have, and the sum of their checksums (seal.c)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE series (        -- the key of results without the trial; each series is one mean in a table
+  id INTEGER PRIMARY KEY CHECK (id BETWEEN 1 AND 67108864), -- a multiple of 4 for images; measures of the same
+                                           -- point sets have consecutive ids
+  kind TEXT NOT NULL CHECK (kind IN ('discrepancy', 'image', 'coherence')), -- coherence of an image's error
+  scene TEXT NOT NULL,                     -- '' for discrepancies, as is scene_hash
+  scene_hash TEXT NOT NULL,                -- hexadecimal hash of the scene's text, and of a file: pattern's points
+  options TEXT NOT NULL,                   -- options that differ from the defaults: pairing=aligned, warp=polar-disk
+  pattern TEXT NOT NULL,                   -- canonical spec, e.g. poisson-disk:d=0.2
+  n INTEGER NOT NULL CHECK (n > 0),        -- points, or samples per pixel
+  dim INTEGER NOT NULL CHECK (dim >= 0),   -- 0 for images
+  width INTEGER NOT NULL CHECK (width >= 0), -- 0 for discrepancies, as is height
+  height INTEGER NOT NULL CHECK (height >= 0),
+  what TEXT NOT NULL,                      -- the measure's canonical spec, or name:pattern@spp x replicates
+  made_by TEXT NOT NULL,                   -- revisions: renderer 0, n-rooks 0 (src/study/plan/made_by.h)
+  measured_by TEXT NOT NULL,               -- revisions of the measure and warp, or of the reference's generators
+  UNIQUE (kind, scene, scene_hash, options, pattern, n, dim, width, height, what, made_by, measured_by)
+) STRICT;
+
+CREATE TABLE result (        -- up to four measures of one point set, or one render and one reference
+  id INTEGER PRIMARY KEY CHECK (id >= 0 AND id & 3 = 0), -- 2^32 trial + series, a multiple of 4, so that new
+                                           -- rows are appended
+  seed INTEGER NOT NULL,                   -- of koksma_generate or koksma_render, as a signed 64-bit number
+  v0 REAL CHECK (abs(v0) < 9e999),         -- value of the measure `series`; for an image the mean over the pixels
+                                           -- of the absolute error in luminance; for a coherence the peak of the
+                                           -- error's power spectrum divided by its mean, 0 without an error
+  v1 REAL CHECK (abs(v1) < 9e999),         -- value of series + 1; for an image the SD of the absolute error; for a
+                                           -- coherence p, the probability that white noise has as large a peak
+  v2 REAL CHECK (abs(v2) < 9e999),         -- value of series + 2; the error's maximum; the peak's x frequency (1/pixel)
+  v3 REAL CHECK (abs(v3) < 9e999)          -- value of series + 3; the RMSE; the peak's y frequency
+) STRICT;
+
+CREATE TABLE reference (     -- the errors of reference images
+  scene TEXT NOT NULL,
+  scene_hash TEXT NOT NULL,
+  options TEXT NOT NULL,
+  width INTEGER NOT NULL CHECK (width > 0),
+  height INTEGER NOT NULL CHECK (height > 0),
+  reference TEXT NOT NULL,
+  made_by TEXT NOT NULL,                   -- revisions, as in table series
+  standard_error REAL,                     -- the reference's own expected absolute error, mean over the pixels
+  pixels TEXT NOT NULL CHECK (length(pixels) IN (0, 64)), -- SHA-256 of the pixels; '': from before schema 6
+  PRIMARY KEY (scene, scene_hash, options, width, height, reference, made_by)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE run (           -- when, where and how long a run wrote this file
+  id INTEGER PRIMARY KEY,
+  started TEXT NOT NULL,                   -- UTC
+  machine TEXT NOT NULL,
+  version TEXT NOT NULL,
+  workers INTEGER NOT NULL,                -- threads, or MPI ranks
+  jobs INTEGER NOT NULL,                   -- jobs completed in this run
+  seconds REAL NOT NULL,
+  idle_seconds REAL NOT NULL,              -- time without a job, summed over all workers
+  processor_seconds REAL NOT NULL,         -- summed over all threads and ranks
+  store_seconds REAL NOT NULL              -- the part of processor_seconds spent in this database
+) STRICT;
+
+CREATE VIEW rows AS
+  SELECT kind, scene, scene_hash, options, pattern, n, dim, width, height, what, result.id >> 32 AS trial, seed,
+         CASE series.id & 3 WHEN 0 THEN v0 WHEN 1 THEN v1 WHEN 2 THEN v2 ELSE v3 END AS value,
+         CASE kind WHEN 'image' THEN v1 END AS sd,
+         CASE kind WHEN 'image' THEN v2 END AS max,
+         CASE kind WHEN 'image' THEN v3 END AS rmse,
+         CASE kind WHEN 'coherence' THEN v1 END AS p,
+         CASE kind WHEN 'coherence' THEN v2 END AS frequency_x,
+         CASE kind WHEN 'coherence' THEN v3 END AS frequency_y,
+         made_by, measured_by
+  FROM result JOIN series ON series.id BETWEEN result.id & 4294967295 AND (result.id & 4294967295) + 3
+  WHERE value IS NOT NULL;
