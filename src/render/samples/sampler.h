@@ -23,7 +23,7 @@ typedef struct koksma__sample_scratch {
     double *kept;
     uint64_t *kept_keys;   /* the key of the set in each slot; 0: none */
     const koksma_run *run; /* the run of the sampler, or one that is never cancelled */
-    size_t sets;           /* how many sets were made one by one */
+    size_t sets;           /* number of sets that koksma_generate made; keep_going is called at every 16th */
 } koksma__sample_scratch;
 
 typedef struct koksma__sampler {

@@ -22,7 +22,7 @@ typedef struct koksma__use_list {
     int lights;        /* number of light uses per bounce */
     bool light_choice; /* whether one of several lights is chosen at random */
     bool distance;     /* whether each ray may be scattered by a medium */
-    /* number of vertices of a path; if it is above 1, each vertex has the uses lobe, lobe-choice and roulette, too */
+    /* number of vertices of a path; if it is above 1, each vertex also has the uses lobe, lobe-choice and roulette */
     int vertices;
 } koksma__use_list;
 

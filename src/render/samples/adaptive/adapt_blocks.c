@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The method `blocks` decides for whole blocks of the image whether their pixels get more samples (Dammertz, Hanika,
- * Keller & Lensch 2010). Let I be the mean of all sets of a pixel, and A the mean of every second set. The error of a
- * block of N pixels in an image of M pixels is
+ * Keller & Lensch 2010). The samples of a pixel come in point sets; let I be the mean of all its sets, and A the mean
+ * of every second set. The error of a block of N pixels in an image of M pixels is
  *
  *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (absolute values and I summed over channels)
  *

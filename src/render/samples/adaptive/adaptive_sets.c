@@ -18,7 +18,7 @@
 #include "render/samples/uses.h"
 #include "render/vector3.h"
 
-/* Of each AOV and pixel: the sums of weight x value and of value, three channels each. */
+/* The numbers that are stored for each AOV and pixel: the sums of weight x value and of value, three channels each. */
 enum { NUMBERS_OF_AOV = 6 };
 
 enum { LANE_CONTINUED = 1 << 21 }; /* keys of the shuffles, above those of the uses and of the pairings */
