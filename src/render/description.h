@@ -67,7 +67,7 @@ typedef struct koksma__material {
     bool checker;
     double albedo[2][3]; /* albedo of the diffuse part */
     double period, phase[2], angle_rad;
-    double values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
+    double values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */
     /* the albedo as an image over the surface's coordinates, instead of `albedo`; or NULL */
     koksma_image *image;
     koksma__mapping mapping; /* how image is mapped to a mesh */
@@ -103,7 +103,7 @@ typedef struct koksma__light {
     double power;   /* set for rectangles and disks */
     /* for a point light the intensity, for parallel light the irradiance of a surface that faces the light */
     double radiance[3];
-    double values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
+    double values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */
     bool visible;                      /* camera rays see the light; a flat light or sphere then also has a shape */
     double angle_rad;                  /* rotation of the environment's image about y */
     int placement;                     /* of a mesh */
@@ -138,7 +138,7 @@ typedef struct koksma__scene_cache {
 /* A feature of another renderer's scene that is not supported, and its replacement. */
 typedef struct koksma__unknown {
     char file[64], text[256];
-    unsigned long line; /* place of the first occurrence; there are n occurrences */
+    unsigned long line; /* line of the first occurrence in `file`; there are n occurrences */
     size_t n;
 } koksma__unknown;
 

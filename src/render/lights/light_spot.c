@@ -15,13 +15,14 @@
 
 #include "core/status.h"
 
-/* OUTER and INNER are cosines, SLOPE 1 / (outer - inner) in 1 / turns, EDGE_TURNS outer in turns: open_light() sets them */
+/* Indices of the values of a spot. open_light() sets the last four: OUTER and INNER are cosines, SLOPE is 1 / (outer
+   - inner) with the angles in turns, EDGE_TURNS is the angle `outer` in turns. */
 enum { ANGLE, EDGE, FALLOFF, OUTER, INNER, SLOPE, EDGE_TURNS };
 
 static const char *const falloffs[] = {
     [KOKSMA__FALLOFF_SQUARE] = "square", [KOKSMA__FALLOFF_SMOOTH] = "smooth", [KOKSMA__FALLOFF_ANGLE] = "angle"};
 
-/* The integral of the falloff over the cosine from that of outer to 1. */
+/* The integral of the falloff over the cosine, from cos(outer) to 1. */
 static double power_of(int falloff, double inner, double outer)
 {
     if (falloff == KOKSMA__FALLOFF_ANGLE) {

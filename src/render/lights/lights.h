@@ -21,7 +21,7 @@ typedef struct koksma__shading_light {
     bool visible;
     float centre[3], axis_u[3], axis_v[3], normal[3], half[2];
     float radiance[3];
-    float values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
+    float values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */
     float area;
     float reach; /* largest distance of a point of the light from its centre */
     /* for choosing among lights: luminous power divided by pi^2, or, for a light far away, irradiance divided by

@@ -164,7 +164,7 @@ const koksma__shape_type koksma__shape_mesh = {
 
 const koksma__shape_type koksma__shape_instance = {
     .kind = {.name = "instance",
-             .title = "another placement of the mesh with this name",
+             .title = "another placement of the mesh that the field `of` names",
              .cite = "-",
              .keys = KEYS("of", PLACEMENT)},
     .takes_checker = true,
