@@ -88,8 +88,8 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
-/* Reads the mesh and changes what the other renderer takes differently: Mitsuba turns the texture coordinates of OBJ upside
-   down, and makes normals. */
+/* Reads the mesh and adapts it to the other renderer: Mitsuba turns the texture coordinates of OBJ files upside down,
+   and gives smooth normals to meshes that have none. */
 static koksma_status read_mesh(const koksma__import *im, const struct koksma__known_mesh *which, koksma__mesh *mesh)
 {
     KOKSMA__TRY(koksma__mesh_read_part(which->path, KOKSMA__BY_FILE, which->part, mesh));
@@ -227,8 +227,8 @@ static koksma_status make_form(koksma__form form, koksma__mesh *out)
     return KOKSMA_OK;
 }
 
-/* Sets Mitsuba's texture coordinates of a basic shape, which are those of form_point but for these: angles of a sphere from
-   its +z, radius and angle of a disk, and each side of a cube as Mitsuba turns it. */
+/* Changes uv from the texture coordinates of form_point to those of Mitsuba, where they differ: on a sphere v is
+   counted from +z; on a disk (u, v) are radius and angle; on a cube each side is turned as in Mitsuba. */
 static void set_mitsubas_uv(koksma__form form, const float p[3], const float n[3], float uv[2])
 {
     const float x = p[0], y = p[1], z = p[2], angle = uv[0];
