@@ -310,8 +310,8 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
     for (size_t v = 0; v < (size_t)c->height; v++) {
         for (size_t u = 0; u < columns; u++) {
             const size_t i = v * columns + u;
-            /* only a power above the maximum so far can raise it, as powers are divided by their ring's, which is 1
-               or more */
+            /* only a power above the maximum so far can raise the maximum, because each power is divided by that of
+               its ring, which is 1 or more */
             if (weight_of(c, u, v) && c->power[i] > out->coherence) {
                 const double ring = r->power[ring_of(c, u, v, r->n)];
                 if (c->power[i] / ring > out->coherence) {

@@ -25,7 +25,7 @@ typedef struct lines {
     koksma__dft dft;
     double *twiddles; /* for powers of two: cos and sin of 2 pi p / n */
     double *work;     /* real and imaginary parts of the lines, and scratch of the same size */
-    double *re, *im;  /* the lines' current position, within work */
+    double *re, *im;  /* where the real and the imaginary parts of the lines are now, within work */
 } lines;
 
 static void close_lines(lines *l)
@@ -70,7 +70,8 @@ static void transform(lines *l, size_t count)
     }
 }
 
-/* Transforms the rows: entry u of row y is at rows[2 (y * columns + u)] (real) and one after it (imaginary). */
+/* Transforms the rows: entry u of row y is at rows[2 (y * columns + u)] (real part) and at the next number (imaginary
+   part). */
 static void transform_rows(lines *l, size_t width, size_t height, const double *values, double *rows)
 {
     const size_t columns = width / 2 + 1;

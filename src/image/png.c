@@ -89,7 +89,7 @@ static void get(png_structp png, png_bytep data, size_t size)
     s->left -= size;
 }
 
-/* What to read: colours, the same with sRGB's curve whatever the file states, or only the transparency. */
+/* What to read: colours; colours by sRGB's curve, whatever curve the file states; or only the transparency. */
 typedef enum part { COLOURS, AS_SRGB, ALPHA } part;
 
 typedef struct head {

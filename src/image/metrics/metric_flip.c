@@ -205,7 +205,7 @@ typedef struct flip {
     int width, height;
     size_t n;
     double largest;                            /* the distance HyAB of green and blue, to the power 0.7 */
-    double *planes, *scratch, *filtered, *sum; /* planes: 3 n; the others n */
+    double *planes, *scratch, *filtered, *sum; /* planes has 3 n numbers, the others n each */
     double *lab[2], *edges[2], *points[2];     /* for the image and for the reference: 3 n, n and n numbers */
     double *memory;
 } flip;
@@ -273,7 +273,8 @@ static void find_features(flip *f, const filter *derivative, const double *grey,
     }
 }
 
-/* Computes the features and colours of one image, from clamped RGB, that pixel_error compares. */
+/* Computes, from clamped RGB, the features and colours of one image, which pixel_error compares with those of the
+   other. */
 static void analyse(flip *f, const double *rgb, int which)
 {
     double *const y = f->planes, *const cx = y + f->n, *const cz = cx + f->n, *lab = f->lab[which];
