@@ -38,14 +38,15 @@ typedef struct koksma__gltf {
     koksma__mesh_file *out;
     koksma__json_node root, lists[KOKSMA__GLTF_LISTS];
     size_t n[KOKSMA__GLTF_LISTS];
-    koksma__gltf_bytes binary;   /* the binary piece of a GLB file */
+    koksma__gltf_bytes binary;   /* the binary chunk of a GLB file */
     koksma__gltf_bytes *buffers; /* contents of the file's buffers */
     koksma__gltf_bytes *images;  /* images within the file, each loaded when first needed */
     koksma__list shown;          /* placements of the file's meshes */
     bool *mesh_shown;
     /* whether a mesh that is shown uses the material; the last entry stands for primitives without a material */
     bool *material_used;
-    bool *material_tinted; /* whether a mesh that is shown and has vertex colours uses the material; same indices */
+    bool *material_tinted; /* whether a mesh that is shown and has vertex colours uses the material; indexed like
+                              material_used */
     size_t *beyond;        /* 1 + the largest index in an accessor of indices; 0: not computed yet */
 } koksma__gltf;
 

@@ -30,7 +30,7 @@ enum { PLACE, TEXTURE, NORMAL, KINDS };
 /* Number of floats of an item of each kind. */
 static const size_t widths[KINDS] = {[PLACE] = 4, [TEXTURE] = 2, [NORMAL] = 3};
 
-/* A corner's numbers of items, from 1 on; 0: none. */
+/* The numbers of the items that a corner names, one of each kind, from 1 on; 0: none. */
 typedef struct corner {
     uint32_t names[KINDS];
 } corner;
@@ -50,7 +50,7 @@ typedef struct obj {
     size_t highest[KINDS]; /* largest number that a corner names */
     size_t line_of[KINDS]; /* the line that first names that number */
     koksma__mtl_names names;
-    koksma__list used;                 /* size_t indices of names in the order of their first use */
+    koksma__list used;                 /* indices of names (size_t) in the order in which the names were first used */
     size_t material;                   /* material of the following polygons */
     bool split;                        /* the next polygon begins a new mesh */
     uint64_t group, object;            /* hashes of the current names */

@@ -72,7 +72,7 @@ bool koksma__is_mesh_file(const char *path)
     return find_reader(path) != NULL;
 }
 
-/* Replaces the bytes of a gzip file by those that it stands for, which are owned by the file, too. */
+/* Replaces the bytes of a gzip file by the decompressed bytes; `out` owns both. */
 static koksma_status unpack(const unsigned char **bytes, size_t *size, koksma__mesh_file *out)
 {
     unsigned char *unpacked = NULL;
