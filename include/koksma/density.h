@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Points whose density follows an image, and points on the surface of a model. Part of libkoksma-lab. Four patterns
+ * Points whose density follows an image, and points on the surface of a model. Part of libkoksma-lab. Six patterns
  * support both functions below:
  *
  *     random                   independent points that follow the density or area: the baseline
@@ -27,16 +27,16 @@ extern "C" {
 #endif
 
 /* Generates out->n points in the unit square whose density is in proportion to the luminance of an image. The image
-   fills the square; its bottom row is at y = 0. Distances are those of the torus, for poisson-disk with torus=1 only;
-   the d of poisson-disk and poisson-disk-maximal is the smallest distance where the density is that of the mean.
+   fills the square; its bottom row is at y = 0. Distances are measured on the torus (by poisson-disk only with
+   torus=1); the d of poisson-disk and poisson-disk-maximal is the smallest distance where the density is its mean.
      spec  one of the patterns above, without modifiers
      map   luminance: finite, nowhere negative, somewhere positive
      out   points initialised by koksma_points_init, in 2 dimensions
    Cost: O(factor n log n) if the density varies by a factor of less than about 100; more for wide ranges. A second of
    one processor makes about 5,000 points by poisson-disk-maximal and 300 by gaussian-blue-noise.
    Errors: UNSUPPORTED (a pattern without this form), ARGUMENT, MALFORMED (the image), DIM, N, IMPOSSIBLE (poisson-disk
-   found no room, poisson-disk-maximal no distance with n points; the message has a number that would do), MEMORY,
-   INTERRUPTED. */
+   found no space for n points, or poisson-disk-maximal no distance that gives n points; the message has a number that
+   would do), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_generate_density(const koksma_spec *spec, uint64_t seed, const koksma_image *map,
                                                  const koksma_run *run, koksma_points *out);
 
