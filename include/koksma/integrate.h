@@ -164,7 +164,7 @@ typedef struct koksma_sensitivity {
     koksma_share closed;    /* sum of the indices of all subsets of u: Var(E(f | x_u)) / Var(f) */
     koksma_share total;     /* sum of the indices of all sets that have a coordinate in common with u */
     double variance;        /* variance of the integrand; an estimate unless exact is true */
-    bool exact; /* true: all values come from a closed form; false: from pick-freeze estimates (Saltelli et al.
+    bool exact; /* true: all values come from a closed form; false: they are pick-freeze estimates (Saltelli et al.
                    2010, Jansen 1999) over 16 Owen-scrambled Sobol' sets, whose spread gives the intervals */
 } koksma_sensitivity;
 

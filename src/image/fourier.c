@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The power of a picture at its Fourier frequencies: first all rows, then those columns that are not mirrors of
- * others (the values are real). The kernel fourier16 transforms lines whose length is a power of two, 16 at a time;
- * core/dft.c transforms other lines one by one. O(n log n) for n pixels of any size. Memory: 16 bytes for each
- * frequency, and about 64 lines.
+ * Computes the power of a picture at its Fourier frequencies: transforms first all rows, then those columns that are
+ * not mirrors of others (the values are real). The kernel fourier16 transforms lines whose length is a power of two,
+ * 16 at a time; core/dft.c transforms other lines one by one. O(n log n) for n pixels of any size. Memory: 16 bytes
+ * for each frequency, and about 64 lines.
  */
 #include "image/fourier.h"
 

@@ -7,7 +7,7 @@
 
 #include "image/formats.h"
 
-/* Writes data at an offset and fills a gap before it with zeros; false when memory runs out. */
+/* Writes data at an offset and fills a gap before it with zeros; returns false if memory runs out. */
 bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size);
 
 /* Fails with ARGUMENT unless these are valid dimensions of an image. */

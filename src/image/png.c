@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * PNG by libpng, 1 to 16 bits. Levels are read as sRGB, whose curve (IEC 61966-2-1) is applied here in double
- * precision:
+ * Reads and writes PNG files of 1 to 16 bits by libpng. Levels are read as sRGB, whose curve (IEC 61966-2-1) is
+ * applied here in double precision:
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
  * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
  * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is read as sRGB, because writers of sRGB

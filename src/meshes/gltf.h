@@ -56,7 +56,7 @@ koksma_status koksma__gltf_list(const koksma__json_node *object, const char *key
 /* Item i of the list `which` of the root object; i must be in range. */
 koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i);
 
-/* Follows the path `keys` into nested objects; false: a key is missing. */
+/* Follows the path `keys` into nested objects; returns false if a key is missing. */
 bool koksma__gltf_find(const koksma__json_node *from, const char *const keys[], koksma__json_node *out);
 
 #endif

@@ -73,7 +73,7 @@ koksma_status koksma__inflate_read(koksma__inflate *in, void *to, size_t n)
     return KOKSMA_OK;
 }
 
-/* Goes on to the next stream of a gzip file (RFC 1952, section 2.2); false: there is none. */
+/* Goes on to the next stream of a gzip file (RFC 1952, section 2.2); returns false if there is none. */
 static bool next_stream(koksma__inflate *in)
 {
     return in->z.avail_in + in->left > 0 && inflateReset(&in->z) == Z_OK;

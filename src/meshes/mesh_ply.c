@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * PLY files, as text and binary in either byte order. The header lists the kinds of elements, the number of each, and
- * their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one line.
+ * Reads PLY files, as text and binary in either byte order. The header lists the kinds of elements, the number of
+ * each, and their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one
+ * line.
  *
  * Of "vertex" the properties x y z, nx ny nz, texture coordinates (u v, s t, tx ty, texture_u texture_v) and colours
  * (only whether any exist) are read; of "face" the list vertex_indices or vertex_index, a fan of triangles, and the
@@ -54,7 +55,7 @@ typedef struct ply {
     property properties[MAX_PROPERTIES];
     char texture[1024];
     koksma__mesh mesh;
-    koksma__list corners, indices; /* the corners of one face */
+    koksma__list corners, indices; /* corners: those of one face; indices: three for each triangle */
 } ply;
 
 /* ---- The header ------------------------------------------------------------------------------------------ */

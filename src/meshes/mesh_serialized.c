@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Mitsuba's .serialized files, versions 3 and 4: several meshes, each compressed, and a dictionary at the end.
+ * Reads Mitsuba's .serialized files, versions 3 and 4, which have several meshes, each compressed, and a dictionary
+ * at the end.
  *
  *   mesh        0x041C and the version (16 bits each), then a zlib stream (RFC 1950) of:
  *                 flags (32 bits); version 4: a name that ends with a zero byte; the numbers of vertices and of

@@ -35,7 +35,7 @@ static const struct {
              {"half:even", KOKSMA__AOV_HALF, 0, 0},
              {"half:odd", KOKSMA__AOV_HALF, 1, 0}};
 
-/* Finds an AOV by its name; false if there is none. */
+/* Finds an AOV by its name; returns false if there is none. */
 static bool find(const char *name, koksma__aov *out)
 {
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++) {

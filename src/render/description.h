@@ -21,9 +21,9 @@ typedef struct koksma__shape {
     double centre[3], axis_u[3], axis_v[3], normal[3];
     double half[2];   /* half sides; half[0] is the radius of a disk or sphere; infinite for a plane */
     double motion[3]; /* at time t the shape is moved by t motion */
-    /* turns: the shape also rotates and scales about the pivot, and the loops see it at rest. A point p of the shape at
-       rest is at time t at
-           pivot + t motion + (1 + t (scale - 1)) Rotation(axis, t angle_rad) (p - pivot) */
+    /* turns: the shape also rotates and scales about the pivot; the intersection loops work on the shape at rest. A
+       point p of the shape at rest is at time t at
+           pivot + t motion + (1 + t (scale - 1)) Rotation(axis, t angle_rad) (p - pivot)  */
     struct {
         bool turns;
         double pivot[3], axis[3], angle_rad, scale;

@@ -32,7 +32,7 @@ typedef struct koksma__frame {
     koksma__frustum_cull *frustum_cull; /* NULL: every ray is tested against all shapes */
     koksma__use_list uses;
     koksma__sampler sampler;
-    /* number of samples of a group, as the pipeline prefers; a pixel with more samples makes a larger group */
+    /* number of samples of a group that the pipeline prefers; a pixel with more samples makes a larger group */
     size_t together;
     koksma__batch_camera camera;
     /* for an orthographic camera: the ray at film position (x, y) starts at eye + origins[0] + x origins[1] + y

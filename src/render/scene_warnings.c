@@ -11,7 +11,7 @@
 #include "core/status.h"
 #include "render/materials/materials.h"
 
-/* The requested warning: `left` warnings are still to be skipped. */
+/* The warning that the caller requests: `left` warnings are still to be skipped before it. */
 typedef struct asked {
     size_t left;
     char *text;

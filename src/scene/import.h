@@ -107,7 +107,8 @@ void koksma__import_radiance(koksma__import *im, double rgb[3]);
    2002). */
 void koksma__import_black_body(double kelvin, double rgb[3]);
 
-/* The reflectance along the normal of a metal with this name ("Au", "Cu", ...); false if the name is unknown. */
+/* Finds the reflectance along the normal of the metal with this name ("Au", "Cu", ...); returns false if the name is
+   unknown. */
 bool koksma__import_metal(const char *name, double rgb[3]);
 
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
@@ -132,7 +133,7 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
                                     double right, const koksma__camera *lens);
 
-/* Finds the inverse of a matrix; false if there is none. */
+/* Finds the inverse of a matrix; returns false if there is none. */
 bool koksma__import_invert(const double matrix[12], double out[12]);
 void koksma__import_rotation(double angle_deg, const double axis[3], double out[12]);
 

@@ -61,7 +61,8 @@ typedef enum koksma__beam_form {
 } koksma__beam_form;
 
 typedef struct koksma__light_kind {
-    koksma__kind kind; /* parameters are written to koksma__light; the kind's own at KOKSMA__LIGHT_VALUE(i) */
+    koksma__kind
+        kind; /* parameters are written to koksma__light; the kind's own parameters at KOKSMA__LIGHT_VALUE(i) */
     koksma__light_distance distance;
     koksma__beam_form form;
     /* the light shines only on the side of its normal, and extends along its axes u and v as far as `half` */
@@ -71,10 +72,10 @@ typedef struct koksma__light_kind {
     /* Sets area, reach, power and data. Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
     koksma_status (*open)(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light);
     void (*close)(void *data); /* NULL if data is not used */
-    /* Samples by u the light that arrives at p; false when no light arrives. */
+    /* Samples by u the light that arrives at p; returns false if no light arrives. */
     bool (*sample)(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out);
-    /* Treats the light as a point at its centre (as in Whitted's integrator), with pdf 0; NULL or false: the light
-       has no centre. */
+    /* Treats the light as a point at its centre (as in Whitted's integrator), with pdf 0. For a light without a
+       centre the pointer is NULL, or the function returns false. */
     bool (*centre)(const koksma__shading_light *light, const float p[3], koksma__beam *out);
     /* The density with which sample() chooses the direction w (of length 1) from p; w hits the light at distance t,
        where the light's normal is n (unused for lights far away). NULL: 0 everywhere. */

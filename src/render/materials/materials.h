@@ -73,13 +73,13 @@ typedef struct koksma__scatter {
 } koksma__scatter;
 
 typedef struct koksma__bsdf {
-    koksma__kind kind; /* parameters are written to koksma__material: at = KOKSMA__VALUE(i) */
+    koksma__kind kind; /* parameters are written to koksma__material; koksma__parameter.at is KOKSMA__VALUE(i) */
     unsigned lobes;    /* all lobes that the kind has */
     unsigned diffuse;  /* the fields of its diffuse part; 0 if it has none */
     /* the value times the cosine is exactly albedo cosine / pi, so that lambert_lanes.c can shade the material */
     bool is_lambert;
     koksma__material_form form;
-    bool takes_choice; /* sample() uses choice */
+    bool takes_choice; /* sample() uses its argument `choice` */
     bool reciprocal;   /* value / cosine is symmetric in w and out */
     /* NULL, or a check of the parameters: returns the reason why they are not valid together, or NULL. */
     const char *(*check)(const koksma__material *material);

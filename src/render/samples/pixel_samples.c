@@ -182,7 +182,7 @@ static uint16_t *own_orders(const koksma__sample_scratch *room, size_t n)
     return room->order + room->room_for * n + 64;
 }
 
-/* Draws the words and makes the orders of these pixels. */
+/* Draws the random words of the pixels first .. first + count - 1, and makes their random orders. */
 static void draw_words(const pixel_samples *samples, const demand *d, uint64_t first, size_t count,
                        koksma__sample_scratch *room)
 {

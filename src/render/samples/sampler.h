@@ -38,7 +38,7 @@ typedef struct koksma__sampler {
     size_t kept_slots; /* pixels in `kept`; the sets of a pixel are in slot pixel modulo kept_slots */
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
     /* Draws the random words of a use for several pixels at once, which saves time, before `draw` is called for each
-       of these pixels with the same scratch; NULL: draws alone. */
+       of these pixels with the same scratch; NULL: `draw` draws the words itself. */
     void (*prepare)(const struct koksma__sampler *sampler, uint64_t first, size_t count, uint32_t use,
                     koksma__sample_scratch *room);
     /* Draws the coordinates of one use for all samples of a pixel, and adds the offset to them. pairs[2 i] and

@@ -293,7 +293,7 @@ double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pi
     return k > 1 ? sqrt(fmax(p->sum_mean_square - k * mean * mean, 0) / ((k - 1) * k)) : 0;
 }
 
-/* Sample i of filter weight w_i has the weight a w_i + b in the pixel, as film.c has it; the weights add up to 1. */
+/* Sample i of filter weight w_i has the weight a w_i + b in the pixel, as film.c describes; the weights add up to 1. */
 static void weights_of(const koksma__adaptive *run, const koksma__pixel_sets *p, double *a, double *b)
 {
     const double n = samples_of(run, p);
