@@ -309,13 +309,13 @@ KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const k
 KOKSMA_API koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,
                                             const koksma_run *run, koksma_layers *out);
 
-/* Further images of a render (arbitrary output variables). All but `id` have the channels of the image. Light that was
-   reflected or refracted r times, mirrors and glass included, is in "bounce:r", r = 0 (seen) to KOKSMA_MAX_DEPTH + 1;
-   ambient light and the indirect light of an irradiance cache count as reflected one time more than light that
-   reaches the same surface directly from a light. "direct" is the light with r = 0 and 1, "indirect" all other light.
-   The sum of these two, and the sum of all bounces, equal the image within the rounding of floats. "id" is the number
-   of the object that most samples of a pixel hit first: i + 1 for koksma_scene_part_at(i), 0 for none. "half:even"
-   and "half:odd" are the means of the samples of a pixel with even and with odd index. */
+/* Further images of a render (arbitrary output variables). All but "id" have as many channels as the image. Light
+   that was reflected or refracted r times, mirrors and glass included, is in "bounce:r", r = 0 (seen) to
+   KOKSMA_MAX_DEPTH + 1; ambient light and the indirect light of an irradiance cache count as reflected one time more
+   than light that reaches the same surface directly from a light. "direct" is the light with r = 0 and 1, "indirect"
+   all other light. The sum of these two, and the sum of all bounces, equal the image within the rounding of floats.
+   "id" is the number of the object that most samples of a pixel hit first: i + 1 for koksma_scene_part_at(i), 0 for
+   none. "half:even" and "half:odd" are the means of the samples of a pixel with even and with odd index. */
 enum { KOKSMA_MAX_AOVS = 72 };
 typedef struct koksma_aovs {
     int n;

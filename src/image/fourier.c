@@ -60,8 +60,8 @@ static void transform(lines *l, size_t count)
     l->re = l->work;
     l->im = l->work + size;
     if (!l->power_of_two) {
-        for (size_t i = 0; i < count; i++) { /* uses fewer than 4 n of the LANES n numbers of scratch for real and for
-                                                imaginary parts */
+        for (size_t i = 0; i < count; i++) { /* takes fewer than 4 n of the LANES n numbers of scratch that there are
+                                                for real and for imaginary parts each */
             koksma__dft_transform(&l->dft, &l->fourier, LANES, l->re + i, l->im + i, spare, spare + size);
         }
     } else if (koksma__kernels()->fourier16(l->n, l->twiddles, l->re, l->im, spare, spare + size)) {

@@ -145,7 +145,7 @@ static void place_on_edge(const level *l, const edge *e, double out[3])
     }
 }
 
-/* Divides each triangle into one at each corner and one between. */
+/* Divides each triangle into four: one at each corner and one in the middle. */
 static koksma_status divide(const level *from, level *to)
 {
     const uint32_t n = (uint32_t)from->n_vertices;

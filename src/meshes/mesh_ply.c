@@ -4,11 +4,12 @@
  * each, and their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one
  * line.
  *
- * Of "vertex" the properties x y z, nx ny nz, texture coordinates (u v, s t, tx ty, texture_u texture_v) and colours
- * (only whether any exist) are read; of "face" the list vertex_indices or vertex_index, a fan of triangles, and the
- * list texcoord, u and v for each corner, which become the texture coordinates of the vertices: if faces that share a
- * vertex disagree, the last face wins. A comment "TextureFile NAME" names the texture. Everything else is skipped,
- * but still checked: a file that is cut short, or that lacks a number where the header requires one, is an error.
+ * Of the element "vertex" the properties x y z, nx ny nz and texture coordinates (u v, s t, tx ty, texture_u
+ * texture_v) are read, and whether there are colours. Of "face" two lists are read: vertex_indices or vertex_index, a
+ * fan of triangles; and texcoord, u and v for each corner. The latter become the texture coordinates of the vertices;
+ * if faces that share a vertex disagree, the last face wins. A comment "TextureFile NAME" names the texture.
+ * Everything else is skipped, but still checked: a file that is cut short, or that lacks a number where the header
+ * requires one, is an error.
  *
  * Format: G. Turk, "The PLY Polygon File Format" (1994); texcoord and TextureFile are MeshLab's.
  */

@@ -503,7 +503,7 @@ static void cylinder(const reader *r, const node *n, double m[12])
     }
 }
 
-/* Finds the basic shape or mesh, and the matrix that gives it its size. */
+/* Finds the basic shape or the mesh for a <shape>, and the matrix that gives it its size. */
 static koksma_status form_of(reader *r, const node *n, koksma__import_item *item, double m[12])
 {
     static const struct {

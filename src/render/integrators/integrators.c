@@ -43,7 +43,7 @@ static const koksma__integrator_flags whitted = {
     .followed = KOKSMA__LOBE_SPECULAR, .shadows = true, .ambient = true, .branches = true};
 
 /*
- * The integrator `distribution` is distribution ray tracing. Positions on lights, on the lens and in time, and
+ * The integrator `distribution` is distribution ray tracing. Positions on lights and on the lens, times, and
  * directions in glossy lobes are sampled; the scene's ambient light replaces light between diffuse surfaces.
  *
  *     L(x, out) = E(x, out) + albedo ambient + sum over lights of f E_l cos cos' V A / d^2 + weight L(y, w)

@@ -35,7 +35,7 @@ typedef struct koksma__sampler {
     /* coordinates per sample in `kept` of the scratch: those of all groups, or of a native pattern */
     int kept_dim;
     size_t kept_sets;  /* number of groups; a native pattern counts as one group */
-    size_t kept_slots; /* pixels in `kept`; the sets of a pixel are in slot pixel modulo kept_slots */
+    size_t kept_slots; /* number of pixels whose sets fit in `kept`; a pixel has slot pixel modulo kept_slots */
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
     /* Draws the random words of a use for several pixels at once, which saves time, before `draw` is called for each
        of these pixels with the same scratch; NULL: `draw` draws the words itself. */

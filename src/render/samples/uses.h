@@ -5,8 +5,9 @@
 
 #include <koksma/render.h>
 
-/* The numbers of the uses in uses.def. The numbers are part of the keys of random numbers, so they never change.
-   Lights count up from LIGHT, and at bounce b the number b KOKSMA__USES_A_BOUNCE is added. */
+/* The numbers of the uses in uses.def. The numbers are part of the keys of random numbers, so they never change. The
+   lights of a vertex have the numbers LIGHT, LIGHT + 1, ...; at bounce b, b times KOKSMA__USES_A_BOUNCE is added to
+   every number. */
 enum {
 #define USE(id, number, name, dim, help) KOKSMA__USE_##id = (number),
 #include "render/samples/uses.def"

@@ -21,7 +21,7 @@ enum { SIDE = KOKSMA__SETS_THRESHOLD + 1 };
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(2, 2),
-    {"threshold", "a block stops below this error; 0: only the budget limits", 0, 0, 1e6, NULL, false},
+    {"threshold", "a block stops below this error; 0: no threshold, only a budget", 0, 0, 1e6, NULL, false},
     {"side", "smallest side of a block in pixels", 8, 1, 65536, NULL, true},
     {0},
 };

@@ -2,8 +2,8 @@
 /*
  * Describes the strata of a pixel in the unit square of each use, for figures such as 5.35 and 5.36 of Shirley 1991,
  * and marks the splits that were needless (adaptive_strata.c has the test). Splits are reconstructed from the strata:
- * each part has a digit for each split, and among all parts of a stratum that was split at depth `level` exactly one
- * has only zeros as further digits; that part represents the split.
+ * each stratum stores a digit for each split that led to it. Of all strata that came from one at depth `level`,
+ * exactly one has only zeros as its further digits; it represents the split at that depth.
  */
 #include "render/samples/adaptive/adaptive_show.h"
 
