@@ -164,8 +164,8 @@ struct koksma_scene {
     koksma__unknown *unknown; /* unsupported features of another renderer's scene */
     size_t n_unknown;
     bool glows; /* a placement that has a material is also a light */
-    /* numbers of lights and shapes at the ends of the lists that model.c added to the scene of a model file; each of
-       these shapes uses one of the last materials */
+    /* how many of the last lights and of the last shapes model.c added to the scene of a model file; each of these
+       shapes uses one of the last materials */
     struct {
         size_t lights, shapes;
     } studio;

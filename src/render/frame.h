@@ -59,7 +59,8 @@ typedef struct koksma__group {
     size_t start[KOKSMA__GROUP_PIXELS + 1];
 } koksma__group;
 
-/* The values of the samples of a group. Each channel has capacity floats; unused layers are NULL. */
+/* The values of the samples of a group. Arrays have as many floats for each channel as the group can have samples;
+   those of unused layers are NULL. */
 typedef struct koksma__values {
     /* positions on the film, in pixels: 2 for each sample. From pixel 2^k to pixel 2^(k + 1) neighbouring floats
        differ by 2^(k - 23) pixels (by 1/256 at the far edge of the widest image), and the directions computed from

@@ -18,7 +18,7 @@ typedef struct asked {
     size_t size;
 } asked;
 
-/* Counts a warning; true if it is the requested one. */
+/* Counts a warning; returns true if it is the requested one. */
 static bool here(asked *a)
 {
     return !a->left--;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * spot: a point light with full intensity inside a cone of half the angle `inner`, which falls to 0 at the edge of a
- * wider cone. With a = (cos angle(w) - cos outer) / (cos inner - cos outer), cut to [0, 1], and inner = (1 - edge) outer,
+ * spot: a point light with full intensity inside a cone of half-angle `inner`; outside it the intensity falls to 0 at
+ * the edge of a cone of half-angle `outer`. With a = (cos angle(w) - cos outer) / (cos inner - cos outer), clamped to
+ * [0,1], and inner = (1 - edge) outer,
  *
  *     falloff    I(w) / intensity                               power / (2 pi intensity)
  *     square     a^2 (KHR_lights_punctual)                      1 - cos inner + (cos inner - cos outer) / 3

@@ -38,7 +38,7 @@ enum { KOKSMA__FALLOFF_SQUARE, KOKSMA__FALLOFF_SMOOTH, KOKSMA__FALLOFF_ANGLE };
 typedef struct koksma__beam {
     float d[3];     /* from the point to the position on the light, which is at t = 1 */
     float w[3];     /* direction from the point to the light, of length 1 */
-    float value[3]; /* radiance over pdf, before the cosine and the material are applied */
+    float value[3]; /* radiance divided by the pdf, before the cosine and the material are applied */
     float pdf;      /* of w, or 0 */
 } koksma__beam;
 

@@ -528,7 +528,7 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
     const float clamp = (float)frame->scene->clamp;
     for (size_t i = 0; i < n; i++) {
         for (int k = 0; k < frame->channels; k++) {
-            const float value = sums[3 * i + (size_t)k]; /* a NaN is kept */
+            const float value = sums[3 * i + (size_t)k]; /* a NaN stays a NaN, because it is not above clamp */
             values->rgb[i * (size_t)frame->channels + (size_t)k] = value > clamp ? clamp : value;
             if (values->parts && value > clamp) {
                 koksma__aov_clamp(frame->aovs, values, i, k, clamp / value);

@@ -10,7 +10,7 @@
 #include "render/placements.h"
 #include "render/shapes/shapes.h"
 
-/* Reads a positive number, or three. */
+/* Reads the field "scale": a positive number, or three of them. */
 static koksma_status parse_scale(const field *f, double scale[3])
 {
     field node;

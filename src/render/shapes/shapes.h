@@ -18,8 +18,7 @@
 
 typedef struct koksma__shape_type {
     koksma__kind kind; /* parameters are written to koksma__shape */
-    bool is_flat;      /* lies in the plane through centre along axis_u and axis_v, within half[0] and half[1] along
-                          them */
+    bool is_flat;      /* lies in a plane, within half[0] of the centre along axis_u and half[1] along axis_v */
     bool takes_checker, takes_image;
     bool may_emit; /* the field "emission", instead of "material", makes the shape a light */
     /* NULL, or reads the fields that are not parameters; name is the scene file's. A compound adds its parts to the

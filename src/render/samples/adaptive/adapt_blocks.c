@@ -4,7 +4,7 @@
  * Keller & Lensch 2010). The samples of a pixel come in point sets; let I be the mean of all its sets, and A the mean
  * of every second set. The error of a block of N pixels in an image of M pixels is
  *
- *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (absolute values and I summed over channels)
+ *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (|I - A| and I are sums over the channels)
  *
  * A block stops when e is below the threshold. When its error is below 256 times the threshold, a block is cut across
  * its longer side, at the position where the errors of the two parts are most nearly equal, unless a part would have

@@ -12,8 +12,8 @@
  *
  * With reuse=fresh, the samples of the last stage must be independent of those by which strata were split. The rule k
  * ^ b ^ c would always pair quarter b with quarter c again, which together contain the sample that caused the split.
- * So in the last stage part k gets one of the four quarters with equal probability, drawn again. The mean over the
- * parts is then unbiased for the stratum, whatever the tree.
+ * So in the last stage part k gets one of the four quarters with equal probability, by a new random number. The mean
+ * over the parts is then unbiased for the stratum, whatever the tree.
  */
 #include <math.h>
 #include <string.h>
