@@ -213,7 +213,7 @@ static koksma_status check_length(const ply *p)
         bytes += (double)e->count * (double)e->bytes;
         KOKSMA__FAIL_IF(e->count && !e->n, KOKSMA_MALFORMED, "%s: element '%s' has no properties", t->path, e->name);
     }
-    if (bytes > (double)(t->end - t->next) + 1) { /* the last blank may be missing */
+    if (bytes > (double)(t->end - t->next) + 1) { /* the blank after the last number may be missing */
         return koksma__fail(KOKSMA_MALFORMED,
                             "%s: its elements take %.0f bytes at least, but the file has only %td after its header",
                             t->path, bytes, t->end - t->next);
@@ -303,7 +303,7 @@ static inline koksma_status take_number(ply *p, const type *of, bool as_whole, d
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* Checks that the number i, an entry of element e, is the index of a vertex. */
+/* Checks that `vertex`, a number in item i of element e, is the index of a vertex. */
 static koksma_status check_corner(const ply *p, const element *e, size_t i, long long vertex)
 {
     char where[40] = "";
