@@ -50,7 +50,7 @@ static const koksma__adaptive_method method = {.open = open,
 
 const koksma_adaptive koksma__adaptive_hierarchical = {
     .name = "hierarchical",
-    .title = "splits strata whose value differs from a neighbour's, in all uses (pixel, lens, light, ...) together",
+    .title = "splits strata where the values of neighbours differ, in all uses together",
     .cite = "kajiya1986 shirley1991",
     .params = params,
     .own_samples = true,

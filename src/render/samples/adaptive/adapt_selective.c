@@ -131,8 +131,7 @@ static const koksma__adaptive_method method = {.open = open,
 
 const koksma_adaptive koksma__adaptive_selective = {
     .name = "selective",
-    .title = "splits strata whose value differs from a neighbour's, in the use (such as lens) that causes most of "
-             "the variance",
+    .title = "splits strata where the values of neighbours differ, in the use that causes most of the variance",
     .cite = "shirley1991 geary1954",
     .params = params,
     .own_samples = true,
