@@ -53,7 +53,7 @@ typedef struct koksma_strata {
     int x, y;             /* input: coordinates of the pixel */
     size_t n_spaces;      /* output: number of spaces. Spaces whose cells overlap are left out: one-dimensional spaces
                              with aligned strata */
-    koksma_space *spaces; /* output: the spaces. In the first one neighbouring strata were compared */
+    koksma_space *spaces; /* output: the spaces. The first is the one in which neighbouring strata were compared */
 } koksma_strata;
 
 /* Frees the spaces and zeroes the struct. strata may be NULL, or zeroed. */
@@ -99,8 +99,8 @@ typedef struct koksma_adaptive_report {
      out      `samples` has the number of samples of each pixel; `variance` estimates the variance of the pixel's
               luminance as if its samples were independent; albedo, normal, depth and the AOV "id" come from the
               first round. The AOVs of light weigh the samples as the image does, and add up to it; "half:even" and
-              "half:odd" are every second sample of those that count, or every second stratum. With AOVs all scenes
-              take the same pipeline, whose rounding may move a decision of the method
+              "half:odd" are the means of every second sample that enters the image, or of every second stratum. With
+              AOVs all scenes take the same pipeline, whose rounding may change a decision of the method
      report   may be NULL
    Errors: those of koksma_render_layers; also ARGUMENT for splatting, for scope image, for a pattern that gives the
    same set for every seed, and for options with which the method would never stop. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Read, write and compare images of linear light, stored as floats. Part of libkoksma-lab. Formats: OpenEXR, PNG
- * and PFM. EXR and PFM keep every float exactly.
+ * Read, write and compare images of linear light, stored as floats. Part of libkoksma-lab. Formats: OpenEXR, PNG, PFM
+ * and JPEG. EXR and PFM keep every float exactly.
  */
 #ifndef KOKSMA_IMAGE_H
 #define KOKSMA_IMAGE_H
@@ -41,6 +41,8 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
      PNG   1 to 16 bits, sRGB; if the file has a gAMA chunk but neither sRGB nor iCCP, its power law replaces the
            sRGB curve (1.0: linear)
      PFM   Pf and PF in either byte order; the magnitude of the scale is ignored; extra bytes at the end are an error
+     JPEG  baseline or progressive, grey or colour, sRGB; a colour profile is not applied; a file that is cut short is
+           an error
    Alpha and further channels are dropped; colours are not multiplied by alpha.
    Errors: MISSING, MALFORMED (also for valid files that this function cannot read: deep or subsampled EXR files,
    and with B44 or DWA compression other channels or values above 65504), UNSUPPORTED (this build lacks the format),
@@ -60,7 +62,8 @@ KOKSMA_API koksma_status koksma_image_check_path(const char *path);
 KOKSMA_API bool koksma_image_has_layers(const char *path);
 
 /* Writes an image, completely or not at all.
-     path      ends in .exr, .png (values are clamped to [0,1] and encoded as sRGB with 8 bits) or .pfm
+     path      ends in .exr, .pfm, .png or .jpg (for the last two values are clamped to [0,1] and encoded as sRGB
+               with 8 bits; .jpg has quality 100)
      metadata  text to store in the file if its format has room for text; may be NULL
    Errors: ARGUMENT (unknown ending; an image without pixels, or with a size or number of channels that
    koksma_image_init does not accept), UNSUPPORTED (this build lacks the format), IO, MEMORY. */

@@ -105,12 +105,12 @@ typedef struct koksma_integration_row {
     size_t n;
     uint64_t trials; /* number of point sets; always 1 for a deterministic pattern */
     double mean, sd; /* mean and standard deviation of the estimates; sd is NaN with one set */
-    double rmse;     /* root mean square of estimate minus integral; with one set the absolute error. If the
-                        integral is not known, rmse is sd, which is equal for unbiased estimates */
+    double rmse;     /* root mean square of estimate minus integral; with one set the absolute error. If the integral
+                        is not known, rmse is set to sd, which equals it for unbiased estimates */
     /* 95 % confidence interval of rmse (delta method on its logarithm, Student's t), or NaN with one set */
     double low, high;
     double gain; /* variance / n / rmse^2: how many times more random points would be needed for this error, or NaN if
-                    it is not known, or if the error is only rounding */
+                    the variance is not known or the error is only rounding */
 } koksma_integration_row;
 
 /* The slope of log rmse against log n by least squares, with its 95 % interval. With several trials the standard
@@ -164,7 +164,7 @@ typedef struct koksma_sensitivity {
     koksma_share closed;    /* sum of the indices of all subsets of u: Var(E(f | x_u)) / Var(f) */
     koksma_share total;     /* sum of the indices of all sets that have a coordinate in common with u */
     double variance;        /* variance of the integrand; an estimate unless exact is true */
-    bool exact; /* true: all values come from a closed form; false: from pick-freeze estimates (Saltelli et al.
+    bool exact; /* true: all values come from a closed form; false: they are pick-freeze estimates (Saltelli et al.
                    2010, Jansen 1999) over 16 Owen-scrambled Sobol' sets, whose spread gives the intervals */
 } koksma_sensitivity;
 

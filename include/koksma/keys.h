@@ -9,14 +9,15 @@
  *     for (uint32_t i = 0; i < spp; i++) {
  *         double xy[2];
  *         koksma_keys_2d(&pixel, i, xy);
+ *     }
  *
  *     sample i = scrambled sequence(key XOR i)
  *
- * There are seven tables of keys, for 2^m = 1, 2, 4 ... 64 samples per pixel. A key has 10 bits for the number of the
- * block, a permutation of the pixels of the cell, and m bits that rank the samples within the block: they decide
- * which part of the block comes first, so that the errors are blue noise also for fewer samples. More than 64
- * samples per pixel use the last table, with m = log2 spp rounded up. Each cell draws from the seed its own
- * scrambling and one of the 8 symmetries of the square, so cells do not repeat points.
+ * There are seven tables of keys, for 2^m = 1, 2, 4 ... 64 samples per pixel. A key has two parts. Ten bits are the
+ * number of the block, which differs for each of the 1,024 pixels of the cell. The other m bits rank the samples
+ * within the block: they decide which part of the block comes first, so that the errors are blue noise also for fewer
+ * samples. More than 64 samples per pixel use the last table, with m = log2 spp rounded up. Each cell draws from the
+ * seed its own scrambling and one of the 8 symmetries of the square, so cells do not repeat points.
  *
  * The samples of one pixel have the same probability distribution as those of an independently Owen-scrambled pixel,
  * for each number of samples: the mean of any integrand is unbiased, and its mean square error over the seeds is that
@@ -79,9 +80,9 @@ KOKSMA_INLINE uint32_t koksma__key(uint32_t m, uint32_t pixel)
 /* Returns the key of pixel (x, y) of the image with this seed, and its scrambling, for one pair of dimensions.
      pair  number of the pair of dimensions
      spp   final number of samples per pixel, 1 .. 2^22; use the same spp if you draw them in several passes. If the
-           final number is unknown, give the largest possible one: the first samples, from spp / 64 on, have blue
-           errors too, but less so. From index spp, rounded up to a power of two, on, samples repeat those of other
-           pixels. */
+           final number is unknown, give the largest possible one: the errors of the first n >= spp / 64 samples are
+           then also blue noise, but less so. Samples whose index is at least spp, rounded up to a power of two, repeat
+           those of other pixels. */
 KOKSMA_INLINE koksma_keys koksma_keys_of(uint64_t seed, uint32_t x, uint32_t y, uint32_t pair, uint32_t spp)
 {
     const uint64_t image = koksma__derived(seed, 0xbe5466cfu, pair), offset = koksma_mix(image);
@@ -102,7 +103,7 @@ KOKSMA_INLINE koksma_keys koksma_keys_of(uint64_t seed, uint32_t x, uint32_t y, 
     keys.seeds[0] = koksma_seed_of(cell, 0);
     keys.seeds[1] = koksma_seed_of(cell, 1);
     keys.key = (koksma__key(m - lower, place) << lower | (koksma_seed_of(pixel, 0) & ((1u << lower) - 1))) ^
-               koksma_seed_of(cell, 3); /* of indices that are mostly 0 the hash has few scramblings */
+               koksma_seed_of(cell, 3); /* the hash has few scramblings for indices whose bits are mostly 0 */
     keys.order = koksma_seed_of_order(pixel);
     keys.ordered = pair > 0;
     return keys;

@@ -13,11 +13,11 @@
  *                              of one sequence (Ahmed & Wonka 2020)
  *
  * Georgiev & Fajardo (2016) shift each pixel's copy of the pattern on the torus. The shift breaks the net property:
- * from 4 samples per pixel on, the error in each pixel is up to several times that of independently scrambled
- * pixels. koksma_mask_2d keeps the nets. For any number of samples the points of a pixel have the distribution of
+ * from 4 samples per pixel on, the error in each pixel is up to several times that of independently scrambled pixels.
+ * koksma_mask_2d keeps the nets. For any number of samples the points of a pixel have the distribution of
  * independently scrambled Sobol' points, and so does the error of the pixel; only the errors of neighbouring pixels
- * are dependent. The table has the error power below a quarter of the highest frequency in one tile of 64 x 64
- * pixels, relative to white noise (1):
+ * are dependent. For four integrands over the unit square, the table has the power of the error below a quarter of
+ * the highest frequency, in one tile of 64 x 64 pixels, relative to white noise (1):
  *
  *     samples a pixel        1     4     16    64
  *     x                      .04   .04   .04   .04

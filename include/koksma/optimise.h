@@ -35,8 +35,8 @@ typedef enum koksma_keep {
 /* The best point set that a search has found so far. */
 typedef struct koksma_optimum {
     koksma_points points;
-    double value;       /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE the geometric mean
-                           described there */
+    double value;       /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE the geometric mean that
+                           is described at that constant */
     double lower;       /* lower bound of the measure over all sets of n points in this dimension, or NaN if no bound
                            is known */
     uint64_t steps;     /* number of steps done */

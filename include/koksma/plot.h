@@ -10,8 +10,9 @@
  *     }
  *
  * Every plot function allocates the file's bytes, which the caller frees with free(). Equal arguments give equal
- * bytes. SVG files contain their labels as text and have no ids; cairo draws PDF and PNG. Every plot function may
- * return the errors ARGUMENT, UNSUPPORTED (PDF and PNG: this build lacks cairo), MEMORY, SYSTEM (cairo failed).
+ * bytes. SVG files contain their labels as text and have no id attributes, so that one page can hold several; cairo
+ * draws PDF and PNG. Every plot function may return the errors ARGUMENT, UNSUPPORTED (PDF and PNG: this build lacks
+ * cairo), MEMORY, SYSTEM (cairo failed).
  */
 #ifndef KOKSMA_PLOT_H
 #define KOKSMA_PLOT_H
@@ -88,8 +89,8 @@ typedef struct koksma_curve {
     const char *label; /* name in the legend (NULL: the legend omits the curve) */
     size_t n;
     const double *xs, *ys, *errors; /* arrays of n. `errors`, which may be NULL, has half the lengths of error bars,
-                                       or without marks half the widths of a band. A point that is not finite leaves
-                                       a gap */
+                                       or, if `marks` is false, half the widths of a band. A point that is not finite
+                                       leaves a gap */
     bool marks;                     /* draw marks at the points */
     bool dashed;                    /* draw the curve as a grey dashed guide, which does not extend the axes */
     size_t colour;                  /* number of a colour and dash style, from koksma_plot_colours */

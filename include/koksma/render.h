@@ -76,9 +76,10 @@ KOKSMA_API bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *
      text  buffer of `size` characters, to which the line is cut */
 KOKSMA_API bool koksma_scene_unknown(const koksma_scene *scene, size_t i, char *text, size_t size);
 
-/* Sets whether the calling thread refuses to open scenes with such features, and returns the previous setting. At
-   first false: they are replaced. True: koksma_scene_open, and functions that open scenes by their names (rankings,
-   studies when they read a plan, datasheets), fail with MALFORMED and name the first feature. */
+/* Sets whether the calling thread refuses to open scenes with the features that koksma_scene_unknown lists, and
+   returns the previous setting. false, the initial setting: the features are replaced. true: koksma_scene_open, and
+   functions that open scenes by their names (rankings, studies when they read a plan, datasheets), fail with
+   MALFORMED and name the first feature. */
 KOKSMA_API bool koksma_scene_refuse_unknown(bool refuse);
 
 /* Numbers of the objects that a scene contains. `placements` counts the copies of meshes: a mesh may be placed
@@ -197,8 +198,8 @@ KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
    cycles per pixel, divided by the transform at frequency 0. */
 KOKSMA_API double koksma_filter_response(const koksma_filter *filter, double frequency);
 
-/* Returns the fraction of the integral of the squared response of a filter above half a cycle per pixel, where
-   pixels alias; it is 0 for the ideal filter. */
+/* Returns the fraction of a filter's energy (the integral of its squared response) at frequencies above half a cycle
+   per pixel, where pixels alias; the fraction is 0 for the ideal filter. */
 KOKSMA_API double koksma_filter_leakage(const koksma_filter *filter);
 
 /* Options of the renderer. koksma_render_options_init sets all members to their defaults. */
@@ -216,12 +217,11 @@ typedef struct koksma_render_options {
     const koksma_integrator *integrator;
     int depth; /* largest number of bounces, 0 to KOKSMA_MAX_DEPTH; -1: the integrator's default */
     const koksma_filter *filter;
-    /* true (splatting): add each sample to all pixels that the filter reaches and divide by the sum of weights;
-       false (filter importance sampling): draw the position of each pixel's samples from the filter (Ernst,
-       Stamminger & Greiner 2006), which has two to three times the error. Both methods keep a constant image
+    /* true (splatting): add each sample to all pixels that the filter reaches and divide by the sum of weights; false
+       (filter importance sampling): draw the position of each pixel's samples from the filter (Ernst, Stamminger &
+       Greiner 2006), which has two to three times the error of splatting. Both methods keep a constant image
        constant, also if the filter has negative lobes. With one sample per pixel, importance sampling uses only the
-       positive part of the filter. Splatting has no samples outside the image: at its borders the filter is cut
-       off */
+       positive part of the filter. Splatting has no samples outside the image: at its borders the filter is cut off */
     bool splat;
 } koksma_render_options;
 
@@ -309,13 +309,13 @@ KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const k
 KOKSMA_API koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,
                                             const koksma_run *run, koksma_layers *out);
 
-/* Further images of a render (arbitrary output variables). All but `id` have the channels of the image. Light that was
-   reflected or refracted r times, mirrors and glass included, is in "bounce:r", r = 0 (seen) to KOKSMA_MAX_DEPTH + 1;
-   ambient light and the indirect light of an irradiance cache count as reflected one time more than light that
-   reaches the same surface directly from a light. "direct" is the light with r = 0 and 1, "indirect" all other light.
-   The sum of these two, and the sum of all bounces, equal the image within the rounding of floats. "id" is the number
-   of the object that most samples of a pixel hit first: i + 1 for koksma_scene_part_at(i), 0 for none. "half:even"
-   and "half:odd" are the means of the samples of a pixel with even and with odd index. */
+/* Further images of a render (arbitrary output variables). All but "id" have as many channels as the image. Light
+   that was reflected or refracted r times, mirrors and glass included, is in "bounce:r", r = 0 (seen) to
+   KOKSMA_MAX_DEPTH + 1; ambient light and the indirect light of an irradiance cache count as reflected one time more
+   than light that reaches the same surface directly from a light. "direct" is the light with r = 0 and 1, "indirect"
+   all other light. The sum of these two, and the sum of all bounces, equal the image within the rounding of floats.
+   "id" is the number of the object that most samples of a pixel hit first: i + 1 for koksma_scene_part_at(i), 0 for
+   none. "half:even" and "half:odd" are the means of the samples of a pixel with even and with odd index. */
 enum { KOKSMA_MAX_AOVS = 72 };
 typedef struct koksma_aovs {
     int n;

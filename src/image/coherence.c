@@ -19,9 +19,8 @@
  * - Blue noise is not coherent: the power P of a frequency is divided by the power of its ring where that is above 1.
  *   The rings have equal areas (16, or fewer so that each has 64 frequencies). The power of a ring is the mean of P in
  *   it, where a peak counts no more than noise of the ring's power would have (in ROUNDS rounds), made nondecreasing
- *   in frequency (isotonic regression by pooling adjacent violators, Ayer et al. 1955). So the power of a ring is
- *   removed only as far as all rings of higher frequency have as much; coarse errors, which the eye sees best, always
- *   remain.
+ *   in frequency (isotonic regression by pooling adjacent violators, Ayer et al. 1955). So a ring whose power exceeds
+ *   that of rings of higher frequency keeps the excess: coarse errors, which the eye sees best, always remain.
  * - The share r of the error that T images have in common follows from z, the errors divided by their standard
  *   deviations and summed over the images: |sum z|^2 / n = T + T (T - 1) r.
  *
@@ -310,8 +309,8 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
     for (size_t v = 0; v < (size_t)c->height; v++) {
         for (size_t u = 0; u < columns; u++) {
             const size_t i = v * columns + u;
-            /* only a power above the maximum so far can raise it, as powers are divided by their ring's, which is 1
-               or more */
+            /* only a power above the maximum so far can raise the maximum, because each power is divided by that of
+               its ring, which is 1 or more */
             if (weight_of(c, u, v) && c->power[i] > out->coherence) {
                 const double ring = r->power[ring_of(c, u, v, r->n)];
                 if (c->power[i] / ring > out->coherence) {

@@ -7,8 +7,8 @@
 
 #include <koksma/image.h>
 
-/* koksma_coherence_add for the errors of an image's pixels, [y * width + x], which are overwritten. Errors: MALFORMED
-   (an error is not a finite number), MEMORY. */
+/* Does what koksma_coherence_add does, from the errors of an image's pixels: errors[y * width + x], which the
+   function overwrites. Errors: MALFORMED (an error is not a finite number), MEMORY. */
 koksma_status koksma__coherence_add_errors(koksma_coherence *coherence, double *errors);
 
 #endif

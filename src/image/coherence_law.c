@@ -11,7 +11,7 @@
  *
  * T images: the power is the mean of T powers. A share r of the squared error may be the same in all images, for
  * example where all use the same pattern; then the amplitudes of the T images have the covariance matrix (1 - r) I +
- * r 1 1', with eigenvalues 1 + (T - 1) r and T - 1 times 1 - r, and the mean power is
+ * r 1 1', which has one eigenvalue 1 + (T - 1) r and T - 1 eigenvalues 1 - r; the mean power is
  *
  *     a X + b G,   a = (1 + (T - 1) r) / T,  b = (1 - r) / T,  X exponential, G gamma distributed with shape T - 1,
  *

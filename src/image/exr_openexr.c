@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The module koksma-exr.so: EXR files by the C library OpenEXRCore. It reads a file's first part, in scan lines or
- * tiles, with channels R G B or Y (or a single channel of any name); it writes floats, ZIP-compressed. OpenEXRCore
- * 3.1.5 lacks DWAA and DWAB, and decodes B44 and B44A wrongly without an error: exr_rgba.c reads those four.
+ * The module koksma-exr.so reads and writes EXR files by the C library OpenEXRCore. It reads a file's first part, in
+ * scan lines or tiles, with channels R G B or Y (or a single channel of any name); it writes floats, ZIP-compressed.
+ * OpenEXRCore 3.1.5 lacks DWAA and DWAB, and decodes B44 and B44A wrongly without an error: exr_rgba.c reads those
+ * four.
  *
  * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
  * reader takes such a stream for uncompressed pixels. So each file is read back after writing; if a bit differs, the

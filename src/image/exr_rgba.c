@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * EXR files that OpenEXRCore 3.1.5 decodes wrongly (B44, B44A) or not at all (DWAA, DWAB), read by the C interface of
- * OpenEXR's C++ library. That interface opens files only by name, so the bytes are copied to a file in memory
- * (memfd). It returns half floats. It keeps its last error in a variable that all threads share: the text of an error
- * may be that of another thread, but the status is right.
+ * Reads the EXR files that OpenEXRCore 3.1.5 decodes wrongly (B44, B44A) or not at all (DWAA, DWAB), by the C
+ * interface of OpenEXR's C++ library. That interface opens files only by name, so the bytes are copied to a file in
+ * memory (memfd). It returns half floats. It keeps its last error in a variable that all threads share: the text of
+ * an error may be that of another thread, but the status is right.
  */
 #define _GNU_SOURCE /* memfd_create */
 #include "image/exr_rgba.h"

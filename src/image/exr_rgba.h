@@ -5,8 +5,9 @@
 
 #include <koksma/image.h>
 
-/* exr_rgba.c: reads EXR files as half floats: those compressed by DWAA, DWAB, B44 or B44A whose channels are R, G, B
-   or Y. wide: the file's numbers are not halves; a number too large for a half is UNSUPPORTED. */
+/* Reads an EXR file that is compressed by DWAA, DWAB, B44 or B44A and has the channels R, G, B or Y, as half floats.
+   wide: whether the file's numbers are not halves; a number that is too large for a half is then the error
+   UNSUPPORTED. */
 koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int channels, bool wide,
                                     koksma_image *out);
 

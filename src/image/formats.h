@@ -20,7 +20,8 @@ typedef struct koksma__image_format {
     bool (*recognises)(const unsigned char *bytes, size_t size);
     /* Reads an image. Errors name no file: the caller puts its name in front. On failure the caller releases *out. */
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
-    /* NULL, or the same with sRGB's transfer function, whatever other the file states. */
+    /* NULL, or reads an image as `read` does, but always with sRGB's transfer function, whatever function the file
+       states. */
     koksma_status (*read_srgb)(const unsigned char *bytes, size_t size, koksma_image *out);
     /* NULL, or reads the transparency as an image of one channel, 1 where a pixel is opaque; the image is empty if
        the file has no transparency. */

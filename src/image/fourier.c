@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The power of a picture at its Fourier frequencies: first all rows, then those columns that are not mirrors of
- * others (the values are real). The kernel fourier16 transforms lines whose length is a power of two, 16 at a time;
- * core/dft.c transforms other lines one by one. O(n log n) for n pixels of any size. Memory: 16 bytes for each
- * frequency, and about 64 lines.
+ * Computes the power of a picture at its Fourier frequencies: transforms first all rows, then those columns that are
+ * not mirrors of others (the values are real). The kernel fourier16 transforms lines whose length is a power of two,
+ * 16 at a time; core/dft.c transforms other lines one by one. O(n log n) for n pixels of any size. Memory: 16 bytes
+ * for each frequency, and about 64 lines.
  */
 #include "image/fourier.h"
 
@@ -25,7 +25,7 @@ typedef struct lines {
     koksma__dft dft;
     double *twiddles; /* for powers of two: cos and sin of 2 pi p / n */
     double *work;     /* real and imaginary parts of the lines, and scratch of the same size */
-    double *re, *im;  /* the lines' current position, within work */
+    double *re, *im;  /* where the real and the imaginary parts of the lines are now, within work */
 } lines;
 
 static void close_lines(lines *l)
@@ -60,8 +60,8 @@ static void transform(lines *l, size_t count)
     l->re = l->work;
     l->im = l->work + size;
     if (!l->power_of_two) {
-        for (size_t i = 0; i < count; i++) { /* uses fewer than 4 n of the LANES n numbers of scratch for real and for
-                                                imaginary parts */
+        for (size_t i = 0; i < count; i++) { /* takes fewer than 4 n of the LANES n numbers of scratch that there are
+                                                for real and for imaginary parts each */
             koksma__dft_transform(&l->dft, &l->fourier, LANES, l->re + i, l->im + i, spare, spare + size);
         }
     } else if (koksma__kernels()->fourier16(l->n, l->twiddles, l->re, l->im, spare, spare + size)) {
@@ -70,7 +70,8 @@ static void transform(lines *l, size_t count)
     }
 }
 
-/* Transforms the rows: entry u of row y is at rows[2 (y * columns + u)] (real) and one after it (imaginary). */
+/* Transforms the rows: entry u of row y is at rows[2 (y * columns + u)] (real part) and at the next number (imaginary
+   part). */
 static void transform_rows(lines *l, size_t width, size_t height, const double *values, double *rows)
 {
     const size_t columns = width / 2 + 1;

@@ -7,22 +7,22 @@
 
 #include "image/formats.h"
 
-/* Writes data at an offset and fills a gap before it with zeros; false when memory runs out. */
+/* Writes data at an offset and fills a gap before it with zeros; returns false if memory runs out. */
 bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size);
 
-/* ARGUMENT unless these are valid dimensions of an image. */
+/* Fails with ARGUMENT unless these are valid dimensions of an image. */
 koksma_status koksma__image_check_shape(int width, int height, int channels);
 
 /* Checks that all pixels are numbers below 1e30. Other values come from a sun that is too bright for the file's
-   number format, or from a failed computation; they must not be drawn as black without an error. MALFORMED names
-   `name` and the first bad pixel. */
+   number format, or from a failed computation; they must not be drawn as black without an error. Errors: MALFORMED
+   (the message has `name` and the first bad pixel). */
 koksma_status koksma__image_check(const koksma_image *image, const char *name);
 
 /* Sets the largest number of pixels that koksma__image_claim accepts in this thread. */
 void koksma__image_limit(size_t pixels);
 
-/* koksma_image_init for a size that a file claims: MALFORMED when the size is out of range, or when `bytes` bytes of
-   at most `pixels_a_byte` pixels each can't hold so many pixels. */
+/* Allocates an image, as koksma_image_init does, of the size that a file claims. Errors: MALFORMED (the size is out
+   of range, or `bytes` bytes of at most `pixels_a_byte` pixels each can't hold so many pixels), MEMORY. */
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out);
 

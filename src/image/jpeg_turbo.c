@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The module koksma-jpeg.so: JPEG by libjpeg-turbo, baseline and progressive, grey or in colour (ITU-T T.81, T.871).
- * Levels are read as sRGB, as in png.c; a colour profile in the file is not applied. Files are written without
- * subsampling at quality 100.
+ * The module koksma-jpeg.so reads and writes JPEG files by libjpeg-turbo: baseline and progressive, grey or in colour
+ * (ITU-T T.81, T.871). Levels are read as sRGB, as in png.c; a colour profile in the file is not applied. Files are
+ * written without subsampling at quality 100.
  *
  * A file that is cut short is an error, although the library would fill the rest with grey; so is a file with more
  * than 1000 scans, because each scan takes as long as decoding the whole picture. When libjpeg reports an error,

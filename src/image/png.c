@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * PNG by libpng, 1 to 16 bits. Levels are read as sRGB, whose curve (IEC 61966-2-1) is applied here in double
- * precision:
+ * Reads and writes PNG files of 1 to 16 bits by libpng. Levels are read as sRGB, whose curve (IEC 61966-2-1) is
+ * applied here in double precision:
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
  * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
  * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is read as sRGB, because writers of sRGB
@@ -89,7 +89,7 @@ static void get(png_structp png, png_bytep data, size_t size)
     s->left -= size;
 }
 
-/* What to read: colours, the same with sRGB's curve whatever the file states, or only the transparency. */
+/* What to read: colours; colours by sRGB's curve, whatever curve the file states; or only the transparency. */
 typedef enum part { COLOURS, AS_SRGB, ALPHA } part;
 
 typedef struct head {

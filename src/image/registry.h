@@ -8,13 +8,13 @@
 #include "core/read_file.h"
 #include "image/formats.h"
 
-/* koksma_image_read with the kind of the file, and with who named the file: the user or another file
-   (core/read_file.h). */
+/* Reads an image as koksma_image_read does; `kind` is the kind of the file, and `by` tells whether the user or
+   another file named it (core/read_file.h). */
 koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out);
 
-/* The part of an image file to read: colours in linear light; the same of levels that are sRGB's, whatever transfer
-   function the file states; numbers as stored in the file, without a transfer function; or the transparency, which a file
-   may lack. */
+/* The part of an image file to read: colours in linear light; colours in linear light from levels that count as sRGB,
+   whatever transfer function the file states; numbers as stored in the file, without a transfer function; or the
+   transparency, which a file may lack. */
 typedef enum koksma__image_part {
     KOKSMA__IMAGE_COLOURS,
     KOKSMA__IMAGE_SRGB,
@@ -28,7 +28,7 @@ koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, k
    UNSUPPORTED. */
 koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size);
 
-/* koksma_image_write for a file in a folder, when the program, not the user, has chosen the file's name
+/* Writes an image as koksma_image_write does, to a file in `folder` whose name the program, not the user, has chosen
    (koksma__atomic_open). */
 koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
                                      const char *metadata);

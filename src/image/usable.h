@@ -6,14 +6,14 @@
 #include "image/formats.h"
 #include "image/image.h"
 
-/* ARGUMENT unless the image has pixels and valid dimensions. */
+/* Fails with ARGUMENT unless the image has pixels and valid dimensions. */
 static inline koksma_status koksma__image_usable(const koksma_image *image)
 {
     return image->pixels ? koksma__image_check_shape(image->width, image->height, image->channels)
                          : koksma__fail(KOKSMA_ARGUMENT, "an image without pixels");
 }
 
-/* ARGUMENT unless both images have pixels and the same width and height. */
+/* Fails with ARGUMENT unless both images have pixels and the same width and height. */
 static inline koksma_status koksma__image_check_sizes(const koksma_image *a, const koksma_image *b)
 {
     KOKSMA__TRY(koksma__image_usable(a));

@@ -14,7 +14,7 @@ koksma_status koksma__gltf_list(const field *object, const char *key, field *lis
     return status ? status : koksma__json_length(list, KOKSMA__GLTF_ITEMS, n);
 }
 
-/* Follows the path `keys` into nested objects; false: a key is missing. */
+/* Follows the path `keys` into nested objects; returns false if a key is missing. */
 bool koksma__gltf_find(const field *from, const char *const keys[], field *out)
 {
     field at = *from;

@@ -38,14 +38,15 @@ typedef struct koksma__gltf {
     koksma__mesh_file *out;
     koksma__json_node root, lists[KOKSMA__GLTF_LISTS];
     size_t n[KOKSMA__GLTF_LISTS];
-    koksma__gltf_bytes binary;   /* the binary piece of a GLB file */
+    koksma__gltf_bytes binary;   /* the binary chunk of a GLB file */
     koksma__gltf_bytes *buffers; /* contents of the file's buffers */
     koksma__gltf_bytes *images;  /* images within the file, each loaded when first needed */
     koksma__list shown;          /* placements of the file's meshes */
     bool *mesh_shown;
     /* whether a mesh that is shown uses the material; the last entry stands for primitives without a material */
     bool *material_used;
-    bool *material_tinted; /* whether a mesh that is shown and has vertex colours uses the material; same indices */
+    bool *material_tinted; /* whether a mesh that is shown and has vertex colours uses the material; indexed like
+                              material_used */
     size_t *beyond;        /* 1 + the largest index in an accessor of indices; 0: not computed yet */
 } koksma__gltf;
 
@@ -55,7 +56,7 @@ koksma_status koksma__gltf_list(const koksma__json_node *object, const char *key
 /* Item i of the list `which` of the root object; i must be in range. */
 koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i);
 
-/* Follows the path `keys` into nested objects; false: a key is missing. */
+/* Follows the path `keys` into nested objects; returns false if a key is missing. */
 bool koksma__gltf_find(const koksma__json_node *from, const char *const keys[], koksma__json_node *out);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The bytes of a glTF file: buffers from files beside the model, from base64 in it, or from the second chunk of a
- * binary file; buffer views; and accessors, whose elements are contiguous or `byteStride` apart (glTF 2.0, sections
+ * Reads the bytes of a glTF file: buffers from files beside the model, from base64 in it, or from the second chunk of
+ * a binary file; buffer views; and accessors, whose elements are contiguous or `byteStride` apart (glTF 2.0, sections
  * 3.6.1 and 4.4). Numbers are little-endian on every machine. A missing buffer is an error only if data in it are
  * needed.
  */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The materials of a glTF file: factors of colour, metal and roughness, normals, emission and alpha, each with its
- * texture and its texture's transform (KHR_texture_transform); emissive strength and index of refraction. Occlusion
- * is not read, because the renderer computes it. A mesh keeps only the set of texture coordinates that the first
- * texture of its material uses; textures with another set are counted for a warning. Specification: Khronos, "glTF
- * 2.0" (2021), section 3.9, and the specifications of the extensions.
+ * Reads the materials of a glTF file: factors of colour, metal and roughness, normals, emission and alpha, each with
+ * its texture and its texture's transform (KHR_texture_transform); emissive strength and index of refraction.
+ * Occlusion is not read, because the renderer computes it. A mesh keeps only the set of texture coordinates that the
+ * first texture of its material uses; textures with another set are counted for a warning. Specification: Khronos,
+ * "glTF 2.0" (2021), section 3.9, and the specifications of the extensions.
  */
 #include "meshes/gltf_materials.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The meshes of a glTF file: each primitive of triangles, strips or fans becomes a mesh. POSITION, NORMAL, COLOR_0,
- * one set of texture coordinates and the indices are read; the origin of texture coordinates is the upper left in
- * glTF and the lower left here, so v becomes 1 - v. All meshes are checked: attributes have as many elements as there
- * are positions, and every index names a position (glTF 2.0, section 3.7.2). Only meshes that a node of the scene
- * shows are kept.
+ * Reads the meshes of a glTF file: each primitive of triangles, strips or fans becomes a mesh. POSITION, NORMAL,
+ * COLOR_0, one set of texture coordinates and the indices are read; the origin of texture coordinates is the upper
+ * left in glTF and the lower left here, so v becomes 1 - v. All meshes are checked: attributes have as many elements
+ * as there are positions, and every index names a position (glTF 2.0, section 3.7.2). Only meshes that a node of the
+ * scene shows are kept.
  */
 #include "meshes/gltf_meshes.h"
 
@@ -20,7 +20,8 @@ enum { TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
 typedef struct primitive {
     koksma__gltf_elements positions, normals, uvs, colours, indices; /* n is 0 for an attribute that is missing */
-    long long mode, material;                                        /* material: its index, or n for no material */
+    long long mode, material;                                        /* material: its index; no material: the number
+                                                                        of materials */
 } primitive;
 
 /* Reads the attribute `key`, if it exists: `width` components for each of n vertices, or, if `wide`, width + 1. */

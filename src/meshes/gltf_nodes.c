@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The nodes of a glTF file's scene: where they place meshes, lights (KHR_lights_punctual) and the camera. A node's
- * matrix is the product of the matrices from its root down to the node, in double precision. gltf_check.c has checked
- * that nodes form trees.
+ * Reads the nodes of a glTF file's scene: where they place meshes, lights (KHR_lights_punctual) and the camera. A
+ * node's matrix is the product of the matrices from its root down to the node, in double precision. gltf_check.c has
+ * checked that nodes form trees.
  */
 #include "meshes/gltf_nodes.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Decompresses with zlib, which finds out by itself whether a stream is zlib's or gzip's (32 added to the window's
- * bits). zlib counts bytes in 32 bits, so that longer blocks are passed in pieces. A stream is read as far as the
- * caller asks: a file that stands for more than it claims costs nothing.
+ * bits). zlib counts bytes in 32 bits, so that longer blocks are passed in pieces. A stream is decompressed only as
+ * far as the caller asks, so that a file that would decompress to more than it claims costs nothing.
  */
 #include "meshes/inflate.h"
 
@@ -73,7 +73,7 @@ koksma_status koksma__inflate_read(koksma__inflate *in, void *to, size_t n)
     return KOKSMA_OK;
 }
 
-/* Goes on to the next stream of a gzip file (RFC 1952, section 2.2); false: there is none. */
+/* Goes on to the next stream of a gzip file (RFC 1952, section 2.2); returns false if there is none. */
 static bool next_stream(koksma__inflate *in)
 {
     return in->z.avail_in + in->left > 0 && inflateReset(&in->z) == Z_OK;
@@ -97,7 +97,7 @@ koksma_status koksma__inflate_all(const unsigned char *bytes, size_t size, size_
         status = status ? status : take(in, *out + n, capacity - n, &got);
         n += got;
         if (!status && n > most) {
-            status = koksma__fail(KOKSMA_MALFORMED, "it stands for more than %zu bytes", most);
+            status = koksma__fail(KOKSMA_MALFORMED, "it decompresses to more than %zu bytes", most);
         } else if (!status && n < capacity && !next_stream(in)) {
             break;
         }

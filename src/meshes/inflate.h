@@ -11,16 +11,16 @@
 
 typedef struct koksma__inflate koksma__inflate;
 
-/* Starts to decompress a stream. koksma__inflate_close ends it, also after an error, and takes NULL. The error texts
-   of these functions do not name the file. Errors: UNSUPPORTED (this build lacks zlib), MEMORY. */
+/* Starts to decompress a stream. koksma__inflate_close ends it, also after an error, and accepts NULL. The error
+   texts of these functions do not name the file. Errors: UNSUPPORTED (this build lacks zlib), MEMORY. */
 koksma_status koksma__inflate_open(const unsigned char *bytes, size_t size, koksma__inflate **out);
 void koksma__inflate_close(koksma__inflate *in);
 
-/* Reads the next n bytes of what the stream holds. Errors: MALFORMED (damaged, or fewer are left), MEMORY. */
+/* Reads the next n decompressed bytes. Errors: MALFORMED (the stream is damaged, or fewer bytes are left), MEMORY. */
 koksma_status koksma__inflate_read(koksma__inflate *in, void *to, size_t n);
 
-/* Reads all that a gzip file holds, one or several streams, and adds a zero byte; the caller frees *out. Memory grows
-   with what was decompressed. Errors: those above, and MALFORMED (more than `most` bytes). */
+/* Decompresses a whole gzip file, which has one or several streams, and adds a zero byte; the caller frees *out.
+   Memory grows with the bytes that were decompressed. Errors: those above, and MALFORMED (more than `most` bytes). */
 koksma_status koksma__inflate_all(const unsigned char *bytes, size_t size, size_t most, unsigned char **out,
                                   size_t *out_size);
 

@@ -26,8 +26,8 @@ typedef struct koksma__pose {
     double translate[3], rotation[4], scale[3];
 } koksma__pose;
 
-/* x -> matrix x, with three rows of four numbers. At time t each position is moved by t motion; or, if steps > 0, the
-   matrix is that of koksma__poses_at at the times i / steps, and linear between them. */
+/* The map x -> matrix x; the matrix has three rows of four numbers. At time t each position is moved by t motion; or,
+   if steps > 0, the matrix is that of koksma__poses_at at the times i / steps, and linear between them. */
 typedef struct koksma__placement {
     int mesh;
     double matrix[12], motion[3];

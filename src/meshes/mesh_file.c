@@ -25,7 +25,7 @@ bool koksma__is_file(const char *path)
     return !stat(path, &about) && !S_ISDIR(about.st_mode);
 }
 
-/* Decodes %20 and other URI escapes in place; false: there are none, or one encodes a zero byte. */
+/* Decodes %20 and other URI escapes in place; returns false if there are none, or if one encodes a zero byte. */
 static bool decode(char *text)
 {
     char *to = text;
@@ -44,7 +44,7 @@ static bool decode(char *text)
     return any;
 }
 
-/* Replaces \ by /; false: there is none. */
+/* Replaces each \ by /; returns false if there is no \. */
 static bool use_slashes(char *text)
 {
     bool any = false;

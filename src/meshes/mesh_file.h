@@ -70,7 +70,7 @@ typedef struct koksma__file_light {
 typedef struct koksma__mesh_file {
     const char *path;
     long part;     /* the index of the only mesh to read, for formats with several numbered meshes; -1: all */
-    uint64_t hash; /* sum of the hashes of all files read; a file is counted as often as in stored studies */
+    uint64_t hash; /* sum of the hashes of all files read, each counted as often as mesh_read.c explains */
     koksma__list meshes, materials, placements, lights;
     size_t n_vertices, n_triangles; /* numbers of vertices and of triangles in all meshes together */
     double yfov_rad, camera[12];    /* the camera; yfov_rad 0: there is none */

@@ -8,9 +8,10 @@
  *   edge v w        3/8 (v + w) + 1/8 (c + d), the corners opposite to it                      1/2 (v + w)
  *   limit           (1 - n g) v + g N, g = 1 / (n + 3 / (8 b))                                 3/5 v + 1/5 (p + q)
  *
- * A border is an edge of one triangle, or of more than two. A vertex with other than two borders stays. Edges are found
- * by a hash table in linear time. Normals are those of the fine triangles, weighted by angles, not those of the limit
- * surface, which they approach.
+ * A border is an edge of one triangle, or of more than two. A vertex at no border is moved by the masks on the left,
+ * a vertex at two borders by those on the right, and any other vertex stays. Edges are found by a hash table in
+ * linear time. Normals are those of the fine triangles, weighted by angles, not those of the limit surface, which
+ * they approach.
  */
 #include "meshes/mesh_loop.h"
 
@@ -25,7 +26,8 @@ typedef struct edge {
     uint32_t a, b, opposite[2], n;
 } edge;
 
-/* What surrounds a vertex: the sum of its neighbours, and of those along borders. */
+/* What surrounds a vertex: the sum of its n neighbours, and the sum of the neighbours along its borders, of which
+   there are `borders`. */
 typedef struct ring {
     double sum[3], border_sum[3];
     uint32_t n, borders;
@@ -143,7 +145,7 @@ static void place_on_edge(const level *l, const edge *e, double out[3])
     }
 }
 
-/* Divides each triangle into one at each corner and one between. */
+/* Divides each triangle into four: one at each corner and one in the middle. */
 static koksma_status divide(const level *from, level *to)
 {
     const uint32_t n = (uint32_t)from->n_vertices;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins the material of that name, or
+ * Reads OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins the material of that name, or
  * continues it if it exists. The reader uses Kd (colour), Ke (emission), d and Tr (opaque or not), Pm and Pr
  * (metallic, roughness), map_Kd and map_Ke or map_emissive (textures, whose options are skipped), and ignores all
  * other keywords. A colour is one to three numbers; missing numbers are equal to the first. Format: Wavefront's
@@ -95,7 +95,7 @@ void koksma__mtl_names_fini(koksma__mtl_names *names)
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */
 
-/* Reads a word that is a number below 1e38; false: there is none, and nothing was consumed. */
+/* Reads a word that is a number below 1e38; if the next word is not, returns false and consumes nothing. */
 static bool take_number(koksma__text *t, float *out)
 {
     koksma__text after = *t;
@@ -129,8 +129,8 @@ static koksma_status take_colour(koksma__text *t, float out[3])
     return KOKSMA_OK;
 }
 
-/* The file's name after the options, as in "-s 2 1 image.png". The options -o, -s and -t have one to three
-   numbers. */
+/* Reads the file's name, which follows the options, as in "-s 2 1 image.png". The options -o, -s and -t have one to
+   three numbers. */
 static koksma_status take_texture(koksma__text *t, koksma__file_texture *out)
 {
     static const struct {

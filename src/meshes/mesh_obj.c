@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * OBJ files: polygons with their texture coordinates, normals and materials. Lines and points, curves and surfaces,
- * and smoothing groups are not read.
+ * Reads OBJ files: polygons with their texture coordinates, normals and materials. Lines and points, curves and
+ * surfaces, and smoothing groups are not read.
  *
  * A corner names a position and perhaps a texture vertex and a normal, by numbers that count from 1, or backwards
  * from the last one if they are negative. Numbers may refer to later lines, so the corners are stored until the end
- * of the file. Then each corner becomes a separate vertex, because OBJ files share positions, not vertices. Polygons
- * are fans of triangles. A new mesh begins where o or g name another object or group and where usemtl names another
- * material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of its
- * corners names one; corners without get the value 0.
+ * of the file. Then each corner becomes a separate vertex, because OBJ files share positions, not vertices. A polygon
+ * becomes a fan of triangles. A new mesh begins where o or g name another object or group and where usemtl names
+ * another material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of
+ * its corners names one; corners without get the value 0.
  *
  * Format: Wavefront's "Advanced Visualizer Manual", appendix B1.
  */
@@ -30,7 +30,7 @@ enum { PLACE, TEXTURE, NORMAL, KINDS };
 /* Number of floats of an item of each kind. */
 static const size_t widths[KINDS] = {[PLACE] = 4, [TEXTURE] = 2, [NORMAL] = 3};
 
-/* A corner's numbers of items, from 1 on; 0: none. */
+/* The numbers of the items that a corner names, one of each kind, from 1 on; 0: none. */
 typedef struct corner {
     uint32_t names[KINDS];
 } corner;
@@ -50,7 +50,7 @@ typedef struct obj {
     size_t highest[KINDS]; /* largest number that a corner names */
     size_t line_of[KINDS]; /* the line that first names that number */
     koksma__mtl_names names;
-    koksma__list used;                 /* size_t indices of names in the order of their first use */
+    koksma__list used;                 /* indices of names (size_t) in the order in which the names were first used */
     size_t material;                   /* material of the following polygons */
     bool split;                        /* the next polygon begins a new mesh */
     uint64_t group, object;            /* hashes of the current names */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * OFF files in their plain text form: "OFF", a line with the numbers of vertices and faces, then one line for each
- * vertex and each face. Comments go from # to the line's end; anything after a vertex's or face's numbers, such as
- * colours, is ignored. A face is given by the number of its corners and the indices of their vertices, from 0 on; it
- * becomes a fan of triangles. The variants with a prefix (COFF, NOFF, STOFF, 4OFF, nOFF) and the binary form are
+ * Reads OFF files in their plain text form: "OFF", a line with the numbers of vertices and faces, then one line for
+ * each vertex and each face. Comments go from # to the line's end; anything after a vertex's or face's numbers, such
+ * as colours, is ignored. A face is given by the number of its corners and the indices of their vertices, from 0 on;
+ * it becomes a fan of triangles. The variants with a prefix (COFF, NOFF, STOFF, 4OFF, nOFF) and the binary form are
  * recognised by their first line and rejected. Format: http://www.geomview.org/docs/html/OFF.html.
  */
 #include "meshes/mesh_off.h"
@@ -15,7 +15,7 @@
 typedef struct off {
     koksma__text text;
     long long vertices, faces;
-    koksma__list positions, corners, indices; /* the corners of one face */
+    koksma__list positions, corners, indices; /* corners: those of one face; indices: three for each triangle */
 } off;
 
 /* Goes to the next line that is not empty and not only a comment. */

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * PLY files, as text and binary in either byte order. The header lists the kinds of elements, the number of each, and
- * their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one line.
+ * Reads PLY files, as text and binary in either byte order. The header lists the kinds of elements, the number of
+ * each, and their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one
+ * line.
  *
- * Of "vertex" the properties x y z, nx ny nz, texture coordinates (u v, s t, tx ty, texture_u texture_v) and colours
- * (only whether any exist) are read; of "face" the list vertex_indices or vertex_index, a fan of triangles, and the
- * list texcoord, u and v for each corner, which become the texture coordinates of the vertices: if faces that share a
- * vertex disagree, the last face wins. A comment "TextureFile NAME" names the texture. Everything else is skipped,
- * but still checked: a file that is cut short, or that lacks a number where the header requires one, is an error.
+ * Of the element "vertex" the properties x y z, nx ny nz and texture coordinates (u v, s t, tx ty, texture_u
+ * texture_v) are read, and whether there are colours. Of "face" two lists are read: vertex_indices or vertex_index, a
+ * fan of triangles; and texcoord, u and v for each corner. The latter become the texture coordinates of the vertices;
+ * if faces that share a vertex disagree, the last face wins. A comment "TextureFile NAME" names the texture.
+ * Everything else is skipped, but still checked: a file that is cut short, or that lacks a number where the header
+ * requires one, is an error.
  *
  * Format: G. Turk, "The PLY Polygon File Format" (1994); texcoord and TextureFile are MeshLab's.
  */
@@ -54,7 +56,7 @@ typedef struct ply {
     property properties[MAX_PROPERTIES];
     char texture[1024];
     koksma__mesh mesh;
-    koksma__list corners, indices; /* the corners of one face */
+    koksma__list corners, indices; /* corners: those of one face; indices: three for each triangle */
 } ply;
 
 /* ---- The header ------------------------------------------------------------------------------------------ */
@@ -211,7 +213,7 @@ static koksma_status check_length(const ply *p)
         bytes += (double)e->count * (double)e->bytes;
         KOKSMA__FAIL_IF(e->count && !e->n, KOKSMA_MALFORMED, "%s: element '%s' has no properties", t->path, e->name);
     }
-    if (bytes > (double)(t->end - t->next) + 1) { /* the last blank may be missing */
+    if (bytes > (double)(t->end - t->next) + 1) { /* the blank after the last number may be missing */
         return koksma__fail(KOKSMA_MALFORMED,
                             "%s: its elements take %.0f bytes at least, but the file has only %td after its header",
                             t->path, bytes, t->end - t->next);
@@ -301,7 +303,7 @@ static inline koksma_status take_number(ply *p, const type *of, bool as_whole, d
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* Checks that the number i, an entry of element e, is the index of a vertex. */
+/* Checks that `vertex`, a number in item i of element e, is the index of a vertex. */
 static koksma_status check_corner(const ply *p, const element *e, size_t i, long long vertex)
 {
     char where[40] = "";

@@ -37,8 +37,8 @@ static koksma_status check_gzip(const unsigned char *bytes, size_t size)
 
 /* The reader for an ending of a file's name. The hash of a model's scene is the sum of the hashes of its files, with
    the model's own hash counted `times` times: stored studies find their scenes by this hash, and earlier versions
-   read the file that many times. Where the same files give another scene, `times` changes: glTF's was 5 until the gamma
-   of its images was ignored. */
+   read the file that many times. When a change of the code makes another scene of the same files, `times` changes:
+   glTF's was 5 until the gamma of its images was ignored. */
 typedef struct reader {
     const char *ending;
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
@@ -72,7 +72,7 @@ bool koksma__is_mesh_file(const char *path)
     return find_reader(path) != NULL;
 }
 
-/* Replaces the bytes of a gzip file by those that it stands for, which are owned by the file, too. */
+/* Replaces the bytes of a gzip file by the decompressed bytes; `out` owns both. */
 static koksma_status unpack(const unsigned char **bytes, size_t *size, koksma__mesh_file *out)
 {
     unsigned char *unpacked = NULL;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Mitsuba's .serialized files, versions 3 and 4: several meshes, each compressed, and a dictionary at the end.
+ * Reads Mitsuba's .serialized files, versions 3 and 4, which have several meshes, each compressed, and a dictionary
+ * at the end.
  *
  *   mesh        0x041C and the version (16 bits each), then a zlib stream (RFC 1950) of:
  *                 flags (32 bits); version 4: a name that ends with a zero byte; the numbers of vertices and of
@@ -12,8 +13,9 @@
  * All numbers are little-endian; those of vertices have single or double precision. Mitsuba's flag for face normals
  * is ignored, as by Mitsuba 3, where the scene decides (its face_normals). A mesh without normals gets none here.
  *
- * What a mesh claims is compared with the size of its stream before memory is taken, and the meshes of a file stand
- * together for at most as many bytes as a model may have. Their positions must rise, so that none is read twice.
+ * The numbers of vertices and triangles that a mesh claims are compared with the size of its stream before memory is
+ * allocated, and all meshes of a file together may decompress to at most as many bytes as a model may have. The
+ * positions in the dictionary must increase, so that no mesh is read twice.
  *
  * Format: the documentation of Mitsuba's plug-in "serialized".
  */
@@ -33,7 +35,7 @@ typedef struct stream {
     koksma__inflate *in;
     bool is_double;
     size_t size;    /* of the compressed data */
-    uint64_t *left; /* bytes that the file's meshes may still stand for */
+    uint64_t *left; /* number of bytes to which the file's meshes may still decompress */
 } stream;
 
 static uint64_t whole(const unsigned char *bytes, int n)
@@ -122,7 +124,7 @@ static koksma_status check_claim(stream *s, uint64_t flags, uint64_t vertices, u
     KOKSMA__FAIL_IF(claimed / KOKSMA__INFLATE_RATIO > s->size, KOKSMA_MALFORMED,
                     "%llu vertices and %llu triangles are more than its %zu compressed bytes can hold",
                     (unsigned long long)vertices, (unsigned long long)triangles, s->size);
-    KOKSMA__FAIL_IF(claimed > *s->left, KOKSMA_MALFORMED, "its meshes stand for more than %llu bytes",
+    KOKSMA__FAIL_IF(claimed > *s->left, KOKSMA_MALFORMED, "its meshes decompress to more than %llu bytes",
                     (unsigned long long)koksma__file_most(KOKSMA__FILE_MESH));
     *s->left -= claimed;
     return KOKSMA_OK;

@@ -92,7 +92,7 @@ size_t koksma__text_rest(koksma__text *t, const char **rest)
 }
 
 /* Reads digits into *w while it has fewer than 19, and returns their number. *left receives the number of further
-   *digits, and *lossy is set if one of these is not 0. */
+   digits, and *lossy is set if one of these is not 0. */
 static size_t take_digits(const char **at, const char *end, uint64_t *w, int *left, bool *lossy)
 {
     const char *first = *at;

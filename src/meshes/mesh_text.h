@@ -18,7 +18,7 @@ typedef struct koksma__text {
 /* Starts before the first line, and skips a UTF-8 byte order mark. */
 koksma__text koksma__text_open(const char *path, const unsigned char *file, size_t size);
 
-/* Goes to the next line, whose end (LF or CR LF) is not part of it; false if there is none. */
+/* Goes to the next line, whose end (LF or CR LF) is not part of it; returns false if there is none. */
 bool koksma__text_line(koksma__text *t);
 
 /* Goes to the next line with text before the first character `comment`, at which the line is cut. Errors: MALFORMED
@@ -28,7 +28,7 @@ koksma_status koksma__text_full_line(koksma__text *t, char comment);
 /* Fails with MALFORMED and the text "PATH: line N: REASON". */
 koksma_status koksma__text_wrong(const koksma__text *t, const char *reason);
 
-/* Reads the next word of the line, which ends at a blank; false: there is none. */
+/* Reads the next word of the line, which ends at a blank; returns false if there is none. */
 bool koksma__text_word(koksma__text *t, const char **word, size_t *length);
 
 /* Whether the span equals the word `wanted`. */

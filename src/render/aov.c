@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Arbitrary output variables: further images of the same samples as a picture.
+ * Arbitrary output variables (AOVs): further images, which are made from the same samples as the picture.
  *
  * The light of a sample is a sum over paths; a path whose light was reflected or refracted r times, mirrors and glass
- * included, belongs to `bounce:r`. `direct` is r = 0 and 1: light seen, and light of lights reflected once; `indirect`
- * is the rest. At the vertex that a ray reaches after b reflections the tracer adds emission (r = b), light of
- * sampled lights (r = b + 1), and the light that surfaces reflect onto each other, given by the scene's ambient light
- * or an irradiance cache (r = b + 2, because that light was reflected once before). Each is the difference of the
- * vertex's light after and before, so that the parts of a sample add up to it within the rounding of floats; where
- * the sample is clamped, its parts are reduced by the same factor. The filter weights of the samples apply to their
- * parts as well.
+ * included, belongs to `bounce:r`. `direct` is r = 0 and 1: light seen, and light of lights reflected once;
+ * `indirect` is the rest. At the vertex that a ray reaches after b reflections the tracer adds emission (r = b),
+ * light of sampled lights (r = b + 1), and the light that surfaces reflect onto each other, given by the scene's
+ * ambient light or an irradiance cache (r = b + 2, because that light was reflected once before). Each of these parts
+ * is the difference of the vertex's light after and before the tracer adds it, so that the parts of a sample add up
+ * to its light within the rounding of floats; where the sample is clamped, its parts are reduced by the same factor.
+ * The filter weights of the samples apply to their parts as well.
  *
  * `id` is the number of the object (from 1 in the order of `koksma scene check`; 0: none) that most samples of the
  * pixel hit first; of equally frequent numbers the smallest. `half:even` and `half:odd` are the means of the samples
- * 0, 2, ... and 1, 3, ... of each pixel, two pictures whose difference shows the noise; without such a sample a pixel
- * is 0.
+ * 0, 2, ... and 1, 3, ... of each pixel, two pictures whose difference shows the noise; a pixel that has no such
+ * sample is 0.
  */
 #include "render/aov.h"
 
@@ -35,7 +35,7 @@ static const struct {
              {"half:even", KOKSMA__AOV_HALF, 0, 0},
              {"half:odd", KOKSMA__AOV_HALF, 1, 0}};
 
-/* Finds an AOV by its name; false if there is none. */
+/* Finds an AOV by its name; returns false if there is none. */
 static bool find(const char *name, koksma__aov *out)
 {
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++) {
@@ -105,7 +105,7 @@ koksma_status koksma__aovs_init(const koksma__frame *frame, koksma_aovs *images,
     for (int i = 0; i < images->n; i++) {
         koksma__aov *aov = &out->items[i];
         KOKSMA__FAIL_IF(!memchr(images->names[i], 0, sizeof images->names[i]) || !find(images->names[i], aov),
-                        KOKSMA_ARGUMENT, "the names of the AOVs are not those of koksma_aovs_parse");
+                        KOKSMA_ARGUMENT, "an AOV has a name that koksma_aovs_parse did not write");
         aov->image = &images->images[i];
         out->has_id |= aov->kind == KOKSMA__AOV_ID;
         out->n_parts += aov->kind == KOKSMA__AOV_LIGHT;

@@ -20,7 +20,7 @@ typedef struct koksma__aov {
 struct koksma__aovs {
     size_t n;
     bool has_id;
-    size_t n_parts; /* number of AOVs of light */
+    size_t n_parts; /* number of AOVs of the kind KOKSMA__AOV_LIGHT */
     koksma__aov items[KOKSMA_MAX_AOVS];
 };
 
@@ -38,15 +38,16 @@ void koksma__aov_add(const koksma__frame *frame, const koksma__vertices *v, cons
 /* Stores the numbers of the objects that the rays hit first. */
 void koksma__aov_note(const koksma__frame *frame, const koksma__vertices *v, koksma__values *values);
 
-/* Multiplies the AOVs of light of sample i, channel k, by the factor by which the sample was clamped. */
+/* Multiplies channel k of sample i in all AOVs of the kind KOKSMA__AOV_LIGHT by the factor by which the sample was
+   clamped. */
 void koksma__aov_clamp(const koksma__aovs *aovs, koksma__values *values, size_t i, int k, float factor);
 
-/* Sets the pixel of the AOVs of objects, if there are any, to the one that most of the samples first .. end - 1 hit; sorts
-   their ids. */
+/* In each AOV of object numbers, sets the pixel to the number of the object that most of the samples first .. end - 1
+   hit; sorts the samples' numbers. */
 void koksma__aov_ids(const koksma__frame *frame, const koksma__values *values, size_t pixel, size_t first,
                      size_t end);
 
-/* Adds the samples of a group to the images. weights: of the filter, or NULL. */
+/* Adds the samples of a group to the images. weights: those of the filter; NULL: all are 1. */
 void koksma__aov_film(const koksma__frame *frame, const koksma__group *group, const koksma__values *values,
                       const float *weights);
 

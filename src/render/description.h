@@ -21,9 +21,9 @@ typedef struct koksma__shape {
     double centre[3], axis_u[3], axis_v[3], normal[3];
     double half[2];   /* half sides; half[0] is the radius of a disk or sphere; infinite for a plane */
     double motion[3]; /* at time t the shape is moved by t motion */
-    /* turns: the shape also rotates and scales about the pivot, and the loops see it at rest. A point p of the shape at
-       rest is at time t at
-           pivot + t motion + (1 + t (scale - 1)) Rotation(axis, t angle_rad) (p - pivot) */
+    /* turns: the shape also rotates and scales about the pivot; the intersection loops work on the shape at rest. A
+       point p of the shape at rest is at time t at
+           pivot + t motion + (1 + t (scale - 1)) Rotation(axis, t angle_rad) (p - pivot)  */
     struct {
         bool turns;
         double pivot[3], axis[3], angle_rad, scale;
@@ -67,7 +67,7 @@ typedef struct koksma__material {
     bool checker;
     double albedo[2][3]; /* albedo of the diffuse part */
     double period, phase[2], angle_rad;
-    double values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
+    double values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */
     /* the albedo as an image over the surface's coordinates, instead of `albedo`; or NULL */
     koksma_image *image;
     koksma__mapping mapping; /* how image is mapped to a mesh */
@@ -103,7 +103,7 @@ typedef struct koksma__light {
     double power;   /* set for rectangles and disks */
     /* for a point light the intensity, for parallel light the irradiance of a surface that faces the light */
     double radiance[3];
-    double values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
+    double values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */
     bool visible;                      /* camera rays see the light; a flat light or sphere then also has a shape */
     double angle_rad;                  /* rotation of the environment's image about y */
     int placement;                     /* of a mesh */
@@ -138,7 +138,7 @@ typedef struct koksma__scene_cache {
 /* A feature of another renderer's scene that is not supported, and its replacement. */
 typedef struct koksma__unknown {
     char file[64], text[256];
-    unsigned long line; /* place of the first occurrence; there are n occurrences */
+    unsigned long line; /* line of the first occurrence in `file`; there are n occurrences */
     size_t n;
 } koksma__unknown;
 
@@ -164,8 +164,8 @@ struct koksma_scene {
     koksma__unknown *unknown; /* unsupported features of another renderer's scene */
     size_t n_unknown;
     bool glows; /* a placement that has a material is also a light */
-    /* numbers of lights and shapes at the ends of the lists that model.c added to the scene of a model file; each of
-       these shapes uses one of the last materials */
+    /* how many of the last lights and of the last shapes model.c added to the scene of a model file; each of these
+       shapes uses one of the last materials */
     struct {
         size_t lights, shapes;
     } studio;

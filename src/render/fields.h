@@ -29,11 +29,11 @@ typedef koksma__json_node field;
 typedef enum koksma__parameter_type {
     KOKSMA__NUMBER,    /* a number between low and high; one double */
     KOKSMA__COLOUR,    /* one number (grey) or red, green and blue, each 0 to high; 3 doubles */
-    KOKSMA__POINT,     /* coordinates within 1e6; 3 doubles */
-    KOKSMA__DIRECTION, /* coordinates within 1e6, normalised to a unit vector; 3 doubles */
+    KOKSMA__POINT,     /* coordinates from -1e6 to 1e6; 3 doubles */
+    KOKSMA__DIRECTION, /* coordinates from -1e6 to 1e6, normalised to a unit vector; 3 doubles */
     KOKSMA__FLAG,      /* true or false; a bool */
-    KOKSMA__RADIUS,    /* above 1e-6; 2 doubles, equal */
-    KOKSMA__HALF       /* half sides, both above 1e-6; 2 doubles */
+    KOKSMA__RADIUS,    /* a radius above 1e-6, stored in each of 2 doubles */
+    KOKSMA__HALF       /* two half sides, both above 1e-6; 2 doubles */
 } koksma__parameter_type;
 
 typedef struct koksma__parameter {

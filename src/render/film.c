@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The value of a pixel is the weighted mean of its samples; the filter gives the weights (filters.h), which are 1 for
- * the box.
+ * The value of a pixel is the weighted mean of its samples; the filter gives the weights (filters/filter_table.h),
+ * which are 1 for the box.
  *
  * Samples that are drawn from a filter f with negative lobes have the density |f| / c, c = integral of |f|, and the
  * weights w = c sign(f), whose mean is 1. The mean of w y would turn a constant picture into noise, because the w of
@@ -203,7 +203,7 @@ static double splat_variance(const double *moments, double weight, double mean)
     const double off = moments[SUM_W2_Y2] - mean * (2 * moments[SUM_W2_Y] - mean * w2);
     const double left = w2 - 2 * moments[SUM_W3] / weight + ratio * ratio;
     /* if there is one sample, if all others have negligible weight, or if all values are equal, the result would only
-       be rounding: return 0 */
+       be rounding error: return 0 */
     return off > 1e-14 * moments[SUM_W2_Y2] && left > 1e-12 * w2 ? off / (weight * weight) * (w2 / left) : 0;
 }
 

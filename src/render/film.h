@@ -41,7 +41,7 @@ void koksma__film_fini(koksma__film *film);
 
 /* Moves the samples of a group, drawn on the unit square of each pixel, to film positions that the filter selects,
    and sets their weights. If `all`, the group has all samples of its pixels, and the weights are those of the pixels'
-   means (film.c); otherwise the weights are those of the single draws (filters.h). */
+   means (film.c); otherwise the weights are those of the single draws (filters/filter_table.h). */
 void koksma__film_place(const koksma__frame *frame, const koksma__group *group, bool all, koksma__values *values);
 
 /* Prepares the splats of a task. */
@@ -55,7 +55,8 @@ void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, siz
 void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t task, const koksma__group *group,
                       const koksma__values *values);
 
-/* `koksma__film_add` for samples of one colour, if the film neither splats nor has other layers. */
+/* Does what koksma__film_add does, for a group whose samples all have the colour rgb and a film without splatting and
+   without further layers. */
 void koksma__film_fill(const koksma__film *film, const koksma__group *group, const float *rgb, size_t channels);
 
 /* Called after all tasks have ended: adds the splats in the order of tasks. Pixels without samples are filled from

@@ -32,7 +32,7 @@ typedef struct koksma__frame {
     koksma__frustum_cull *frustum_cull; /* NULL: every ray is tested against all shapes */
     koksma__use_list uses;
     koksma__sampler sampler;
-    /* number of samples of a group, as the pipeline prefers; a pixel with more samples makes a larger group */
+    /* number of samples of a group that the pipeline prefers; a pixel with more samples makes a larger group */
     size_t together;
     koksma__batch_camera camera;
     /* for an orthographic camera: the ray at film position (x, y) starts at eye + origins[0] + x origins[1] + y
@@ -59,16 +59,18 @@ typedef struct koksma__group {
     size_t start[KOKSMA__GROUP_PIXELS + 1];
 } koksma__group;
 
-/* The values of the samples of a group. Each channel has capacity floats; unused layers are NULL. */
+/* The values of the samples of a group. Arrays have as many floats for each channel as the group can have samples;
+   those of unused layers are NULL. */
 typedef struct koksma__values {
-    /* positions on the film, in pixels: 2 for each sample. As floats they are multiples of 2^(k - 23) of a pixel from
-       pixel 2^k on (of 1/256 at the far edge of the widest image); the directions computed from them are no finer */
+    /* positions on the film, in pixels: 2 for each sample. From pixel 2^k to pixel 2^(k + 1) neighbouring floats
+       differ by 2^(k - 23) pixels (by 1/256 at the far edge of the widest image), and the directions computed from
+       them have no finer steps */
     float *film;
-    float *weights; /* of the filter; NULL: all weights are 1 */
+    float *weights; /* weights of the filter; NULL: all weights are 1 */
     float *rgb;     /* channels a sample */
     float *albedo, *normal, *depth;
     float *parts; /* 3 numbers for each AOV of light for each sample; NULL: no AOVs */
-    float *ids;   /* the first object that each sample hits */
+    float *ids;   /* the number of the first object that each sample hits */
     uint64_t rays;
 } koksma__values;
 
@@ -82,11 +84,12 @@ typedef struct koksma__pipeline {
     /* Allocates the scratch of a task. Errors: MEMORY. */
     koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **scratch);
     void (*close)(void *scratch);
-    /* Whether no ray of the group can hit anything, wherever its samples are within the pixels, and no filter or other
-       layer needs samples. If so, it sets the colour of all samples in values->rgb[0] and so on, and no samples need to
-       be drawn or traced. NULL: the pipeline has no such test. */
+    /* Returns true if no ray of the group can hit anything, wherever its samples are within the pixels, and no filter
+       or other layer needs samples. It then writes the one colour of all samples to values->rgb[0] and, if there are
+       three channels, [1] and [2], and no samples need to be drawn or traced. NULL: the pipeline has no such test. */
     bool (*is_empty)(const koksma__frame *frame, void *scratch, const koksma__group *group, koksma__values *values);
-    /* Fills values, where film and weights are set already. Errors: the sampler's, MEMORY. */
+    /* Traces the samples at the film positions values->film, and writes their values to the other arrays of `values`;
+       film and weights are set before. Errors: the sampler's, MEMORY. */
     koksma_status (*trace)(const koksma__frame *frame, void *scratch, const koksma__group *group,
                            koksma__values *values);
 } koksma__pipeline;
@@ -112,13 +115,14 @@ void koksma__move_origins(const koksma__frame *frame, const float *film, int n, 
 /* The sample dimensions that the render will use. */
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);
 
-/* The number of samples, rounded up to whole lanes. */
+/* The number of samples, rounded up to a multiple of KOKSMA__LANE_STEP (batch.h), as loops over lanes need it. */
 static inline size_t koksma__whole_lanes(size_t samples)
 {
     return (samples + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
 }
 
-/* The number of samples in the largest group, rounded up to whole lanes, if a pixel has at most `most` samples. */
+/* The number of samples in the largest group, rounded up by koksma__whole_lanes, if a pixel has at most `most`
+   samples. */
 static inline size_t koksma__group_capacity(const koksma__frame *frame, size_t most)
 {
     return koksma__whole_lanes(most < frame->together ? frame->together : most);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Finds the shapes that rays through a part of the film can hit. A ray from the eye o through film position (x, y)
- * goes along d = base + x step_x + y step_y, so
+ * goes along d = base + x step_x + y step_y. A flat shape has the centre c, the normal n, the axes u and v, and the
+ * half side h along u; any other shape lies in the sphere of centre c and radius r. Then
  *
  *   flat shape:  with e = o - c, s = -sign(n.e), N = s n.d: it is met in front of the eye where N > 0, at
  *                u = (e.u + |n.e| d.u / N); u > h there if and only if (e.u - h) N + |n.e| d.u > 0, and likewise for
@@ -11,7 +12,7 @@
  *                |e x d|^2 - r^2 d.d > 0, a quadratic form in (x, y), bounded from below by its value, slopes and
  *                curvatures at the middle.
  *
- * Bounds are in double precision, but batch_shapes.c computes hits in floats, so that shapes are enlarged by more
+ * Bounds are in double precision, but batch_shapes.c computes hits in floats. Shapes are therefore enlarged by more
  * than the rounding errors there: a position at distance R from the eye has an error of about 10 units in the last
  * place of R across the ray, and along a flat shape that error divided by the sine |n.e| / R. The film's rectangle is
  * enlarged by the effect of rounding d.

@@ -14,8 +14,9 @@ koksma_status koksma__frustum_cull_open(const koksma__batch_camera *camera, cons
                                         int width, int height, koksma__frustum_cull **out);
 void koksma__frustum_cull_close(koksma__frustum_cull *cull);
 
-/* Finds the shapes that a ray through film positions in [x[0], x[1]] x [y[0], y[1]] may hit in batch->closest. Writes
-   their indices in ascending order to `seen`, which has capacity for all shapes, and returns their number. */
+/* Finds the shapes that the kernel `closest` may report for rays through film positions in [x[0], x[1]] x [y[0],
+   y[1]]. Writes their indices in ascending order to `seen`, which has capacity for all shapes, and returns their
+   number. */
 size_t koksma__frustum_cull_shapes(const koksma__frustum_cull *cull, const double x[2], const double y[2],
                                    size_t *seen);
 

@@ -5,12 +5,12 @@
 
 #include "render/frame.h"
 
-/* Makes a group of the pixels from `first` on that have frame->together samples in all, at least one pixel, none from
-   `end` on. */
+/* Makes a group of the pixels from `first` on and below `end`: one pixel, and further ones as long as all together
+   have at most frame->together samples. */
 void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);
 
 /* Draws the sample pairs of one use for all samples of a group, one pixel after the other; with on_film each pixel's
-   position is added. The pairs are padded with copies to whole lanes. */
+   position is added. The pairs are padded with copies up to a multiple of KOKSMA__LANE_STEP. */
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
                                  koksma__sample_scratch *scratch, float *pairs);
 

@@ -11,7 +11,7 @@
  * the ray, the light comes from that end, otherwise from the medium at s. The weight is divided by the mean of the
  * channels' densities, weighted by the same probabilities (the balance heuristic), so that every channel is unbiased,
  * whichever was chosen, and the sum of the weights beta never grows. If all channels have equal coefficients, the
- * weights are exactly b / (a + b) and 1. A medium that only absorbs needs no sample.
+ * weights are exactly b / (a + b) and 1. A medium that only absorbs needs no random number.
  *
  * The phase function of Henyey & Greenstein (1941), with the mean cosine g between the directions before and after, is
  *

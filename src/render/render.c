@@ -57,7 +57,8 @@ static koksma_status render_group(job *j, size_t task, const koksma__group *grou
 
 /* ---- Tasks --------------------------------------------------------------------------------------------- */
 
-/* Calls keep_going within a task, too, because a task of one row may take minutes with many samples. */
+/* Calls keep_going if this is the thread that may call it; fails with INTERRUPTED once keep_going has returned false.
+   Tasks call this function between groups of pixels, because a task of one row may take minutes with many samples. */
 static koksma_status look(job *j)
 {
     if (pthread_equal(pthread_self(), j->caller) &&
@@ -67,8 +68,8 @@ static koksma_status look(job *j)
     return atomic_load(&j->stop) ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* The keep_going for patterns, whose sets may take seconds each, and for the threads: it stops all of them, even
-   within their tasks, once one has been stopped. */
+/* The keep_going that patterns call while they make a set, which may take seconds, and koksma__parallel between
+   tasks: once the caller has ended the run, it stops all threads, even within their tasks. */
 static bool goes_on(void *context, double fraction)
 {
     (void)fraction;
@@ -82,7 +83,7 @@ static koksma_status render_rows(void *context, size_t task)
     const int first_row = j->first_row + (int)task * j->rows_a_task, left = j->end_row - first_row;
     const int rows = left < j->rows_a_task ? left : j->rows_a_task;
     const size_t width = (size_t)f->options->width;
-    size_t samples = 0; /* time since keep_going was last called */
+    size_t samples = 0; /* samples rendered since the last call of look() */
     koksma__task_scratch r;
     koksma__group group;
     koksma_status status = koksma__task_scratch_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);

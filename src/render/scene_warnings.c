@@ -11,14 +11,14 @@
 #include "core/status.h"
 #include "render/materials/materials.h"
 
-/* The requested warning: `left` warnings are still to be skipped. */
+/* The warning that the caller requests: `left` warnings are still to be skipped before it. */
 typedef struct asked {
     size_t left;
     char *text;
     size_t size;
 } asked;
 
-/* Counts a warning; true if it is the requested one. */
+/* Counts a warning; returns true if it is the requested one. */
 static bool here(asked *a)
 {
     return !a->left--;

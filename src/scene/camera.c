@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Cameras: their lens maps by name, and their axes by the direction of view. */
+/* Finds a camera's lens map by its name, and computes a camera's axes from its direction of view. */
 #include "scene/camera.h"
 
 #include <string.h>

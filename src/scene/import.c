@@ -391,8 +391,9 @@ static void latitude_square(const double w[3], double uv[2])
     uv[1] = acos(fmin(fmax(w[1], -1), 1)) / M_PI;
 }
 
-/* Channel k of an image at (u, v): of pbrt's the nearest pixel, of Mitsuba's bilinear, with the first and the last row at
-   the poles and columns in the middle of their strips. */
+/* Channel k of an environment's image at (u, v): in an octahedral image of pbrt the nearest pixel; in an image of
+   Mitsuba the bilinear interpolation, in which the first and the last row lie at the poles and each column in the
+   middle of its strip. */
 static double value_at(const koksma_image *image, bool octahedral, const double uv[2], int k)
 {
     const int width = image->width, height = image->height;
@@ -411,8 +412,8 @@ static double value_at(const koksma_image *image, bool octahedral, const double 
     return sum;
 }
 
-/* Resamples an environment to a latitude-longitude image with Koksma's axes; each new pixel is the mean of four points.
-   Where Mitsuba interpolates, new pixels are at most .35 degrees high. */
+/* Resamples an environment to a latitude-longitude image with Koksma's axes; each new pixel is the mean of four
+   points. For an image of Mitsuba, which is interpolated, the new pixels are at most .35 degrees high. */
 static koksma_status turn_image(const koksma_image *from, bool octahedral, const double inverse[12],
                                 koksma_image *out)
 {

@@ -20,7 +20,7 @@ typedef struct koksma__import {
     koksma_scene *scene;
     const char *path;                  /* path of the scene's own file */
     bool rows_down;                    /* images lie upside down: texture coordinate 0 is their upper edge */
-    bool smooths;                      /* meshes of files without normals get smooth ones */
+    bool smooths;                      /* meshes from files without normals get smooth normals */
     size_t n_files;                    /* number of texts that were read */
     char folders[8][KOKSMA__MAX_PATH]; /* where files are sought that are not beside the scene */
     size_t n_folders;
@@ -49,7 +49,7 @@ typedef struct koksma__import_material {
 typedef struct koksma__import_surface {
     int material;       /* -1: no surface, light passes through */
     bool emits, turned; /* turned: the front and back sides are swapped */
-    bool hidden;        /* a light that no ray meets */
+    bool hidden;        /* the surface is a light, which no ray can hit */
     double radiance[3];
 } koksma__import_surface;
 
@@ -75,8 +75,8 @@ typedef struct koksma__import_item {
 
 extern const double koksma__import_identity[12];
 
-/* The first function fails with MALFORMED and the text "FILE:LINE: ..."; the second puts "FILE:LINE" before the
-   text of another failure. */
+/* koksma__import_fail fails with MALFORMED and the text "FILE:LINE: ...". koksma__import_fail_at returns `status`; if
+   that is an error, it puts "FILE:LINE" before the error's text. */
 koksma_status koksma__import_fail(koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(2, 3);
 koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status status);
 
@@ -94,7 +94,8 @@ koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, 
    MALFORMED (too many, or the path is too long). */
 koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place, const char *name);
 
-/* Writes the path of a file that the scene names: beside the scene, or in the first of the folders that has it. */
+/* Writes the path of a file that the scene names to `out`: the file beside the scene, or else in the first of the
+   folders that has such a file. */
 koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH]);
 
@@ -106,7 +107,8 @@ void koksma__import_radiance(koksma__import *im, double rgb[3]);
    2002). */
 void koksma__import_black_body(double kelvin, double rgb[3]);
 
-/* The reflectance along the normal of a metal with this name ("Au", "Cu", ...); false if the name is unknown. */
+/* Finds the reflectance along the normal of the metal with this name ("Au", "Cu", ...); returns false if the name is
+   unknown. */
 bool koksma__import_metal(const char *name, double rgb[3]);
 
 koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
@@ -131,7 +133,7 @@ koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, c
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
                                     double right, const koksma__camera *lens);
 
-/* Finds the inverse of a matrix; false if there is none. */
+/* Finds the inverse of a matrix; returns false if there is none. */
 bool koksma__import_invert(const double matrix[12], double out[12]);
 void koksma__import_rotation(double angle_deg, const double axis[3], double out[12]);
 

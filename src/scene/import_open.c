@@ -14,7 +14,8 @@
 #include "scene/mitsuba.h"
 #include "scene/pbrt.h"
 
-/* Part of a scene's hash, by which stored studies find it; raised where the same files give another scene. */
+/* A number in the hash by which stored studies find a scene; it is raised when a change of the code makes another
+   scene of the same files. */
 enum { READER_REVISION = 1 };
 
 static bool is_pbrt(const char *path)

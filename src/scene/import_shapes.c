@@ -5,7 +5,7 @@
  * passed by the reader, or made from a basic shape (a sphere of 64 x 32 rectangles, a disk or cylinder with 64
  * sides). A mesh is stored once and placed by a matrix as often as the scene contains it. A placement whose matrix
  * mirrors, or whose front and back sides are swapped, uses a copy of the mesh that is turned inside out, as glTF 2.0,
- * section 3.7.4, explains. A light whose surface reflects becomes a mesh, too, because Koksma's own lights do not
+ * section 3.7.4, explains. A light whose surface reflects also becomes a mesh, because Koksma's own lights do not
  * reflect. A round light remains one of Koksma's own and loses its reflection, with a warning, because a mesh with
  * flat sides would emit less light than the round shape.
  */
@@ -88,8 +88,8 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
-/* Reads the mesh and changes what the other renderer takes differently: Mitsuba turns the texture coordinates of OBJ upside
-   down, and makes normals. */
+/* Reads the mesh and adapts it to the other renderer: Mitsuba turns the texture coordinates of OBJ files upside down,
+   and gives smooth normals to meshes that have none. */
 static koksma_status read_mesh(const koksma__import *im, const struct koksma__known_mesh *which, koksma__mesh *mesh)
 {
     KOKSMA__TRY(koksma__mesh_read_part(which->path, KOKSMA__BY_FILE, which->part, mesh));
@@ -227,8 +227,8 @@ static koksma_status make_form(koksma__form form, koksma__mesh *out)
     return KOKSMA_OK;
 }
 
-/* Sets Mitsuba's texture coordinates of a basic shape, which are those of form_point but for these: angles of a sphere from
-   its +z, radius and angle of a disk, and each side of a cube as Mitsuba turns it. */
+/* Changes uv from the texture coordinates of form_point to those of Mitsuba, where they differ: on a sphere v is
+   counted from +z; on a disk (u, v) are radius and angle; on a cube each side is turned as in Mitsuba. */
 static void set_mitsubas_uv(koksma__form form, const float p[3], const float n[3], float uv[2])
 {
     const float x = p[0], y = p[1], z = p[2], angle = uv[0];

@@ -5,8 +5,9 @@
 
 #include "scene/import.h"
 
-/* Add a mesh: the first takes over the memory of *mesh, the second reads a file, or the mesh of this number in a
-   .serialized file (-1: all its meshes), each once. *out is -1 if the mesh is left out with a warning. */
+/* Add a mesh and set *out to its index in the scene, or to -1 if the mesh is left out with a warning.
+   koksma__import_mesh takes over the memory of *mesh. koksma__import_mesh_file reads the mesh from a file, each mesh
+   only once; `part` is the number of the mesh in a .serialized file, -1 for all its meshes as one. */
 koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out);
 koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
                                        bool with_normals, int *out);

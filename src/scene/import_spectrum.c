@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * XYZ is the sum, over whole nanometres from 360 to 830, of the spectrum times the colour-matching functions of the CIE
- * 1931 observer, by the fit of Wyman, Sloan & Shirley (2013): for spectra like those of the Cornell box channels are
- * within 1.2 % of the largest one of what the tables of the CIE give. D65 is linear between every 20 nm of its table. Linear
- * sRGB follows by the matrix of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances in daylight, emission
- * as it is, so that an even emission is reddish.
+ * Converts sampled spectra to linear sRGB. XYZ is the sum, over whole nanometres from 360 to 830, of the spectrum
+ * times the colour-matching functions of the CIE 1931 observer. These functions are the fit of Wyman, Sloan & Shirley
+ * (2013): for spectra like those of the Cornell box, each channel differs from the result of the CIE's tables by at
+ * most 1.2 % of the largest channel. D65 is interpolated linearly in a table with steps of 20 nm. Linear sRGB follows
+ * by the matrix of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances in
+ * daylight, emission as it is, so that an even emission is reddish.
  */
 #include "scene/import_spectrum.h"
 
@@ -57,7 +58,7 @@ bool koksma__sampled_spectrum_add(koksma__sampled_spectrum *s, double wavelength
         return false;
     }
     int w = (int)ceil(fmin(fmax(from, FIRST), LAST + 1));
-    w += s->n && w == from; /* the last sample is in the sums */
+    w += s->n && w == from; /* the previous sample has been added already */
     for (; w <= LAST && w <= wavelength; w++) {
         const double part = wavelength > from ? (w - from) / (wavelength - from) : 1;
         add(s, w, before + part * (value - before));

@@ -256,7 +256,7 @@ static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3
         koksma__import_black_body(coordinate(n, "temperature", 6500), rgb);
         return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
     }
-    if (given && emits && is(n, "spectrum")) { /* the same at all wavelengths */
+    if (given && emits && is(n, "spectrum")) { /* one number stands for the same emission at all wavelengths */
         koksma__sampled_spectrum s = {0};
         (void)(koksma__sampled_spectrum_add(&s, 360, v[0]) && koksma__sampled_spectrum_add(&s, 830, v[0]));
         koksma__sampled_spectrum_emission(&s, rgb);
@@ -308,7 +308,7 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
 
-/* Mitsuba's kinds of BSDFs and the materials that replace them; those that are only similar give a warning. */
+/* Mitsuba's kinds of BSDFs and the materials that replace them; a material that is only similar gives a warning. */
 typedef struct bsdf_kind {
     const char *name;
     int kind;           /* kind of the replacement; -1: light passes through */
@@ -503,7 +503,7 @@ static void cylinder(const reader *r, const node *n, double m[12])
     }
 }
 
-/* Finds the basic shape or mesh, and the matrix that gives it its size. */
+/* Finds the basic shape or the mesh for a <shape>, and the matrix that gives it its size. */
 static koksma_status form_of(reader *r, const node *n, koksma__import_item *item, double m[12])
 {
     static const struct {
@@ -693,7 +693,7 @@ static koksma_status sensor(reader *r, const node *n)
     const double width = r->im->scene->width, height = r->im->scene->height;
     koksma__camera camera = {.focus_distance = lens ? number(r, n, "focus_distance", 1) : 1,
                              .lens_radius = lens ? number(r, n, "aperture_radius", 0) : 0};
-    if (parallel) { /* from -1 to 1 along x */
+    if (parallel) { /* an orthographic sensor shows -1 to 1 along x */
         const double x = sqrt(m[0] * m[0] + m[4] * m[4] + m[8] * m[8]),
                      y = sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]);
         camera.height = 2 * height / width;

@@ -121,9 +121,9 @@ static koksma_status add_sky(koksma_scene *scene, double radiance)
     return KOKSMA_OK;
 }
 
-/* Limits the brightness of lights from a file. glTF gives lights in lux and candela and leaves the exposure to
-   the viewer. If the lights make a white surface in the centre more than ten times as bright as white, all are
-   dimmed by the same factor, to white, with a warning. */
+/* Limits the brightness of lights from a file. glTF gives lights in lux and candela and leaves the exposure to the
+   viewer. If the lights make a white surface in the centre brighter than radiance 10, all are dimmed by the same
+   factor, so that this surface gets radiance 1, with a warning. */
 static koksma_status expose(koksma_scene *scene, const double centre[3])
 {
     double sum = 0;

@@ -300,7 +300,7 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
 }
 
 /* Makes a placed mesh a light that also reflects. Leaves space in the list of lights for the file's other lights and
-   two more. */
+   for the two that model.c may add. */
 static koksma_status add_glow(builder *build, koksma__placement *p, const double glow[3])
 {
     koksma_scene *scene = build->scene;

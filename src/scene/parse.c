@@ -21,8 +21,8 @@
 
 /* ---- The camera ----------------------------------------------------------------------------------------- */
 
-/* The camera: a pinhole or orthographic, with a thin lens or without (Potmesil & Chakravarty 1981, and Cook, Porter &
-   Carpenter 1984), and the time that its shutter is open. */
+/* Reads the camera, which is perspective or orthographic, with a thin lens or without (Potmesil & Chakravarty 1981,
+   and Cook, Porter & Carpenter 1984), and the time that its shutter is open. */
 
 enum { MOST_BLADES = 64 };
 

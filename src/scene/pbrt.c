@@ -66,7 +66,7 @@ typedef struct reader {
     double camera[12], fov_deg, lens_radius, focus_distance;
     bool orthographic, has_window;
     double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
-    double frame;     /* width / height of the screen window without `window`; 0: that of the image */
+    double frame;     /* width / height of the screen window if the file has no `window`; 0: the image's */
     int depth;
 } reader;
 

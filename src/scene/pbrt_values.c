@@ -17,7 +17,7 @@
 #include "scene/import_shapes.h"
 #include "scene/import_spectrum.h"
 
-enum { MOST_DIVIDED = 1 << 21 }; /* triangles that a scene gets by subdivision */
+enum { MOST_DIVIDED = 1 << 21 }; /* largest number of triangles that subdivision may make in a scene */
 
 struct koksma__pbrt_named {
     char name[256];
@@ -263,7 +263,7 @@ static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_par
                   : KOKSMA_OK;
 }
 
-/* pbrt-v4's kinds of materials and the materials that replace them; those that are only similar give a warning. */
+/* pbrt-v4's kinds of materials and the materials that replace them; a material that is only similar gives a warning. */
 typedef struct material_kind {
     const char *name;
     int kind;            /* kind of the replacement; -1: light passes through */
@@ -395,7 +395,8 @@ static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv,
     return take_indices(p, indices, quads, mesh);
 }
 
-/* Divides a mesh as often as its `levels` say, as far as the scene may have triangles of this kind. */
+/* Divides a mesh as often as its parameter `levels` says, or less often if the scene would get more than MOST_DIVIDED
+   triangles by subdivision. */
 static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, koksma__mesh *mesh)
 {
     koksma__mesh fine = {0};
@@ -446,7 +447,7 @@ static void shape_form(double radius, double height, double z, double m[12])
     m[11] = z;
 }
 
-/* What a constant alpha makes of a shape: nothing at 1; at 0 no ray meets it, but a light still shines. */
+/* Applies a constant alpha to a shape: 1 changes nothing; at 0 no ray meets the shape, but a light still shines. */
 static koksma_status take_shape_alpha(koksma__import *im, const koksma__pbrt_parameters *p, koksma__import_item *item,
                                       bool *is_there)
 {

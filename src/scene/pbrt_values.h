@@ -12,7 +12,7 @@ typedef struct koksma__pbrt_scene {
     struct koksma__pbrt_texture *textures;
     char **texts; /* names of the files that were read */
     size_t n_materials, n_textures, n_texts;
-    size_t n_divided; /* triangles that subdivision made */
+    size_t n_divided; /* number of triangles that subdivision made so far */
 } koksma__pbrt_scene;
 
 void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene);

@@ -152,7 +152,7 @@ def gzipped(bench):
     data = b"".join(packer.compress(bytes(1 << 20)) for _ in range(1024)) + packer.compress(b"\0") + packer.flush()
     bench.put("b.ply.gz", data)
     done = bench.run("scene", "check", "b.ply.gz")
-    bench.checks.check(done and done.code == 3 and f"b.ply.gz: it stands for more than {1 << 30} bytes".encode() in done.err,
+    bench.checks.check(done and done.code == 3 and f"b.ply.gz: it decompresses to more than {1 << 30} bytes".encode() in done.err,
                        f"a .ply.gz that stands for too much: {done and done.err}")
     # while a block grows by half, the old one may still be there: sanitizers always copy
     bench.checks.check(done and done.mib < 2 * 1024 + files.OTHER, f"a .ply.gz that stands for too much: {done and done.mib:.0f} MiB")

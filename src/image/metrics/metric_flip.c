@@ -6,11 +6,12 @@
  *   colour   RGB -> XYZ (sRGB primaries) -> YyCxCz, relative to the white of RGB (1,1,1): Yy = 116 Y - 16,
  *            Cx = 500 (X - Y), Cz = 200 (Y - Z); filtered by the contrast sensitivity of each channel at ppd pixels
  *            per degree; clamped to [0,1] in RGB; CIELAB with a* and b* times L* / 100 (Hunt); the distance HyAB
- *            |dL| + sqrt(da^2 + db^2), to the power 0.7; with M this distance of green to blue: below 0.4 M
- *            linear to 0 .. 0.95, from there to M linear to 0.95 .. 1.  -> c
- *   feature  (Yy + 16) / 116 through Gaussian derivatives of standard deviation 0.041 ppd pixels: the first (edges)
- *            and the second (points), each with positive weights of sum 1 and negative of sum -1; the lengths of the
- *            gradients in image and reference differ by e and p.  f = sqrt(max(e, p) / sqrt 2)
+ *            |dL| + sqrt(da^2 + db^2), to the power 0.7. M is the value of this distance between green and blue. The
+ *            colour error c is linear: from 0 to 0.95 for distances up to 0.4 M, then from 0.95 to 1 at M
+ *   feature  (Yy + 16) / 116 is filtered by the first (edges) and the second (points) derivative of a Gaussian of
+ *            standard deviation 0.041 ppd pixels, each with positive weights of sum 1 and negative weights of sum -1.
+ *            The lengths of the gradients of image and reference differ by e (edges) and p (points), and
+ *            f = sqrt(max(e, p) / sqrt 2)
  *   error    c^(1 - f)
  * The contrast sensitivities are Gaussians sum_k a_k sqrt(pi / b_k) exp(-pi^2 x^2 / b_k), x in degrees: (a, b) is
  * (1, 0.0047) for Yy, (1, 0.0053) for Cx, (34.1, 0.04) and (13.5, 0.025) for Cz, all with the radius of three standard
@@ -205,7 +206,7 @@ typedef struct flip {
     int width, height;
     size_t n;
     double largest;                            /* the distance HyAB of green and blue, to the power 0.7 */
-    double *planes, *scratch, *filtered, *sum; /* planes: 3 n; the others n */
+    double *planes, *scratch, *filtered, *sum; /* planes has 3 n numbers, the others n each */
     double *lab[2], *edges[2], *points[2];     /* for the image and for the reference: 3 n, n and n numbers */
     double *memory;
 } flip;
@@ -273,7 +274,8 @@ static void find_features(flip *f, const filter *derivative, const double *grey,
     }
 }
 
-/* Computes the features and colours of one image, from clamped RGB, that pixel_error compares. */
+/* Computes, from clamped RGB, the features and colours of one image, which pixel_error compares with those of the
+   other. */
 static void analyse(flip *f, const double *rgb, int which)
 {
     double *const y = f->planes, *const cx = y + f->n, *const cz = cx + f->n, *lab = f->lab[which];

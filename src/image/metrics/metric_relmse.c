@@ -2,8 +2,8 @@
 /*
  * relmse: the relative mean square error over pixels and channels (Rousselle et al. 2011),
  *     sum (x - x_ref)^2 / (x_ref^2 + epsilon) / (3 n),   x: linear red, green, blue.
- * Epsilon keeps the terms finite where the reference is black: the error there is its square divided by epsilon. Most
- * papers use 0.01, and 0.001 or 0.0001 for dark scenes. Values with different epsilon cannot be compared.
+ * Epsilon keeps the terms finite where the reference is black: a term is x^2 / epsilon there. Most papers
+ * use 0.01, and 0.001 or 0.0001 for dark scenes. Values with different epsilon cannot be compared.
  */
 #include "image/metrics/metrics.h"
 

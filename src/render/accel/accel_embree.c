@@ -89,7 +89,8 @@ static void fetch_corners(const part *p, uint32_t triangle)
     }
 }
 
-/* Prefetches the corners of the triangles hit. l->primitive: indices of parts, -1: none. */
+/* Prefetches the corners of the triangles hit. At this stage l->primitive[i] is the index of a part, or -1 for no
+   hit. */
 static void fetch_landings(const part *parts, const koksma__landings *l, int n)
 {
     for (int i = 0; i < n; i++) {
@@ -172,7 +173,7 @@ static bool smooth_normal(const part *p, const uint32_t *index, float time, cons
     return koksma__dot3(out, d) < 0;
 }
 
-/* Sets lane i from the vertices of its triangle: the interpolated normal, and the texture coordinates. */
+/* Sets the normal and the texture coordinates of lane i, interpolated between the vertices of its triangle. */
 static void refine(const part *p, const koksma__landings *l, const koksma__rays *rays, int i, koksma__hits *hits)
 {
     const uint32_t *index = p->mesh->indices + 3 * (size_t)(l->primitive[i] - p->first);
@@ -282,8 +283,9 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
 #endif
 
 /* Defines intersect_8, shade_8, intersect_16 and shade_16, for packets of 8 and of 16 rays. intersect_N traces rays
-   start .. start + N - 1 of the block: `on` gets the parts (as primitives) and triangles of hits that are closer than
-   those in `hits`, and their number is returned. shade_N sets the light of the shadow rays that are blocked to 0. */
+   start .. start + N - 1 of the block: it writes the parts (as primitives) and the triangles of hits that are closer
+   than those in `hits` to `on`, and returns their number. shade_N sets the light of the shadow rays that are blocked
+   to 0. */
 #define PACKETS(WIDTH)                                                                                               \
     static int intersect_##WIDTH(const embree *e, const starts *s, const koksma__rays *rays, int start,              \
                                  bool coherent, const koksma__hits *hits, koksma__landings *on)                      \
@@ -595,7 +597,8 @@ static part make_part(const koksma_scene *scene, const koksma__placement *from, 
     return p;
 }
 
-/* Makes an Embree geometry from the triangles of a mesh; placed: transformed by the part's matrix and motion. */
+/* Makes an Embree geometry from the triangles of a mesh; if `placed`, they are transformed by the part's matrix and
+   motion. */
 static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGeometry *out)
 {
     const koksma__mesh *m = p->mesh;

@@ -34,7 +34,7 @@ typedef struct koksma__geometry {
     int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
     /* The index of the shape, or of the placement after all shapes, to which the primitive belongs. */
     int (*object)(const struct koksma__geometry *geometry, int32_t primitive);
-    /* Gives the triangle on which p lies at this time; false: the primitive is an analytic shape. */
+    /* Writes the triangle on which p lies at this time to `out`; returns false if the primitive is an analytic shape. */
     bool (*triangle)(const struct koksma__geometry *geometry, int32_t primitive, const float p[3], float time,
                      koksma__triangle *out);
     void (*release)(struct koksma__geometry *geometry);

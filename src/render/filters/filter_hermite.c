@@ -15,7 +15,7 @@ static double value(double x)
 
 const koksma_filter koksma__filter_hermite = {
     .name = "hermite",
-    .title = "the cubic with B = C = 0: a smooth step of width 2",
+    .title = "Mitchell and Netravali's cubic, B = C = 0: two mirrored smoothsteps, of width 2",
     .cite = "mitchell1988",
     .radius = 1,
     .value = value,

@@ -43,13 +43,14 @@ static const koksma__integrator_flags whitted = {
     .followed = KOKSMA__LOBE_SPECULAR, .shadows = true, .ambient = true, .branches = true};
 
 /*
- * The integrator `distribution` is distribution ray tracing. Positions on lights, on the lens and in time, and
+ * The integrator `distribution` is distribution ray tracing. Positions on lights and on the lens, times, and
  * directions in glossy lobes are sampled; the scene's ambient light replaces light between diffuse surfaces.
  *
  *     L(x, out) = E(x, out) + albedo ambient + sum over lights of f E_l cos cos' V A / d^2 + weight L(y, w)
  *
  * The sum takes one sampled position on each light of area A, at the distance d, and y is the point that the ray in
- * the mirrored, refracted or glossy direction w hits. Source: Cook, Porter & Carpenter 1984; Shirley 1991, chapter 5.
+ * the mirrored, refracted or glossy direction w hits; `weight` is f cos / pdf of that direction. Source: Cook, Porter
+ * & Carpenter 1984; Shirley 1991, chapter 5.
  */
 static const koksma__integrator_flags distribution = {
     .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY, .areas = true, .shadows = true, .ambient = true};
@@ -126,7 +127,8 @@ static const koksma_integrator rows[] = {
     {"direct", "soft shadows, mirrors and glass; no ambient light", "shirley1996", 6, &direct},
     {"ambient-occlusion", "the fraction of a white sky that each surface point sees; depends on shapes only",
      "zhukov1998", 1, &ambient_occlusion},
-    {"irradiance-cache", "diffuse light between surfaces, interpolated", "ward1988", 6, &irradiance_cache},
+    {"irradiance-cache", "distribution, with light between diffuse surfaces interpolated from cached records",
+     "ward1988", 6, &irradiance_cache},
 };
 
 const koksma_integrator *koksma_integrator_at(size_t i)

@@ -46,7 +46,8 @@ static double accumulate(const float *weights, size_t n, float *cdf)
     return total;
 }
 
-/* The capacity for n + 1 numbers, rounded up to whole strides, and one more. */
+/* The length of a cumulative table of n + 1 numbers with its padding: n + 1 rounded up to a multiple of
+   KOKSMA__ENVIRONMENT_STEP, and another KOKSMA__ENVIRONMENT_STEP. */
 static size_t padded(size_t n)
 {
     return (n / KOKSMA__ENVIRONMENT_STEP + 2) * KOKSMA__ENVIRONMENT_STEP;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * spot: a point light with full intensity inside a cone of half the angle `inner`, which falls to 0 at the edge of a
- * wider cone. With a = (cos angle(w) - cos outer) / (cos inner - cos outer), cut to [0, 1], and inner = (1 - edge) outer,
+ * spot: a point light with full intensity inside a cone of half-angle `inner`; outside it the intensity falls to 0 at
+ * the edge of a cone of half-angle `outer`. With a = (cos angle(w) - cos outer) / (cos inner - cos outer), clamped to
+ * [0,1], and inner = (1 - edge) outer,
  *
  *     falloff    I(w) / intensity                               power / (2 pi intensity)
  *     square     a^2 (KHR_lights_punctual)                      1 - cos inner + (cos inner - cos outer) / 3
@@ -15,13 +16,14 @@
 
 #include "core/status.h"
 
-/* OUTER and INNER are cosines, SLOPE 1 / (outer - inner) in 1 / turns, EDGE_TURNS outer in turns: open_light() sets them */
+/* Indices of the values of a spot. open_light() sets the last four: OUTER and INNER are cosines, SLOPE is 1 / (outer
+   - inner) with the angles in turns, EDGE_TURNS is the angle `outer` in turns. */
 enum { ANGLE, EDGE, FALLOFF, OUTER, INNER, SLOPE, EDGE_TURNS };
 
 static const char *const falloffs[] = {
     [KOKSMA__FALLOFF_SQUARE] = "square", [KOKSMA__FALLOFF_SMOOTH] = "smooth", [KOKSMA__FALLOFF_ANGLE] = "angle"};
 
-/* The integral of the falloff over the cosine from that of outer to 1. */
+/* The integral of the falloff over the cosine, from cos(outer) to 1. */
 static double power_of(int falloff, double inner, double outer)
 {
     if (falloff == KOKSMA__FALLOFF_ANGLE) {

@@ -21,7 +21,7 @@ typedef struct koksma__shading_light {
     bool visible;
     float centre[3], axis_u[3], axis_v[3], normal[3], half[2];
     float radiance[3];
-    float values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
+    float values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */
     float area;
     float reach; /* largest distance of a point of the light from its centre */
     /* for choosing among lights: luminous power divided by pi^2, or, for a light far away, irradiance divided by
@@ -38,7 +38,7 @@ enum { KOKSMA__FALLOFF_SQUARE, KOKSMA__FALLOFF_SMOOTH, KOKSMA__FALLOFF_ANGLE };
 typedef struct koksma__beam {
     float d[3];     /* from the point to the position on the light, which is at t = 1 */
     float w[3];     /* direction from the point to the light, of length 1 */
-    float value[3]; /* radiance over pdf, before the cosine and the material are applied */
+    float value[3]; /* radiance divided by the pdf, before the cosine and the material are applied */
     float pdf;      /* of w, or 0 */
 } koksma__beam;
 
@@ -61,7 +61,8 @@ typedef enum koksma__beam_form {
 } koksma__beam_form;
 
 typedef struct koksma__light_kind {
-    koksma__kind kind; /* parameters are written to koksma__light; the kind's own at KOKSMA__LIGHT_VALUE(i) */
+    koksma__kind
+        kind; /* parameters are written to koksma__light; the kind's own parameters at KOKSMA__LIGHT_VALUE(i) */
     koksma__light_distance distance;
     koksma__beam_form form;
     /* the light shines only on the side of its normal, and extends along its axes u and v as far as `half` */
@@ -71,10 +72,10 @@ typedef struct koksma__light_kind {
     /* Sets area, reach, power and data. Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
     koksma_status (*open)(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light);
     void (*close)(void *data); /* NULL if data is not used */
-    /* Samples by u the light that arrives at p; false when no light arrives. */
+    /* Samples by u the light that arrives at p; returns false if no light arrives. */
     bool (*sample)(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out);
-    /* Treats the light as a point at its centre (as in Whitted's integrator), with pdf 0; NULL or false: the light
-       has no centre. */
+    /* Treats the light as a point at its centre (as in Whitted's integrator), with pdf 0. For a light without a
+       centre the pointer is NULL, or the function returns false. */
     bool (*centre)(const koksma__shading_light *light, const float p[3], koksma__beam *out);
     /* The density with which sample() chooses the direction w (of length 1) from p; w hits the light at distance t,
        where the light's normal is n (unused for lights far away). NULL: 0 everywhere. */

@@ -34,8 +34,8 @@ bool koksma__flat_light_centre(const koksma__shading_light *light, const float p
 float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
                        const float n[3]);
 
-/* For a sample at vector d on a surface that is sampled by area: its direction w of length 1; returns the density
-   over solid angle, 0 behind the surface. */
+/* For a sample at vector d on a surface that is sampled by area: sets *w to the direction, of length 1, and returns
+   the density over solid angle, which is 0 behind the surface. */
 KOKSMA__INLINE float koksma__flat_beam(koksma__v3 d, koksma__v3 normal, float area, koksma__v3 *w)
 {
     const float square = koksma__v3_dot(d, d), length = sqrtf(square), at_light = -koksma__v3_dot(normal, d);
@@ -61,8 +61,8 @@ KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, f
     return outside ? pdf : 0;
 }
 
-/* Treats the light as a point at its centre, with intensity `strength` times its radiance, which falls with the
-   squared distance. */
+/* Treats the light as a point at its centre: the intensity is `strength` times the radiance, and the light falls with
+   the squared distance. */
 bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 
 /* value = scale times the light's radiance */

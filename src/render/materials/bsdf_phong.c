@@ -40,7 +40,7 @@ static const koksma__parameter parameters[] = {
 
 const koksma__bsdf koksma__bsdf_phong = {
     .kind = {.name = "phong",
-             .title = "the glossy mirror of 1991: cos^exponent about the mirrored direction",
+             .title = "Shirley's glossy mirror (1991): cos^exponent about the mirrored direction",
              .cite = "shirley1991",
              .parameters = parameters},
     .lobes = KOKSMA__LOBE_GLOSSY,

@@ -35,8 +35,8 @@ typedef enum koksma__material_form {
 typedef struct koksma__shading_material {
     const struct koksma__bsdf *bsdf;
     float albedo[2][3];
-    float values[KOKSMA__MAX_VALUES]; /* numbers of the kind's parameters */
-    float derived;                    /* numbers that prepare() computes from the values */
+    float values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */
+    float derived;                    /* a number that prepare() computes from the values */
     const koksma_image *image;        /* the image of the albedo, or NULL */
     const koksma__material *from;     /* the description of this material, which has the images */
 } koksma__shading_material;
@@ -48,7 +48,7 @@ static inline bool koksma__is_textured(const koksma__shading_material *m)
            m->from->maps[KOKSMA__MAP_NORMAL].image;
 }
 
-/* maximum number of numbers of a kind that images can change; the kind's texture() computes them */
+/* how many numbers of a material images can change at most; the kind's texture() computes them */
 enum { KOKSMA__LOCAL = 4 };
 
 /* A point on a surface, seen from `out`. */
@@ -73,19 +73,19 @@ typedef struct koksma__scatter {
 } koksma__scatter;
 
 typedef struct koksma__bsdf {
-    koksma__kind kind; /* parameters are written to koksma__material: at = KOKSMA__VALUE(i) */
+    koksma__kind kind; /* parameters are written to koksma__material; koksma__parameter.at is KOKSMA__VALUE(i) */
     unsigned lobes;    /* all lobes that the kind has */
     unsigned diffuse;  /* the fields of its diffuse part; 0 if it has none */
     /* the value times the cosine is exactly albedo cosine / pi, so that lambert_lanes.c can shade the material */
     bool is_lambert;
     koksma__material_form form;
-    bool takes_choice; /* sample() uses choice */
+    bool takes_choice; /* sample() uses its argument `choice` */
     bool reciprocal;   /* value / cosine is symmetric in w and out */
     /* NULL, or a check of the parameters: returns the reason why they are not valid together, or NULL. */
     const char *(*check)(const koksma__material *material);
     void (*prepare)(koksma__shading_material *material); /* NULL, or computes `derived` */
-    /* Adds to value the material times the cosine for light from w, over the requested lobes; returns the density
-       with which sample() chooses w among these lobes. */
+    /* Adds to `value` the BSDF times the cosine for light from w, over the requested lobes; returns the density with
+       which sample() chooses w among these lobes. */
     float (*value)(const koksma__surface *s, const float w[3], unsigned lobes, float value[3]);
     /* Samples a direction from the requested lobes: u selects the direction, `choice` the lobe. Returns false if the
        light is lost. */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rays in blocks: structures of arrays with BLOCK lanes, and the table of loops over them, which are compiled once
- * for each instruction set (like the kernels of src/kernels). The loops use only + - * /, square roots, comparisons
- * and floor, each rounded as IEEE 754 prescribes and none fused, so that every instruction set gives the same bits.
+ * Rays in blocks: structures of arrays with KOKSMA__BLOCK lanes, and the table of loops over them, which are compiled
+ * once for each instruction set (like the kernels of src/kernels). The loops use only + - * /, square roots,
+ * comparisons and floor, each rounded as IEEE 754 prescribes and none fused, so that every instruction set gives the
+ * same bits.
  *
  * A loop processes the first n lanes; n is a multiple of KOKSMA__LANE_STEP, and unused lanes hold copies of a used
  * lane.
@@ -14,7 +15,8 @@
 
 #include "kernels/kernels.h"
 
-/* A block of 256 rays, their hits and shadow rays take 24 KiB; smaller blocks call more often and draw fewer pixels together. */
+/* A block of 256 rays, their hits and shadow rays take 24 KiB; smaller blocks would need more calls and hold fewer
+   pixels. */
 enum { KOKSMA__BLOCK = 256, KOKSMA__LANE_STEP = 16 };
 
 /* The kernel `order` uses a full shuffle for up to KOKSMA__SHUFFLED samples, and accepts at most KOKSMA__ORDERED
@@ -85,9 +87,10 @@ typedef struct koksma__batch_camera {
     float eye[3], base[3], step_x[3], step_y[3];
 } koksma__batch_camera;
 
-/* An analytic shape. half_u and half_v are as in koksma__shape; radius2 is the squared radius of a sphere about
-   the centre that contains the shape, if it is not flat. moves: the shape's own loops add time * motion. turns: rays are
-   moved into the frame in which it rests, with the members of koksma__shape.turn, whose angle is in turns here. */
+/* An analytic shape. half_u and half_v are as in koksma__shape; radius2 is the squared radius of a sphere about the
+   centre that contains the shape, if it is not flat. moves: the shape's own loops add time * motion. turns: rays are
+   moved into the frame in which it rests, with the members of koksma__shape.turn; here their angle is a fraction of a
+   full turn. */
 typedef struct koksma__batch_shape {
     int kind; /* index in koksma__shape_types */
     bool is_flat, moves, turns;
@@ -132,10 +135,11 @@ enum { KOKSMA__MAX_BATCH_LIGHTS = 256 };
 
 /* The lights in lanes, from which one is chosen by its estimate. The estimate at p with normal n is
      fixed + power max(least, n.d / r) max(least, cosine at the light) / r^2,
-   or 0 if no part of the light can be seen from p; d is the vector from p to the centre of the light, and r =
-   max(|d|, reach). Distant lights have their direction in (nx, ny, nz) and power 0. */
+   or 0 if no part of the light can be seen from p; d is the vector from p to the centre of the light, r = max(|d|,
+   reach), and least is 0.05 (batch_lights.c). Distant lights have their direction in (nx, ny, nz) and power 0. */
 typedef struct koksma__batch_lights {
-    /* n is the number of lights; `whole` is n rounded up to whole lanes, filled with dark lights */
+    /* n is the number of lights; `whole` is n rounded up to a multiple of KOKSMA__LANE_STEP; the lanes added are dark
+       lights */
     int n, whole;
     KOKSMA__LIGHT_LANES(cx);
     KOKSMA__LIGHT_LANES(cy);

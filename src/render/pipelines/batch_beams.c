@@ -257,7 +257,8 @@ void BATCH_NAME(around)(const struct koksma__environment *e, const koksma__rays 
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         const koksma__v3 d = koksma__v3_unit((koksma__v3){rays->dx[i], rays->dy[i], rays->dz[i]});
-        const int missed = hit[i] < 0; /* all other lanes look up the same texel */
+        const int missed = hit[i] < 0; /* the lanes of rays that hit something all look up one texel; their results
+                                          are not used */
         w[0][i] = missed ? d.x : 0;
         w[1][i] = missed ? d.y : 1;
         w[2][i] = missed ? d.z : 0;

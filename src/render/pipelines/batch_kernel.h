@@ -10,7 +10,7 @@
 #include "render/pipelines/batch.def"
 #undef KERNEL
 
-/* rounds n down to the lane step, so that the compiler adds no remainder loop */
+/* rounds n down to a multiple of KOKSMA__LANE_STEP, so that the compiler adds no remainder loop */
 #define STEP(n) ((n) & ~(KOKSMA__LANE_STEP - 1))
 
 /* Marks a loop over lanes whose iterations are independent: no lane reads what another lane writes. gcc gives up
@@ -24,7 +24,7 @@
 /* Forces inlining of functions that are compiled once for each value of a constant argument. */
 #define INLINE static inline __attribute__((always_inline))
 
-/* Returns the number of the first n rays whose closest hit is the primitive. */
+/* Returns how many of the first n rays have their closest hit on the primitive. */
 INLINE int koksma__batch_count_hits(const koksma__hits *h, int32_t id, int n)
 {
     int count = 0;

@@ -119,7 +119,7 @@ void BATCH_NAME(order)(const uint32_t *words, size_t n, uint16_t *out)
     }
 }
 
-/* Stores two pairs of coordinates at a time, because loops over lanes read them next. */
+/* Stores two pairs of coordinates at a time, because the loops that read them next load several pairs at once. */
 void BATCH_NAME(gather)(const float *from, const uint16_t *order, size_t n, float *to)
 {
     typedef double two __attribute__((vector_size(16)));

@@ -46,7 +46,7 @@ static void albedo_checker(const koksma__batch_material *material, int32_t id, c
 void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__hits *hits, int n, float *albedo)
 {
     int32_t most = -1;
-    uint32_t least = UINT32_MAX; /* material -1, converted to an unsigned number, is the largest one */
+    uint32_t least = UINT32_MAX; /* material -1, converted to an unsigned number, is larger than every index */
     for (int i = 0; i < STEP(n); i++) {
         const int32_t m = hits->material[i];
         albedo[i] = 0;
@@ -62,7 +62,7 @@ void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__h
     }
 }
 
-/* The loop of `aim`, which makes shadow rays, and of `light`, which adds to `sum`. */
+/* The loop that two kernels share: `aim`, which makes shadow rays, and `light`, which adds to `sum`. */
 INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h, const float *restrict xy, int n,
                 bool rays, koksma__shadows *restrict s, float *restrict sum)
 {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Intersects blocks of rays with analytic shapes, for the closest hits and for shadows: calls the loops of each
- * shape's kind (src/render/shapes) in turn, and completes hits on flat shapes. Rays are moved into the frame in which a
- * shape that turns rests, at each ray's own time, so that all kinds turn by the loops that they have at rest.
+ * shape's kind (src/render/shapes) in turn, and completes hits on flat shapes. For a shape that turns, each ray is
+ * moved, at the ray's own time, into the frame in which the shape rests; so the loops for shapes at rest also serve
+ * shapes that turn.
  */
 #include <math.h>
 #include <string.h>

@@ -79,7 +79,7 @@ typedef struct koksma__beams {
     KOKSMA__LANES(int32_t, visible);
 } koksma__beams;
 
-/* A block of paths in lanes, with the fields of koksma__path (wavefront.h). */
+/* A block of paths in lanes, with the fields of koksma__path (wavefront_scratch.h). */
 typedef struct koksma__paths {
     koksma__rays rays;
     _Alignas(64) koksma__lanes beta[3];

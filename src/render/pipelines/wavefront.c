@@ -29,9 +29,9 @@
  * one ray past the depth limit; it replaces the light samples of the last vertex, so that the images of all
  * weightings have the same mean at any depth.
  *
- * All random numbers come from uses (samples/uses.def). The uses lobe, lobe choice, light and roulette have different
- * keys at each vertex b, so that the pattern under study, not the tracer, decides how the samples of vertices are
- * stratified.
+ * All random numbers come from the uses, the purposes of sample dimensions (samples/uses.def). The uses lobe, lobe
+ * choice, light and roulette have different keys at each vertex b, so that the pattern under study, not the tracer,
+ * decides how the samples of vertices are stratified.
  */
 #include "render/pipelines/wavefront.h"
 
@@ -72,7 +72,8 @@ static koksma__lens lens_of(const koksma__camera *camera)
     return lens;
 }
 
-/* Starts paths at the eye. The positions, lens points and times are padded with copies up to whole lanes. */
+/* Starts paths at the eye. The positions, lens points and times are padded with copies up to a multiple of
+   KOKSMA__LANE_STEP. */
 static koksma_status start_paths(const koksma__trace *trace, const koksma__values *values, size_t first, size_t end)
 {
     const koksma__frame *frame = trace->frame;
@@ -116,8 +117,8 @@ static koksma__v3 direction_at(const koksma__paths *p, int i)
     return koksma__v3_unit((koksma__v3){p->rays.dx[i], p->rays.dy[i], p->rays.dz[i]});
 }
 
-/* Returns the weight of light that a ray found by hitting a light, against sampling that light, whose density for
-   the direction is pdf. */
+/* Returns the multiple-importance weight of the light that ray i found by hitting the light with index `light`. pdf:
+   the density with which sampling of that light chooses the ray's direction. */
 static float met_weight(const koksma__frame *frame, const koksma__paths *p, int i, size_t light, float pdf)
 {
     if (!(p->pdf[i] > 0)) {
@@ -299,7 +300,7 @@ static void note_first(koksma__values *values, const koksma__vertices *v, int i)
 
 /* ---- Going on --------------------------------------------------------------------------------------------- */
 
-/* Follows both the reflected and the refracted direction at lane i, whose material has the two. */
+/* Follows both the reflected and the refracted direction at lane i, whose material has both. */
 static koksma_status branch(const koksma__trace *trace, const koksma__vertices *v, int i)
 {
     const koksma__surface s = koksma__surface_at(&v->surfaces, i);
@@ -396,7 +397,7 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
 
 /* ---- One block -------------------------------------------------------------------------------------------- */
 
-/* Adds ambient light, and the light between diffuse surfaces that the integrator provides. */
+/* Adds ambient light, and the light between diffuse surfaces that the integrator's hook `indirect` computes. */
 static koksma_status add_local(const koksma__frame *frame, koksma__vertices *v)
 {
     for (int i = 0; (frame->flags->ambient || frame->flags->indirect) && i < v->n; i++) {
@@ -527,7 +528,7 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
     const float clamp = (float)frame->scene->clamp;
     for (size_t i = 0; i < n; i++) {
         for (int k = 0; k < frame->channels; k++) {
-            const float value = sums[3 * i + (size_t)k]; /* a NaN is kept */
+            const float value = sums[3 * i + (size_t)k]; /* a NaN stays a NaN, because it is not above clamp */
             values->rgb[i * (size_t)frame->channels + (size_t)k] = value > clamp ? clamp : value;
             if (values->parts && value > clamp) {
                 koksma__aov_clamp(frame->aovs, values, i, k, clamp / value);

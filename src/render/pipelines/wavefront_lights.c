@@ -58,8 +58,8 @@ float koksma__light_probability(const koksma__frame *frame, const float p[3], co
     }
 }
 
-/* Samples one light per vertex at the positions us[2 sample], … and adds the unblocked light that the vertices
-   reflect. us NULL: the centres of the lights. */
+/* Samples one light per vertex at the positions (us[2 sample], us[2 sample + 1]), and adds the unblocked light that
+   the vertices reflect. us NULL: the centres of the lights. */
 static void add_samples(const koksma__trace *trace, koksma__vertices *v, const koksma__light_lanes *l,
                         const float *us, koksma__values *values)
 {

@@ -33,7 +33,7 @@ void koksma__wavefront_travel(const koksma_scene *scene, const float *pairs, kok
             h->py[i] = o[1] + t * d[1];
             h->pz[i] = o[2] + t * d[2];
             h->nx[i] = h->ny[i] = h->nz[i] = h->u[i] = h->v[i] = 0;
-            h->back[i] = 1; /* backs never glow */
+            h->back[i] = 1; /* counts as a back, because the back of a surface emits no light */
             h->primitive[i] = 0;
             h->material[i] = (int32_t)scene->n_materials;
         }

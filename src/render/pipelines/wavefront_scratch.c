@@ -74,7 +74,7 @@ static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, k
     KOKSMA__FAIL_IF(scratch->n_drawn * scratch->capacity > KOKSMA__MAX_DRAWN, KOKSMA_ARGUMENT,
                     "the scene needs too many sample dimensions for %zu samples at once; use fewer samples a pixel",
                     scratch->capacity);
-    /* the samples of a pixel are padded to whole lanes */
+    /* copies that pad the samples to a multiple of KOKSMA__LANE_STEP may follow the last sample */
     const size_t n = 2 * (scratch->capacity + KOKSMA__LANE_STEP);
     koksma__drawn *list = realloc(scratch->drawn, (scratch->n_drawn + 1) * sizeof *list);
     float *pairs = malloc(n * sizeof *pairs);

@@ -46,8 +46,8 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
     while (from < end && from->use != use) {
         from++;
     }
-    KOKSMA__FAIL_IF(from == end, KOKSMA_ARGUMENT, "the samples of the image were drawn without use number %u",
-                    (unsigned)use);
+    KOKSMA__FAIL_IF(from == end, KOKSMA_ARGUMENT,
+                    "the point sets of the image were drawn without those of use number %u", (unsigned)use);
     const float width = (float)s->options->width, height = (float)s->options->height;
     for (uint32_t i = s->first[pixel]; i < s->first[pixel + 1]; i++) {
         const float *pair = from->pairs + 2 * (size_t)s->order[i];
@@ -108,8 +108,7 @@ static koksma_status draw_order(const image_samples *s, uint32_t set_key, uint32
     return *out ? KOKSMA_OK : koksma__fail_memory(s->n * sizeof **out);
 }
 
-/* Makes the set of a use. If the use is in a group, the other uses of the group that share the set get their
-   coordinates, too. */
+/* Makes the set of a use, and stores the coordinates of all uses that share the set because they are in one group. */
 static koksma_status make_set(image_samples *s, const koksma_run *run, set *to)
 {
     const koksma_render_options *options = s->options;
@@ -188,7 +187,8 @@ static size_t sort(image_samples *s)
     return most;
 }
 
-/* Lists the uses at every vertex and returns their number; with list NULL it only counts. */
+/* Lists the uses of the image (pixel, lens and time, then those of each vertex) and returns their number; with list
+   NULL it only counts. */
 static size_t list_uses(const koksma__use_list *uses, set *list)
 {
     size_t n = 0;
@@ -243,7 +243,8 @@ static koksma_status make_room(const koksma_render_options *options, const koksm
     const size_t pixels = (size_t)options->width * (size_t)options->height;
     const size_t n_sets = list_uses(uses, NULL);
     KOKSMA__FAIL_IF(pixels * (size_t)options->spp > MAX_NUMBERS / 2 / n_sets, KOKSMA_ARGUMENT,
-                    "%dx%d pixels of %d samples with %zu uses: scope image can store at most %zu numbers",
+                    "%dx%d pixels of %d samples with %zu uses: scope image can store at most %zu numbers, two for "
+                    "each sample and use; use fewer pixels or samples",
                     options->width, options->height, options->spp, n_sets, MAX_NUMBERS);
     image_samples *s = calloc(1, sizeof *s + n_sets * sizeof *s->sets);
     *out = s;

@@ -66,8 +66,9 @@ static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, 
 
 enum { SETS_A_LOOK = 16 };
 
-/* generate for a pixel. Asks keep_going between sets: a set of a slow pattern takes ten milliseconds without asking,
-   and the sets of all pixels that are drawn together would take minutes. */
+/* Calls generate() for the set of a pixel and, before every SETS_A_LOOK-th set, keep_going: a slow pattern takes ten
+   milliseconds a set and does not call keep_going itself, and the sets of all pixels that are drawn together take
+   minutes. */
 static koksma_status generate_next(const koksma_spec *spec, uint64_t seed, size_t n, int dim,
                                    koksma__sample_scratch *room, double *xs)
 {
@@ -154,10 +155,10 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
 /* The random words that a use needs in each pixel: for its set, if the pattern has a float form, or for the order of
    a set that koksma_generate makes. */
 typedef struct demand {
-    const koksma__float_set *floats; /* NULL: made otherwise */
+    const koksma__float_set *floats; /* NULL: koksma_generate makes the set */
     /* ordered: whether the first words are for the kernel `order`, which makes a random order */
     bool shuffles, ordered;
-    size_t counters; /* of four words */
+    size_t counters; /* number of random counters, each of which gives four words */
     uint32_t key;
 } demand;
 
@@ -175,13 +176,13 @@ static demand demand_of(const pixel_samples *samples, uint32_t use)
     return d;
 }
 
-/* The index of the word at which the orders within float sets begin. */
+/* Returns where the scratch holds the orders that float sets need for themselves, one for each pixel. */
 static uint16_t *own_orders(const koksma__sample_scratch *room, size_t n)
 {
     return room->order + room->room_for * n + 64;
 }
 
-/* Draws the words and makes the orders of these pixels. */
+/* Draws the random words of the pixels first .. first + count - 1, and makes their random orders. */
 static void draw_words(const pixel_samples *samples, const demand *d, uint64_t first, size_t count,
                        koksma__sample_scratch *room)
 {
@@ -402,8 +403,10 @@ static koksma_status try_uses(pixel_samples *samples)
 static koksma_status check_kept(size_t n, int dim, const char *of)
 {
     return n * (size_t)dim > MAX_KEPT
-               ? koksma__fail(KOKSMA_ARGUMENT, "%zu samples in %d dimensions: %s can store at most %zu numbers", n,
-                              dim, of, MAX_KEPT)
+               ? koksma__fail(
+                     KOKSMA_ARGUMENT,
+                     "%zu samples in %d dimensions: %s can store at most %zu numbers; use fewer samples a pixel", n,
+                     dim, of, MAX_KEPT)
                : KOKSMA_OK;
 }
 

@@ -23,7 +23,7 @@ typedef struct koksma__sample_scratch {
     double *kept;
     uint64_t *kept_keys;   /* the key of the set in each slot; 0: none */
     const koksma_run *run; /* the run of the sampler, or one that is never cancelled */
-    size_t sets;           /* how many sets were made one by one */
+    size_t sets;           /* number of sets that koksma_generate made; keep_going is called at every 16th */
 } koksma__sample_scratch;
 
 typedef struct koksma__sampler {
@@ -35,10 +35,10 @@ typedef struct koksma__sampler {
     /* coordinates per sample in `kept` of the scratch: those of all groups, or of a native pattern */
     int kept_dim;
     size_t kept_sets;  /* number of groups; a native pattern counts as one group */
-    size_t kept_slots; /* pixels in `kept`; the sets of a pixel are in slot pixel modulo kept_slots */
+    size_t kept_slots; /* number of pixels whose sets fit in `kept`; a pixel has slot pixel modulo kept_slots */
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
     /* Draws the random words of a use for several pixels at once, which saves time, before `draw` is called for each
-       of these pixels with the same scratch; NULL: draws alone. */
+       of these pixels with the same scratch; NULL: `draw` draws the words itself. */
     void (*prepare)(const struct koksma__sampler *sampler, uint64_t first, size_t count, uint32_t use,
                     koksma__sample_scratch *room);
     /* Draws the coordinates of one use for all samples of a pixel, and adds the offset to them. pairs[2 i] and

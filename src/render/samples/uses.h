@@ -5,8 +5,9 @@
 
 #include <koksma/render.h>
 
-/* The numbers of the uses in uses.def. The numbers are part of the keys of random numbers, so they never change.
-   Lights count up from LIGHT, and at bounce b the number b KOKSMA__USES_A_BOUNCE is added. */
+/* The numbers of the uses in uses.def. The numbers are part of the keys of random numbers, so they never change. The
+   lights of a vertex have the numbers LIGHT, LIGHT + 1, ...; at bounce b, b times KOKSMA__USES_A_BOUNCE is added to
+   every number. */
 enum {
 #define USE(id, number, name, dim, help) KOKSMA__USE_##id = (number),
 #include "render/samples/uses.def"
@@ -22,7 +23,7 @@ typedef struct koksma__use_list {
     int lights;        /* number of light uses per bounce */
     bool light_choice; /* whether one of several lights is chosen at random */
     bool distance;     /* whether each ray may be scattered by a medium */
-    /* number of vertices of a path; if it is above 1, each vertex has the uses lobe, lobe-choice and roulette, too */
+    /* number of vertices of a path; if it is above 1, each vertex also has the uses lobe, lobe-choice and roulette */
     int vertices;
 } koksma__use_list;
 

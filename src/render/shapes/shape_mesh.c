@@ -10,7 +10,7 @@
 #include "render/placements.h"
 #include "render/shapes/shapes.h"
 
-/* Reads a positive number, or three. */
+/* Reads the field "scale": a positive number, or three of them. */
 static koksma_status parse_scale(const field *f, double scale[3])
 {
     field node;
@@ -164,7 +164,7 @@ const koksma__shape_type koksma__shape_mesh = {
 
 const koksma__shape_type koksma__shape_instance = {
     .kind = {.name = "instance",
-             .title = "another placement of the mesh with this name",
+             .title = "another placement of the mesh that the field `of` names",
              .cite = "-",
              .keys = KEYS("of", PLACEMENT)},
     .takes_checker = true,

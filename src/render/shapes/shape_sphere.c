@@ -94,8 +94,8 @@ INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restr
     }
 }
 
-/* Blocks shadow rays like the function above, for a sphere at rest on which all rays start: the rays that go inwards
-   are blocked. */
+/* Blocks shadow rays like shade_sphere, for a sphere at rest on which all rays start: the rays that go inwards are
+   blocked. */
 static void shade_own(const koksma__batch_shape *s, const koksma__hits *restrict h, const int32_t *aimed, int n,
                       koksma__shadows *restrict r)
 {

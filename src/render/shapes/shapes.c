@@ -32,8 +32,8 @@ koksma_status koksma__shape_axes(const char *name, const field *f, koksma_scene 
     return status ? status : koksma__shape_motion(f, true, shape);
 }
 
-/* Sets the motion that takes the centre to `to`, with the rotation of a mesh (meshes/mesh.h) from its start, along the
-   shorter arc. */
+/* Sets the motion from time 0 to 1: the centre moves to `to`, and the shape turns by rotate_deg (defined as for
+   meshes, in meshes/mesh.h) along the shorter arc and is scaled by `scale`. */
 static void set_turn(koksma__shape *shape, const double to[3], const double rotate_deg[3], double scale)
 {
     static const double none[3] = {0}, same[3] = {1, 1, 1};

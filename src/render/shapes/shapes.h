@@ -4,7 +4,7 @@
  * name and parameters in scene files, its definition, its bounds, and the loops that intersect it with a block of
  * rays. Files that include flat_loops.h or batch_kernel.h are compiled once for each instruction set, and
  * KOKSMA__SHAPE(name) is the entry for the instruction set that is being compiled; in other files it is the entry for
- * `ref`, of which they use only the other members, not the loops.
+ * `ref`. Those files use its other members only, not the loops.
  *
  * tests/render/test_every_shape.c checks every line of the table: hits, normals, bounds and shadows against the
  * definition, all instruction sets against each other, and the geometry with Embree against that without.
@@ -18,7 +18,7 @@
 
 typedef struct koksma__shape_type {
     koksma__kind kind; /* parameters are written to koksma__shape */
-    bool is_flat;      /* lies in the plane through centre along axis_u and axis_v, extending as far as half */
+    bool is_flat;      /* lies in a plane, within half[0] of the centre along axis_u and half[1] along axis_v */
     bool takes_checker, takes_image;
     bool may_emit; /* the field "emission", instead of "material", makes the shape a light */
     /* NULL, or reads the fields that are not parameters; name is the scene file's. A compound adds its parts to the

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The method `blocks` decides for whole blocks of the image whether their pixels get more samples (Dammertz, Hanika,
- * Keller & Lensch 2010). Let I be the mean of all sets of a pixel, and A the mean of every second set. The error of a
- * block of N pixels in an image of M pixels is
+ * Keller & Lensch 2010). The samples of a pixel come in point sets; let I be the mean of all its sets, and A the mean
+ * of every second set. The error of a block of N pixels in an image of M pixels is
  *
- *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (absolute values and I summed over channels)
+ *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (|I - A| and I are sums over the channels)
  *
  * A block stops when e is below the threshold. When its error is below 256 times the threshold, a block is cut across
  * its longer side, at the position where the errors of the two parts are most nearly equal, unless a part would have
@@ -21,7 +21,7 @@ enum { SIDE = KOKSMA__SETS_THRESHOLD + 1 };
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(2, 2),
-    {"threshold", "a block stops below this error; 0: only the budget limits", 0, 0, 1e6, NULL, false},
+    {"threshold", "a block stops below this error; 0: no threshold, only a budget", 0, 0, 1e6, NULL, false},
     {"side", "smallest side of a block in pixels", 8, 1, 65536, NULL, true},
     {0},
 };

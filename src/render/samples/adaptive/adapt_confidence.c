@@ -24,8 +24,8 @@ enum { FACTORS = 1024 };
 static const char *const tests[] = {"t", "chi2", NULL};
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(1, 1),
-    {"threshold", "uncertainty of luminance below which a pixel stops; 0: only the budget limits", 0, 0, 1e6, NULL,
-     false},
+    {"threshold", "uncertainty of luminance below which a pixel stops; 0: no threshold, only a budget", 0, 0, 1e6,
+     NULL, false},
     {"test", "confidence interval of the mean (t), or bound of its standard error (chi2)", 0, 0, 1, tests, true},
     {"level", "confidence level", 0.9, 0.5, 0.9999, NULL, false},
     {0},

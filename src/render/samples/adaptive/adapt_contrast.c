@@ -16,7 +16,7 @@
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(1, 1),
-    {"threshold", "factor that multiplies Mitchell's bounds; 0: only the budget limits", 0, 0, 1e6, NULL, false},
+    {"threshold", "factor that multiplies Mitchell's bounds; 0: no threshold, only a budget", 0, 0, 1e6, NULL, false},
     {0},
 };
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The method `selective` splits strata only in the use that causes most of the pixel's variance, a choice that
- * Shirley 1991, section 5.6, leaves open. The uses are paired by random permutations, so that neighbouring strata of
- * one use are not neighbours in another. Therefore neighbours have similar values only in the use that causes the
- * variance. Geary's contiguity ratio (1954) measures this similarity from the first m x m values v, without further
- * samples. Over the P pairs of neighbouring cells (columns and rows) of a use the ratio is
+ * The method `selective` splits strata only in the use of sample dimensions (pixel, lens, light, ...) that causes
+ * most of the pixel's variance, a choice that Shirley 1991, section 5.6, leaves open. The uses are paired by random
+ * permutations, so that neighbouring strata of one use are not neighbours in another. Therefore neighbours have
+ * similar values only in the use that causes the variance. Geary's contiguity ratio (1954) measures this similarity
+ * from the values v of the m x m samples of the first round, without further samples. Over the P pairs of
+ * neighbouring cells (columns and rows) of a use the ratio is
  *
  *     c = (sum over pairs (v_i - v_j)^2 / P)  /  (2 s^2),     s^2 the variance of all values
  *
@@ -130,7 +131,7 @@ static const koksma__adaptive_method method = {.open = open,
 
 const koksma_adaptive koksma__adaptive_selective = {
     .name = "selective",
-    .title = "splits strata that differ from a neighbour, in the use that causes most of the variance",
+    .title = "splits strata where the values of neighbours differ, in the use that causes most of the variance",
     .cite = "shirley1991 geary1954",
     .params = params,
     .own_samples = true,

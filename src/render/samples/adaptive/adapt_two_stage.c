@@ -22,7 +22,7 @@ enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1, PRIOR };
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(4, 2),
-    {"threshold", "largest standard error divided by (mean + floor); 0: only the budget limits", 0, 0, 1e6, NULL,
+    {"threshold", "largest standard error divided by (mean + floor); 0: no threshold, only a budget", 0, 0, 1e6, NULL,
      false},
     {"floor", "luminance below which errors count as absolute", 0.01, 1e-9, 1e9, NULL, false},
     {"prior", "weight of the mean error of the image, in degrees of freedom", 1, 0, 1e6, NULL, false},

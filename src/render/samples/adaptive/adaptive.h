@@ -15,7 +15,7 @@
 /* The demand of a pixel for more samples. */
 typedef struct koksma__sample_demand {
     uint32_t now;   /* samples in the next round; 0: the pixel is done */
-    uint32_t later; /* number of samples that the last round will need because of these samples */
+    uint32_t later; /* number of further samples that a later round must take because of these */
     float score;    /* priority of the pixel; under a budget the highest scores are selected first */
     bool selected;  /* whether the next round draws samples of this pixel */
 } koksma__sample_demand;
@@ -25,7 +25,7 @@ typedef struct koksma__adaptive koksma__adaptive;
 /* The values of the samples that a pixel demanded. */
 typedef struct koksma__sample_values {
     const float *rgb;
-    const float *weights; /* of the filter (filters.h); NULL: all 1 */
+    const float *weights; /* weights of the filter (filters/filter_table.h); NULL: all are 1 */
     const float *parts;   /* 3 numbers for each AOV of light for each sample; unused without AOVs */
 } koksma__sample_values;
 
@@ -53,8 +53,8 @@ typedef struct koksma__adaptive_method {
     void (*plan)(koksma__adaptive *run);
     /* NULL, or a function that is called when no pixel is selected any more and sets demands for one last round */
     void (*last)(koksma__adaptive *run);
-    /* NULL, or returns the number of probes for the splits of a selected pixel; in a round of probes, draw and
-       take process the probes. */
+    /* NULL, or returns the number of probes for the splits of a selected pixel. Probes are extra samples that test
+       whether a split was needed; in a round of probes, draw and take process them. */
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
     /* computes the value of a pixel and returns its variance */
     double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]);
@@ -76,7 +76,7 @@ struct koksma__adaptive {
     bool probing;    /* this round draws only probes */
     void *state;     /* state of the method: koksma__pixel_sets of every pixel, or koksma__strata */
     void *extra;     /* further memory of the method, freed by the engine; NULL: none */
-    double *sums;    /* of the AOVs, of methods that draw sets: koksma__sets_part; NULL: no AOVs */
+    double *sums;    /* sums for the AOVs in methods that draw sets (koksma__sets_part); NULL: no AOVs */
     koksma_adaptive_report report;
 };
 

@@ -129,8 +129,8 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
     return status;
 }
 
-/* Asks the caller's keep_going, within a task, too, because a task may take minutes; if the caller is stopped, the
-   helper threads are stopped. */
+/* Calls the caller's keep_going; if it returns false, all threads stop. look() calls this function within tasks,
+   because a task may take minutes. */
 static bool goes_on(void *context, double fraction)
 {
     job *j = context;
@@ -163,7 +163,7 @@ static koksma_status render_task(void *context, size_t task)
     if (!selected) {
         return KOKSMA_OK;
     }
-    size_t samples = 0; /* time since keep_going was last called */
+    size_t samples = 0; /* samples rendered since the last call of look() */
     room r = {.scratch = malloc(run->scratch + 1)};
     koksma__group group;
     status = koksma__task_scratch_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Computes the position of a stratum's sample in each use by a walk from one of the m x m initial cells down the
- * splits, in the base use and the other use together. Every random number is a hash of (seed, pixel, use, node),
- * where a node is a current or former stratum, so that no positions need to be stored.
+ * splits, in the base use and the other use together (adaptive_place.h defines these terms). Every random number is a
+ * hash of (seed, pixel, use, node), where a node is a current or former stratum, so that no positions need to be
+ * stored.
  *
  * With reuse=kept, a stratum that is split into four passes its sample on to the part that contains it: part b in the
  * base use, and quarter c in another use. In the other use part k gets quarter k ^ b ^ c (exclusive or), so that part
@@ -11,8 +12,8 @@
  *
  * With reuse=fresh, the samples of the last stage must be independent of those by which strata were split. The rule k
  * ^ b ^ c would always pair quarter b with quarter c again, which together contain the sample that caused the split.
- * So in the last stage part k gets one of the four quarters with equal probability, drawn again. The mean over the
- * parts is then unbiased for the stratum, whatever the tree.
+ * So in the last stage part k gets one of the four quarters with equal probability, by a new random number. The mean
+ * over the parts is then unbiased for the stratum, whatever the tree.
  */
 #include <math.h>
 #include <string.h>

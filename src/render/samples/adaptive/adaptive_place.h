@@ -41,7 +41,7 @@ enum { KOKSMA__STAGE_TREE, KOKSMA__STAGE_LAST, KOKSMA__STAGE_PROBE };
 typedef struct koksma__stratum {
     uint32_t number;  /* index of the initial stratum, below m x m */
     uint16_t digits;  /* the quarter of the base use at each split, the first split in the highest digit */
-    uint8_t level;    /* number of splits above this stratum */
+    uint8_t level;    /* number of splits that led to this stratum */
     uint8_t needless; /* bit k is set if split k of those that led to this stratum was needless */
     bool pending;     /* whether the sample of the stratum remains to be drawn */
     bool marked;      /* whether the stratum will be split */

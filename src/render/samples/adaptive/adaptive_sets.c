@@ -18,7 +18,7 @@
 #include "render/samples/uses.h"
 #include "render/vector3.h"
 
-/* Of each AOV and pixel: the sums of weight x value and of value, three channels each. */
+/* The numbers that are stored for each AOV and pixel: the sums of weight x value and of value, three channels each. */
 enum { NUMBERS_OF_AOV = 6 };
 
 enum { LANE_CONTINUED = 1 << 21 }; /* keys of the shuffles, above those of the uses and of the pairings */
@@ -293,7 +293,7 @@ double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pi
     return k > 1 ? sqrt(fmax(p->sum_mean_square - k * mean * mean, 0) / ((k - 1) * k)) : 0;
 }
 
-/* Sample i of filter weight w_i has the weight a w_i + b in the pixel, as film.c has it; the weights add up to 1. */
+/* Sample i of filter weight w_i has the weight a w_i + b in the pixel, as film.c describes; the weights add up to 1. */
 static void weights_of(const koksma__adaptive *run, const koksma__pixel_sets *p, double *a, double *b)
 {
     const double n = samples_of(run, p);

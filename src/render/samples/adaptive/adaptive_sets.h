@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the methods share whose samples come in sets of the pattern (adaptive_sets.c). */
+/* Functions for the methods whose samples come in point sets of the pattern (adaptive_sets.c). */
 #ifndef KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_SETS_H
 #define KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_SETS_H
 

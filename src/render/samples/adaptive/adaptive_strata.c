@@ -32,7 +32,7 @@ static koksma_status too_many(const koksma__adaptive *run)
                         MAX_STRATA);
 }
 
-/* The number of floats of a stratum's parts of light. */
+/* The number of floats that each stratum stores for the AOVs of light. */
 static size_t numbers_of_parts(const koksma__adaptive *run)
 {
     return run->frame->aovs ? 3 * run->frame->aovs->n_parts : 0;
@@ -358,7 +358,7 @@ static double weight_of(const strata_weights *w, const koksma__stratum *stratum)
 }
 
 /* Computes the value of AOV `a` like that of the pixel. A half has every second stratum in the order of the tree, in
-   which the parts of a stratum follow each other, and divides by the volume of those. */
+   which the parts of a stratum follow each other, and divides by their volume. */
 void koksma__strata_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
 {
     const koksma__strata *s = run->state;
