@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The patterns that have a form on a domain, in the table at the end. These choose among candidates that are
- * independent and have the wanted density:
+ * Makes points on a domain (domain.h) with the method of a pattern; the table at the end lists the patterns that have
+ * one. These methods choose among candidates, which are independent and have the wanted density:
  *
  *   random                 the first n candidates
- *   elimination            n of factor * n candidates by patterns/shared/elimination.c, with d_max of n points in the
- *                          plane times the root of the area; progressive order as there
- *   poisson-disk           candidates in turn, those too near to a kept one are rejected (dart_grid.c). After 20,000
- *                          rejections in a row it fails
+ *   elimination            n of factor * n candidates, chosen by patterns/shared/elimination.c, which also makes the
+ *                          progressive order; d_max is that of n points in the unit square times the square root of the
+ *                          domain's area
+ *   poisson-disk           the candidates in turn, except those that are too near to one that was kept (dart_grid.c);
+ *                          it fails after 20,000 rejections in a row
  *
- * poisson-disk-maximal (maximal.c) and gaussian-blue-noise (gaussian.c) make points of their own. The distance of a pair
- * is in units of the smaller of both units of distance.
+ * poisson-disk-maximal (maximal.c) and gaussian-blue-noise (gaussian.c) work differently. Each part of a domain has a
+ * unit of distance; the distance of two points is measured in the smaller of their two units.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -39,7 +40,7 @@ static koksma_status choose_first(const choice *c)
 
 /* ---- Elimination ----------------------------------------------------------------------------------------- */
 
-/* The candidates not eliminated yet, and a copy of them that elimination reads. */
+/* The candidates that are not eliminated yet, and a copy of them that the elimination reads. */
 typedef struct candidates {
     double *xs, *units, *old_xs, *old_units;
     uint64_t *who, *old_who;
@@ -144,8 +145,8 @@ static koksma_status throw_darts(const choice *c, koksma__dart_grid *grid)
 static koksma_status choose_darts(const choice *c)
 {
     const bool torus = c->domain->torus && c->params[1] > 0;
-    KOKSMA__FAIL_IF(c->params[1] > 0 && !c->domain->torus, KOKSMA_ARGUMENT, "%s: torus=1: there is no torus %s",
-                    c->pattern->name, c->domain->what);
+    KOKSMA__FAIL_IF(c->params[1] > 0 && !c->domain->torus, KOKSMA_ARGUMENT,
+                    "%s: torus=1: there is no torus %s; torus=0 would do", c->pattern->name, c->domain->what);
     koksma__dart_grid grid;
     koksma_status status = koksma__dart_grid_init(&grid, c->domain, torus, c->n, c->params[0] * c->domain->unit);
     status = status ? status : throw_darts(c, &grid);
@@ -155,8 +156,8 @@ static koksma_status choose_darts(const choice *c)
 
 /* ---- The table ------------------------------------------------------------------------------------------- */
 
-/* The patterns that can place points on a domain. A method reads the pattern's parameters by their order in its
-   table. */
+/* The patterns that can place points on a domain. A method reads the parameters by their order in the pattern's table
+   of parameters. */
 static const struct {
     const char *pattern;
     koksma_status (*choose)(const choice *c);
