@@ -73,8 +73,8 @@ static void put_point(const square *s, uint32_t x, uint32_t y)
     put_cell(s, 1, column, row, x_in, y_in);
 }
 
-/* Returns the energy of the pairs of cell t of one line and cell t + step of the line that is `lines` lines further.
-   */
+/* Returns the energy of pairs of points, added over all t: one point is in cell t of a line, the other in cell t + step
+   of the line that is `lines` lines further. */
 static int32_t energy_of(long side, const float *across, const float *along, const float *others_across,
                          const float *others_along, long lines, long step)
 {
