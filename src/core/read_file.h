@@ -21,7 +21,7 @@ typedef enum koksma__file_kind {
    may name only plain files. Devices are rejected in both cases. */
 typedef enum koksma__named { KOKSMA__BY_USER, KOKSMA__BY_FILE } koksma__named;
 
-/* Opens a file for reading; koksma__file_close ends it. It waits only for the writer of a fifo that the user named.
+/* Opens a file for reading; koksma__file_close closes it. It waits only for the writer of a fifo that the user named.
    Errors: MISSING (the file is absent, unreadable or not plain), MALFORMED (it is too long), SYSTEM (no descriptor or
    memory is left). */
 koksma_status koksma__file_open(const char *path, koksma__file_kind kind, koksma__named by, FILE **stream);
