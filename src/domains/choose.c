@@ -179,8 +179,8 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     KOKSMA__TRY(koksma__generate_check(spec, p, 2));
     for (size_t i = 0; i < KOKSMA_MAX_MODIFIERS; i++) {
         const koksma_modifier *modifier = koksma_modifier_at(i);
-        KOKSMA__FAIL_IF(modifier && !(spec->modifiers[i] == 0), KOKSMA_ARGUMENT, "%s: %s has no form %s", p->name,
-                        modifier->name, domain->what);
+        KOKSMA__FAIL_IF(modifier && !(spec->modifiers[i] == 0), KOKSMA_ARGUMENT,
+                        "%s: the modifier %s can't be used for points %s", p->name, modifier->name, domain->what);
     }
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (!strcmp(methods[i].pattern, p->name)) {
@@ -190,7 +190,7 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     }
     return koksma__fail(
         KOKSMA_UNSUPPORTED,
-        "%s: no form %s; random, sample-elimination, progressive-elimination, poisson-disk, poisson-disk-maximal and "
-        "gaussian-blue-noise have one",
+        "%s: it can't make points %s; random, sample-elimination, progressive-elimination, poisson-disk, "
+        "poisson-disk-maximal and gaussian-blue-noise can",
         p->name, domain->what);
 }
