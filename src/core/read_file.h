@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The only way to open input files: a path that is not a file is rejected, opening does not wait, and each kind of
-   file has a size limit. */
+/* The only way to open input files: a path that is not a file is rejected, opening waits for nothing but the writer of
+   a fifo that the user named, and each kind of file has a size limit. */
 #ifndef KOKSMA_CORE_READ_FILE_H
 #define KOKSMA_CORE_READ_FILE_H
 
