@@ -41,7 +41,7 @@
 
 enum { GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22 };
 
-#define BETA 0.65 /* beta of the paper; its gamma = 1.5 needs no pow() */
+#define BETA 0.65 /* beta of the paper; its other constant, the exponent gamma = 1.5, is applied by sqrt() */
 
 typedef struct entry {
     double weight;
