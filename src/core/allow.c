@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The permission to run external code, stored as one number per thread. Only the caller of the library can give it;
-   no spec, plan, scene or store can contain it. core/parallel.c and the MPI server hand it to the threads that they
+   no spec, plan, scene or store can contain it. core/parallel.c and the MPI server pass it on to the threads that they
    start. */
 #include "core/allow.h"
 

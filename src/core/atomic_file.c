@@ -38,7 +38,7 @@ enum { PREFIX = sizeof prefix - 1, RANDOM = 16, TRIES = 100 };
 typedef struct koksma__output {
     char *path, *name; /* path: name of the file in messages; name: its name within the folder */
     char temporary[PREFIX + RANDOM + 1];
-    int folder; /* -1: the target is not a plain file */
+    int folder; /* descriptor of the folder; -1: the target is not a plain file */
     int descriptor;
     int reason; /* errno of the first write that failed */
 } output;
@@ -118,7 +118,7 @@ static int open_folder(int at, const char *path, int flags)
     return folder < 0 && errno == EACCES ? openat(at, path, O_PATH | O_DIRECTORY | O_CLOEXEC | flags) : folder;
 }
 
-/* Returns a copy of the descriptor above 2, because other code writes to descriptors 0 to 2 even if these streams
+/* Returns a descriptor above 2 for the same file, because other code writes to descriptors 0 to 2 even if these streams
    were closed. */
 static int above_streams(int descriptor)
 {

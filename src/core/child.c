@@ -240,8 +240,8 @@ static void take_message(conversation *c, const char *bytes, size_t count)
 
 static void take_outcome(conversation *c, const char *bytes, size_t count)
 {
-    if (count >= sizeof c->outcome &&
-        !c->heard) { /* keep the first outcome: a program that cannot start sends one before its keeper does */
+    /* only the first outcome counts: if the program can't be started, its process sends one before the keeper does */
+    if (count >= sizeof c->outcome && !c->heard) {
         memcpy(&c->outcome, bytes, sizeof c->outcome);
         c->heard = true;
     }

@@ -244,7 +244,7 @@ static const struct {
       "of 2"},
      flip_digits},
     {{"axes", "a random order of the coordinates (1), or none (0)", "-", 1, 1, true, OF_CUBE, 0, 0, "*",
-      "the values of all measures, and all strata that treat the coordinates equally"},
+      "the values of all measures, and all strata that are the same for every order of the coordinates"},
      permute_axes},
     {{"mirror", "each coordinate reflected about 1/2 or not, at random (1), or none (0)", "-", 1, 1, true,
       OF_CUBE | OF_GROUPS, 0, 0, MIRROR_MEASURES,

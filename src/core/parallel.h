@@ -24,15 +24,16 @@ KOKSMA__LAB int koksma__threads(const koksma_run *run);
 /* Returns false if run->keep_going returned false. */
 KOKSMA__LAB bool koksma__keep_going(const koksma_run *run, double fraction_done);
 
-/* For callbacks that cost much, such as those of an interpreter: koksma__paced is a keep_going, and a koksma__pacing its
-   context. It passes the question on to `keep_going` once in every interval_s at most, for the first time after one
-   interval; after a no the answer stays no. The Python package has the same struct. */
+/* For callbacks that cost much, such as those of an interpreter: koksma__paced is a keep_going whose context is a
+   koksma__pacing. It calls the member `keep_going` at most once in every interval_s, first after one interval, and
+   otherwise returns true; once the member has returned false, it always returns false. The Python package has the same
+   struct. */
 typedef struct koksma__pacing {
     bool (*keep_going)(void *context, double fraction_done);
     void *context;
     double interval_s;
-    double next_s; /* when to ask again; 0 before the first call */
-    bool stopped;  /* false before the first call */
+    double next_s; /* time of the next call of `keep_going`; 0 before the first call of koksma__paced */
+    bool stopped;  /* true once `keep_going` has returned false */
 } koksma__pacing;
 
 KOKSMA__LAB bool koksma__paced(void *pacing, double fraction_done);

@@ -135,7 +135,7 @@ static bool take_preamble(reader *r, const char *s, koksma_status *status)
         return false;
     }
     koksma__strtod(s, &end);
-    if (end != s) { /* a line that begins with a number, such as "nan 0.5", is a bad point, not a header */
+    if (end != s) { /* a line that begins with a number, such as "nan 0.5", is a malformed point, not a header */
         return false;
     }
     r->in_preamble = true;
@@ -170,7 +170,7 @@ static bool take_header(reader *r, const char *s)
     while (s && *s) {
         const char first = s[*s == '"'];
         char *end;
-        koksma__strtod(s, &end); /* a field that is a number, as in "nan 0.5", makes the line a bad point */
+        koksma__strtod(s, &end); /* a line with a number, such as "nan 0.5", is a malformed point */
         if (!((first | 32) >= 'a' && (first | 32) <= 'z') && first != '_') {
             return false;
         }

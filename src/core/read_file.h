@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The only way to open input files: a path that is not a file is rejected, opening does not wait, and each kind of
-   file has a size limit. */
+/* The only way to open input files: a path that is not a file is rejected, opening waits for nothing but the writer of
+   a fifo that the user named, and each kind of file has a size limit. */
 #ifndef KOKSMA_CORE_READ_FILE_H
 #define KOKSMA_CORE_READ_FILE_H
 
@@ -21,7 +21,7 @@ typedef enum koksma__file_kind {
    may name only plain files. Devices are rejected in both cases. */
 typedef enum koksma__named { KOKSMA__BY_USER, KOKSMA__BY_FILE } koksma__named;
 
-/* Opens a file for reading; koksma__file_close ends it. It waits only for the writer of a fifo that the user named.
+/* Opens a file for reading; koksma__file_close closes it. It waits only for the writer of a fifo that the user named.
    Errors: MISSING (the file is absent, unreadable or not plain), MALFORMED (it is too long), SYSTEM (no descriptor or
    memory is left). */
 koksma_status koksma__file_open(const char *path, koksma__file_kind kind, koksma__named by, FILE **stream);

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The patterns that have a form on a domain, in the table at the end. These choose among candidates that are
- * independent and have the wanted density:
+ * Makes points on a domain (domain.h) with the method of a pattern; the table at the end lists the patterns that have
+ * one. These methods choose among candidates, which are independent and have the wanted density:
  *
  *   random                 the first n candidates
- *   elimination            n of factor * n candidates by patterns/shared/elimination.c, with d_max of n points in the
- *                          plane times the root of the area; progressive order as there
- *   poisson-disk           candidates in turn, those too near to a kept one are rejected (dart_grid.c). After 20,000
- *                          rejections in a row it fails
+ *   elimination            n of factor * n candidates, chosen by patterns/shared/elimination.c, which also makes the
+ *                          progressive order; d_max is that of n points in the unit square times the square root of the
+ *                          domain's area
+ *   poisson-disk           the candidates in turn, except those that are too near to one that was kept (dart_grid.c);
+ *                          it fails after 20,000 rejections in a row
  *   best-candidate         of k * candidates + 1 candidates the one that is furthest from the k points before it. A query
  *                          of dart_grid.c rejects a candidate that is nearer than the best one so far; the few others
- *                          are compared with all points: O(n (most + n log most)) in the plane
+ *                          are compared with all points: with c candidates a point in O(n (c + n log c)) in the plane
  *
- * poisson-disk-maximal, dart-throwing (maximal.c) and gaussian-blue-noise (gaussian.c) make points of their own. The distance of a pair
- * is in units of the smaller of both units of distance.
+ * poisson-disk-maximal and dart-throwing (maximal.c), and gaussian-blue-noise (gaussian.c), work differently. Each part of
+ * a domain has a unit of distance; the distance of two points is measured in the smaller of their two units.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -43,7 +44,7 @@ static koksma_status choose_first(const choice *c)
 
 /* ---- Elimination ----------------------------------------------------------------------------------------- */
 
-/* The candidates not eliminated yet, and a copy of them that elimination reads. */
+/* The candidates that are not eliminated yet, and a copy of them that the elimination reads. */
 typedef struct candidates {
     double *xs, *units, *old_xs, *old_units;
     uint64_t *who, *old_who;
@@ -148,8 +149,8 @@ static koksma_status throw_darts(const choice *c, koksma__dart_grid *grid)
 static koksma_status choose_darts(const choice *c)
 {
     const bool torus = c->domain->torus && c->params[1] > 0;
-    KOKSMA__FAIL_IF(c->params[1] > 0 && !c->domain->torus, KOKSMA_ARGUMENT, "%s: torus=1: there is no torus %s",
-                    c->pattern->name, c->domain->what);
+    KOKSMA__FAIL_IF(c->params[1] > 0 && !c->domain->torus, KOKSMA_ARGUMENT,
+                    "%s: torus=1: there is no torus %s; torus=0 would do", c->pattern->name, c->domain->what);
     koksma__dart_grid grid;
     koksma_status status = koksma__dart_grid_init(&grid, c->domain, torus, c->n, c->params[0] * c->domain->unit);
     status = status ? status : throw_darts(c, &grid);
@@ -220,8 +221,8 @@ static koksma_status choose_best(const choice *c)
 
 /* ---- The table ------------------------------------------------------------------------------------------- */
 
-/* The patterns that can place points on a domain. A method reads the pattern's parameters by their order in its
-   table. */
+/* The patterns that can place points on a domain. A method reads the parameters by their order in the pattern's table
+   of parameters. */
 static const struct {
     const char *pattern;
     koksma_status (*choose)(const choice *c);
@@ -245,8 +246,8 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     KOKSMA__TRY(koksma__generate_check(spec, p, 2));
     for (size_t i = 0; i < KOKSMA_MAX_MODIFIERS; i++) {
         const koksma_modifier *modifier = koksma_modifier_at(i);
-        KOKSMA__FAIL_IF(modifier && !(spec->modifiers[i] == 0), KOKSMA_ARGUMENT, "%s: %s has no form %s", p->name,
-                        modifier->name, domain->what);
+        KOKSMA__FAIL_IF(modifier && !(spec->modifiers[i] == 0), KOKSMA_ARGUMENT,
+                        "%s: the modifier %s can't be used for points %s", p->name, modifier->name, domain->what);
     }
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (!strcmp(methods[i].pattern, p->name)) {
@@ -254,9 +255,9 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
             return methods[i].choose(&c);
         }
     }
-    return koksma__fail(
-        KOKSMA_UNSUPPORTED,
-        "%s: no form %s; random, best-candidate, dart-throwing, sample-elimination, progressive-elimination, "
-        "poisson-disk, poisson-disk-maximal and gaussian-blue-noise have one",
-        p->name, domain->what);
+    return koksma__fail(KOKSMA_UNSUPPORTED,
+                        "%s: it can't make points %s; random, best-candidate, dart-throwing, sample-elimination, "
+                        "progressive-elimination, "
+                        "poisson-disk, poisson-disk-maximal and gaussian-blue-noise can",
+                        p->name, domain->what);
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Points on a domain, by pattern. */
+/* Makes points on a domain with the method of a pattern. */
 #ifndef KOKSMA_DOMAINS_CHOOSE_H
 #define KOKSMA_DOMAINS_CHOOSE_H
 
 #include "domains/domain.h"
 
-/* Makes n points of a domain by the method of the pattern. Errors: ARGUMENT, UNSUPPORTED, N, IMPOSSIBLE, MEMORY,
-   INTERRUPTED. */
+/* Makes n points of a domain by the method of the pattern that the spec names. Errors: ARGUMENT, UNSUPPORTED, N,
+   IMPOSSIBLE, MEMORY, INTERRUPTED. */
 koksma_status koksma__domain_choose(const koksma__point_domain *domain, const koksma_spec *spec, uint64_t seed,
                                     size_t n, const koksma_run *run, koksma__domain_point *points);
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Finds the points that conflict with a position or a region: each cell of a grid has a list of its points, and a query
- * visits the cells that its own unit of distance reaches. A ball is convex, so that it contains a region if it contains
- * the corners. On the torus the image of a point that is nearest to the position is tested against all corners.
+ * visits the cells within d times its own unit of distance. A ball is convex, so it contains a region if it contains
+ * the region's corners. On the torus only the image of a point that is nearest to the position is tested, against all
+ * corners of the region.
  */
 #include "domains/dart_grid.h"
 
@@ -91,7 +92,8 @@ static bool conflicts(const koksma__dart_grid *g, const koksma__dart_query *q, u
     return true;
 }
 
-/* Looks at the cells from the axis k on. */
+/* Returns whether a point conflicts with the query, by recursion over the axes k and later: visits the cells within
+   reach whose index along the axes before k is `row`. */
 static bool meets(const koksma__dart_grid *g, int k, size_t row, const koksma__dart_query *q)
 {
     if (k == g->dim) {

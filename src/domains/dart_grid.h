@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Points of a domain that keep distances, in a grid of cells. Two points conflict if they are closer than d times the
-   smaller of both units of distance. */
+/* A grid of cells that finds the points of a domain near a position. Two points conflict if they are closer than d
+   times the smaller of their two units of distance (unit_of in domain.h). */
 #ifndef KOKSMA_DOMAINS_DART_GRID_H
 #define KOKSMA_DOMAINS_DART_GRID_H
 
@@ -10,18 +10,18 @@ typedef struct koksma__dart_grid {
     int dim;
     bool torus;
     double d;           /* smallest distance where the unit is 1 */
-    size_t n, capacity; /* points, and how many there may be */
-    double *xs, *units; /* their positions and units of distance */
+    size_t n, capacity; /* number of points; capacity for points */
+    double *xs, *units; /* positions and units of distance of the points */
     uint32_t *next, *head;
-    uint32_t side; /* cells along an axis, about one cell a point */
+    uint32_t side; /* number of cells along an axis; about one cell for each point */
 } koksma__dart_grid;
 
 /* A position, or a convex region about it of `corners` corners. */
 typedef struct koksma__dart_query {
     const double *x;
-    double unit; /* of the position or of the whole region */
+    double unit; /* unit of distance of the position or of the whole region */
     size_t corners;
-    double offsets[4][3]; /* corners less x */
+    double offsets[4][3]; /* each corner minus x */
 } koksma__dart_query;
 
 koksma_status koksma__dart_grid_init(koksma__dart_grid *grid, const koksma__point_domain *domain, bool torus,
@@ -34,7 +34,7 @@ void koksma__dart_grid_reset(koksma__dart_grid *grid, size_t n, double d);
 /* Adds a point; there must be capacity for it. */
 void koksma__dart_grid_add(koksma__dart_grid *grid, const double *x, double unit);
 
-/* Whether one point of the grid conflicts with the position, or with every position of the region. */
+/* Returns whether a point of the grid conflicts with the position, or with every position of the region. */
 bool koksma__dart_grid_meets(const koksma__dart_grid *grid, const koksma__dart_query *query);
 
 #endif

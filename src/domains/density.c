@@ -3,7 +3,7 @@
  * koksma_generate_density: points in the unit square whose density follows an image. A candidate is a uniform point
  * in a pixel that is drawn with probability proportional to its luminance, by bisection in the running sums of the
  * luminance. Where the luminance is p times its mean, there are n p points in a unit of area, whose distances are
- * proportional to 1 / sqrt p: this is the unit of distance there.
+ * proportional to 1 / sqrt p: the unit of distance there is 1 / sqrt p.
  */
 #include <koksma/density.h>
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The field of a density. A point's width is sigma times half the side of the square about it that holds four points,
- * which follows the density as finely as points can show it: single dark pixels in a bright area do not count. Squares
- * are found by the false position (Illinois) of the root of their number of points, with a summed-area table (Crow
- * 1984) of the image on the torus. Nodes are the leaves of a quadtree, no wider than the width of a point at their
- * centre; the centroid of a leaf is that of 4 x 4 parts.
+ * The target (field.h) of gaussian-blue-noise with a density. The width of a point is sigma times half the side of the
+ * square about it in which the density puts four points. It thus follows the density as finely as points can show it:
+ * single dark pixels in a bright area hardly change it. The side of the square is found by false position (Illinois
+ * variant) for the square root of the number of points in it, which a summed-area table (Crow 1984) of the image on the
+ * torus gives. Nodes are the leaves of a quadtree, with sides of at most about the width of a point at their centre;
+ * the centroid of a leaf is computed from 4 x 4 parts.
  */
 #include "domains/density_field.h"
 
@@ -19,13 +20,13 @@ enum { DEEPEST = 26, LEAST_POINTS = 4 };
 
 typedef struct density_field {
     const koksma__image_density *m;
-    double *table; /* (height + 1) rows of width + 1: points in pixels left of and below a corner */
+    double *table; /* (height + 1) rows of width + 1: number of points left of and below each pixel corner */
     double n, sigma;
     size_t capacity;
     koksma__field *field;
 } density_field;
 
-/* Points in [0,u] x [0,v], u and v in [0,1]. */
+/* Returns the number of points that the density puts into [0,u] x [0,v], for u and v in [0,1]. */
 static double inside(const density_field *f, double u, double v)
 {
     const size_t w = f->m->width, h = f->m->height;
@@ -35,7 +36,7 @@ static double inside(const density_field *f, double u, double v)
     return (1 - b) * ((1 - a) * low[0] + a * low[1]) + b * ((1 - a) * high[0] + a * high[1]);
 }
 
-/* The same for any u and v, with the torus repeated: the sum grows by a period's points in each. */
+/* Does the same for any u and v, by repeating the torus over the plane: each period along an axis adds its points. */
 static double repeated(const density_field *f, double u, double v)
 {
     const double i = floor(u), j = floor(v);
@@ -112,7 +113,7 @@ static void close_field(void *data)
     free(f);
 }
 
-/* The node of a square of the quadtree. */
+/* Adds the node of a square of the quadtree. */
 static koksma_status add_node(density_field *f, const double low[2], double side, double mass, double s)
 {
     koksma__field_node node = {.mass = mass, .square = s * s + side * side / 6};

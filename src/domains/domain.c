@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Draws a part of a domain by bisection of the sums of all parts before it. */
+/* Finds the part of a domain to which a random number belongs, by bisection in the running sums of the parts' shares:
+   sums[i] is the sum over parts 0 to i. */
 #include "domains/domain.h"
 
 size_t koksma__domain_find(const double *sums, size_t count, double at)
@@ -13,7 +14,7 @@ size_t koksma__domain_find(const double *sums, size_t count, double at)
             low = middle + 1;
         }
     }
-    /* where `at` was rounded up to the total: the last entry that is not empty */
+    /* if `at` was rounded up to the total, no sum is above it: take the last part whose share is not 0 */
     while (low > 0 && sums[low] <= sums[low - 1]) {
         low--;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Domains of points other than the uniform unit cube: a square with a density, the surface of a model. A domain is made
-   of parts, the pixels of the density or the triangles of the model, each with coordinates of its own; the methods of
-   choose.c make points on it, by pattern. */
+/* Domains of points other than the uniform unit cube: a square with a density, or the surface of a model. A domain
+   consists of parts (the pixels of the density or the triangles of the model), each with its own coordinates. choose.c
+   makes points on a domain with the methods of patterns. */
 #ifndef KOKSMA_DOMAINS_DOMAIN_H
 #define KOKSMA_DOMAINS_DOMAIN_H
 
@@ -18,26 +18,27 @@ struct koksma__field;
 
 typedef struct koksma__point_domain {
     const char *what;   /* for messages: "with a density" */
-    int dim;            /* coordinates of a position, which are in [0,1) */
-    int corners;        /* of a part: 4 or 3 */
-    bool torus, varies; /* varies: the density does */
-    double area;        /* of the domain, in the coordinates of positions */
-    double unit;        /* length 1 of the parameter d in these coordinates */
+    int dim;            /* number of coordinates of a position; they are in [0,1) */
+    int corners;        /* number of corners of a part: 4 or 3 */
+    bool torus, varies; /* varies: the density is not constant */
+    double area;        /* area of the domain, in the coordinates of positions */
+    double unit;        /* the length, in these coordinates, that d=1 of a pattern means */
     size_t n_parts;
-    const void *data; /* of the functions */
+    const void *data; /* argument of the functions below */
     /* Makes candidate i. Candidates are independent and have the density of the domain. */
     void (*draw)(const void *data, uint64_t seed, uint64_t i, koksma__domain_point *point);
     void (*place)(const void *data, const koksma__domain_point *point, double *x);
-    /* The part's share of the points, in proportion to the density; 0 for a part without points. */
+    /* Returns the part's share of the points, up to a factor that is equal for all parts; 0 for a part without
+       points. */
     double (*share)(const void *data, size_t part);
-    /* The unit of distance on a part: 1 in the mean of the density. */
+    /* Returns the unit of distance on a part: 1 / sqrt p where the density is p times its mean. */
     double (*unit_of)(const void *data, size_t part);
     /* Prepares what gaussian.c needs for n points; koksma__field_close frees it. */
     koksma_status (*open_field)(const struct koksma__point_domain *domain, size_t n, double sigma,
                                 struct koksma__field *field);
 } koksma__point_domain;
 
-/* What a method makes points for. */
+/* The task of a method: the domain, the pattern with its parameters, the seed, and where the n points go. */
 typedef struct koksma__choice {
     const koksma__point_domain *domain;
     const koksma_pattern *pattern;
@@ -48,7 +49,8 @@ typedef struct koksma__choice {
     koksma__domain_point *points;
 } koksma__choice;
 
-/* The index of the first of `count` ascending sums that is above `at`; the last index whose sum rises if none is. */
+/* Returns the index of the first of `count` ascending sums that is above `at`; if there is none, the last index whose
+   sum is above the sum before it. */
 size_t koksma__domain_find(const double *sums, size_t count, double at);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The nodes of a field: an array that grows by halves. */
+/* The nodes of a field (field.h), in an array that grows by half of its length when it is full. */
 #include "domains/field.h"
 
 #include <stdlib.h>

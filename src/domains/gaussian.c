@@ -1,25 +1,29 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * gaussian-blue-noise on a domain: points whose Gaussians add up to those of the density, by gradient descent from
- * independent points. With s_i the width of point i's Gaussian, of integral 1, the energy is the squared L2 distance
+ * gaussian-blue-noise on a domain, by gradient descent from independent points. The points and the wanted density p are
+ * both smoothed by Gaussians G(x, s) = exp(-|x|^2 / s^2) / (pi s^2) of the width s, which depends on the position. With
+ * x_i and s_i the position and the width of point i, the energy is the squared L2 distance
  *
  *     || sum over i of G(x - x_i, s_i)  -  integral of n p(y) G(x - y, s(y)) dy ||^2
  *
- * of the points' smoothed density to the wanted one, p. A pair of points repels each other by
+ * between the two smoothed densities. Point j repels point i with the force
  *
- *     (2 s_i^2 / v)^2  exp(-d^2 / v)  times their difference,    v = s_i^2 + s_j^2
+ *     (2 s_i^2 / v)^2  exp(-d^2 / v)  (x_i - x_j), v = s_i^2 + s_j^2, d = |x_i - x_j|,
  *
- * after division by the stiffness at point i; the density attracts them in the same way, as a sum over nodes with
- * masses. Where the density is even, both widths are sigma / sqrt n, attraction adds up to nothing, and the forces are
- * those of the pattern (patterns/gaussian_blue_noise.c), whose parameters count here, too.
+ * which is the gradient divided by the stiffness at point i. The density attracts points in the same way: it is a sum
+ * over nodes (field.h), which act like points with negative masses. Where the density is constant, all widths are sigma
+ * / sqrt n, the attraction cancels out, and the forces are those of the pattern on the torus
+ * (patterns/gaussian_blue_noise.c); its parameters are also those of this method.
  *
- * Widths follow the points for 128 steps, with little momentum, and then every 100 steps; from step 400 on they are
- * constant. Forces are the gradient of an energy only while widths are: where they followed the points in all steps,
- * a momentum of 0.9 kept 500 points boiling. With steps=0 the descent takes 600 steps at least and 2,000 at most; it
- * ends when the root mean square of force over width is below 1e-4 sigma, or has not fallen by a tenth for 200 steps.
+ * The widths of the moving points are computed anew in each of the first 128 steps, which have little momentum, and
+ * then every 100 steps; after step 400 they are constant. The forces are the gradient of an energy only while the
+ * widths are constant: when widths were computed anew in all steps, 500 points with a momentum of 0.9 never came to
+ * rest. With steps=0 the descent takes 600 steps at least and 2,000 at most; it ends when the root mean square of
+ * (force / width) is below 1e-4 sigma, or has not fallen by a tenth for 200 steps.
  *
- * Source: Ahmed, Ren & Wonka 2022, whose program for densities has these forces with Gaussians of one width for the
- * pixels; Fattal 2011 for widths that follow the density. Time of a step: n (points and nodes in reach), some 200.
+ * Source: Ahmed, Ren & Wonka 2022, whose program for densities has these forces, but one width for all pixels; Fattal
+ * 2011 for widths that follow the density. The time of a step is proportional to n times the number of points and nodes
+ * within reach of a point, about 200.
  */
 #include "domains/gaussian.h"
 
@@ -41,15 +45,15 @@ typedef struct descent {
     const koksma__choice *c;
     const koksma__point_domain *domain;
     koksma__field field;
-    koksma__source_tree tree;    /* nodes, and points */
+    koksma__source_tree tree;    /* sources: nodes and points */
     double *xs, *moves, *widths; /* of the points */
-    double *squares;             /* of the forces, in units of the widths */
+    double *squares;             /* squared force on each point, in units of its width */
     double step, momentum, least;
-    bool update; /* whether widths follow the points in this step */
-    int wait;    /* steps since `least` was replaced */
+    bool update; /* whether this step computes the widths anew */
+    int wait;    /* number of steps since `least` was replaced */
 } descent;
 
-/* Number i of the sources: a node, with a negative mass, or a point. */
+/* Returns source number i: a node, with a negative mass, or a point. */
 static koksma__field_node source_of(const void *context, size_t i)
 {
     const descent *d = context;
@@ -104,8 +108,8 @@ static koksma_status move_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Whether the descent may end. The squares are summed in the order of the points, so that the result does not depend on
-   the number of threads. */
+/* Returns whether the descent may end. The squares are summed in the order of the points, so that the result does not
+   depend on the number of threads. */
 static bool converged(descent *d)
 {
     const double limit = TOLERANCE * d->c->params[1];

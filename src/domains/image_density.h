@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A density given by an image: pixels of the unit square in proportion to their luminance, the top row first. */
+/* A density on the unit square that an image gives: it is constant in each pixel, in proportion to the luminance of the
+   pixel. Pixels are numbered row by row, the top row first. */
 #ifndef KOKSMA_DOMAINS_IMAGE_DENSITY_H
 #define KOKSMA_DOMAINS_IMAGE_DENSITY_H
 
@@ -8,10 +9,10 @@
 
 typedef struct koksma__image_density {
     size_t width, height;
-    double *sums; /* entry i: the summed luminance of pixels 0 to i */
+    double *sums; /* sums[i]: the summed luminance of pixels 0 to i */
 } koksma__image_density;
 
-/* The luminance of a pixel. */
+/* Returns the luminance of a pixel. */
 static inline double koksma__image_share(const koksma__image_density *m, size_t pixel)
 {
     return m->sums[pixel] - (pixel ? m->sums[pixel - 1] : 0);

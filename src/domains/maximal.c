@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * poisson-disk-maximal on a domain: dart throwing until nothing fits. Two points are at least d min(r, r') apart, r the
- * unit of distance of their parts, and no position of a part has room for one more.
+ * poisson-disk-maximal on a domain: dart throwing until nothing fits. Two points are at least d min(r, r') apart, where
+ * r and r' are the units of distance of their parts, and nowhere does another point fit.
  *
- * The free area is a list of pieces: parts (rectangles or triangles) and quarters of them. A piece lies in one part, so
- * that one unit holds for all of it, and is covered when the ball of one point contains its corners. Darts are thrown at
- * the pieces, each in proportion to its share of the points, about one dart a piece; then every piece is divided into
- * four, and covered quarters are dropped. No piece is left when the set is maximal; pieces of 2^-30 of a part's side are
- * ignored. A dart that misses all points is one of dart throwing on the whole domain, whose other darts would conflict.
+ * The free area is a list of pieces: parts (rectangles or triangles) and quarters of them. A piece lies in one part and
+ * thus has one unit of distance; it is covered if the ball of one point contains its corners. In each round as many
+ * darts are thrown as there are pieces, at random pieces with probabilities proportional to their shares of the points.
+ * Then every piece is divided into four, and covered quarters are dropped. The set is maximal when no piece is left;
+ * pieces with 2^-30 of their part's side are dropped, too. The points have the distribution of dart throwing on the
+ * whole domain, because every dart outside of the pieces would be rejected.
  *
  * dart-throwing throws darts in the same way, but until there are n points. A set that becomes maximal before is
  * discarded and thrown again, at most 200 times.
  *
- * d=0 searches for the distance at which exactly n points are maximal (patterns/shared/maximal_search.h), from a
- * distance that is scaled by the root of found over wanted until at most n points fit.
+ * d=0 searches for the distance at which a maximal set has exactly n points (patterns/shared/maximal_search.h). The
+ * search starts at an estimated distance, which is multiplied by about the square root of (number of points that fit) /
+ * n until between 3/4 n and n points fit.
  *
  * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree; Mitchell, Rand, Ebeida & Bajaj 2012 for
- * radii that vary ("smaller disks"). Time of one set: (n + parts) log n; the search makes some 20 to 40 sets.
+ * radii that vary ("smaller disks"). One set takes O((n + number of parts) log n); the search makes 20 to 40 sets.
  */
 #include "domains/maximal.h"
 
@@ -33,10 +35,10 @@
 
 enum { DEEPEST = 30, LOOK_EVERY = 1 << 14, ESTIMATES = 30, SEARCHES = 8, RESTARTS = 200 };
 
-#define PER_AREA 0.6965 /* mean points of a maximal set times d^2, on the torus */
+#define PER_AREA 0.6965 /* mean of m d^2 for maximal sets of m points on the torus */
 
-/* The positions at + side * (u, v), of u, v in [0,1]^2 in a rectangle, u + v <= 1 in a triangle; side < 0 in the middle
-   quarter of a triangle. */
+/* A piece of a part: the positions at + side * (u, v) with (u, v) in [0,1]^2 and, in a triangle, u + v <= 1. If side is
+   negative, the piece is upside down, as the middle quarter of a triangle is. */
 typedef struct piece {
     uint32_t part, depth;
     double at[2], side;
@@ -45,14 +47,14 @@ typedef struct piece {
 typedef struct maximal {
     const koksma__choice *c;
     koksma__dart_grid grid;
-    koksma__domain_point *points; /* those of the grid */
+    koksma__domain_point *points; /* the points in the grid */
     uint64_t seed, darts;
-    piece *pieces; /* of the free area; sums[i] is the share of pieces 0 to i */
+    piece *pieces; /* the free area; sums[i] is the total share of pieces 0 to i */
     double *sums;
     size_t n_pieces, capacity; /* of the pieces */
 } maximal;
 
-/* The centre of a piece and its corners, as a query. */
+/* Makes a query of the centre and the corners of a piece. */
 static void query_of(const maximal *m, const piece *p, double *centre, koksma__dart_query *q)
 {
     static const double units[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -92,7 +94,7 @@ static koksma_status store(maximal *m, piece p, piece **pieces, size_t *n)
     return KOKSMA_OK;
 }
 
-/* Starts with the parts that have a share of the points. */
+/* Makes the first pieces: the parts that have a share of the points and are not covered. */
 static koksma_status begin(maximal *m)
 {
     const koksma__point_domain *domain = m->c->domain;
@@ -129,7 +131,7 @@ static koksma_status divide(maximal *m)
     return status;
 }
 
-/* Throws as many darts as there are pieces, until there are n points. */
+/* Throws as many darts as there are pieces; stops early when there are n points. */
 static koksma_status throw_darts(maximal *m, size_t n)
 {
     const koksma__point_domain *domain = m->c->domain;
@@ -163,7 +165,7 @@ static koksma_status throw_darts(maximal *m, size_t n)
     return KOKSMA_OK;
 }
 
-/* Adds points until the set is maximal or has n. */
+/* Adds points until the set is maximal or has n points. */
 static koksma_status fill(maximal *m, size_t n)
 {
     KOKSMA__TRY(begin(m));
@@ -187,8 +189,8 @@ static koksma_status shrink(void *set, size_t kept, double d, size_t n, const ko
     return status;
 }
 
-/* Makes a set of at most 2 n points at an estimate of the distance, and a better estimate from their number, until at
-   most n points fit. */
+/* Makes sets of at most 2 n points, each at a distance estimated from the number of points in the set before, until
+   between 3/4 n and n points fit; then lets the distance shrink until n points fit. */
 static koksma_status search(maximal *m, uint32_t first)
 {
     const size_t n = m->c->n;
@@ -209,7 +211,7 @@ static koksma_status search(maximal *m, uint32_t first)
     }
     const size_t found = m->grid.n;
     return found > n ? koksma__fail(KOKSMA_IMPOSSIBLE,
-                                    "poisson-disk-maximal: no distance has %zu points %s; %zu points would do", n,
+                                    "poisson-disk-maximal: no distance gives %zu points %s; n = %zu would do", n,
                                     m->c->domain->what, found)
                      : koksma__maximal_shrink(2, d, found, n, m->c->run, shrink, m);
 }

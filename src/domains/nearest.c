@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Nearest positions on triangles, by a hierarchy of boxes: the triangles are halved at the median of their centroids
- * along the longest side of the centroids' box, down to four. A search visits the nearer half first and leaves out
- * boxes that are further away than the best position so far. The nearest position of one triangle is that of Ericson,
- * Real-Time Collision Detection (2005), 5.1.5. Time: building n log n, a search about log n if it starts near its end.
+ * Nearest positions on triangles, by a hierarchy of boxes: a set of more than four triangles is halved at the median of
+ * their centroids along the longest side of the centroids' bounding box. A search visits the nearer half first and
+ * leaves out boxes that are further away than the best position so far. The nearest position of one triangle is that of
+ * Ericson, Real-Time Collision Detection (2005), 5.1.5. Building takes O(n log n); a search takes about O(log n) if it
+ * starts near the result.
  */
 #include "domains/nearest.h"
 
@@ -22,7 +23,7 @@ typedef struct box {
 struct koksma__nearest {
     const koksma__point_domain *domain;
     size_t n;
-    uint32_t *order;             /* triangles by leaves */
+    uint32_t *order;             /* the triangles, leaf by leaf */
     box *boxes;                  /* node i has the children 2 i + 1 and 2 i + 2 */
     double *centroids, *corners; /* three and nine coordinates of each triangle */
 };
@@ -134,7 +135,7 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The weight t in [0,1] of the second of two corners at which their edge is nearest to x. */
+/* Returns the t in [0,1] for which the point from + t (to - from) of an edge is nearest to x. */
 static double along_edge(const double *x, const double *from, const double *to)
 {
     double edge[3], way[3];
@@ -146,7 +147,7 @@ static double along_edge(const double *x, const double *from, const double *to)
     return square > 0 ? fmin(fmax(dot(edge, way) / square, 0), 1) : 0;
 }
 
-/* The weights of the corners 1 and 2 of the triangle's position that is nearest to x. */
+/* Computes the position of a triangle that is nearest to x, as the weights of its corners 1 and 2. */
 static void nearest_on(const double c[3][3], const double *x, double at[2])
 {
     double e1[3], e2[3], way[3], best = INFINITY;
@@ -176,7 +177,7 @@ static void nearest_on(const double c[3][3], const double *x, double at[2])
     }
 }
 
-/* A search: the position and the square of its distance so far. */
+/* A search: the nearest position found so far, and its squared distance. */
 typedef struct hunt {
     const koksma__nearest *s;
     const double *x;

@@ -11,7 +11,8 @@ typedef struct koksma__nearest koksma__nearest;
 koksma_status koksma__nearest_open(const koksma__point_domain *domain, koksma__nearest **out);
 void koksma__nearest_close(koksma__nearest *nearest);
 
-/* Stores the position nearest to x. `found` holds a position of the domain; the closer it is, the faster the search. */
+/* Writes the position nearest to x to *found, which on entry has any position of the domain: the closer to x, the
+   faster the search. */
 void koksma__nearest_find(const koksma__nearest *nearest, const double x[3], koksma__domain_point *found);
 
 #endif

@@ -23,7 +23,8 @@ enum { LEAF = 8, DEEPEST = 16, PADDING = 8 };
    sources at a time, and those of a gap are out of reach. */
 enum { RUNS = 128, GAP = 8 };
 
-/* The weight exp(-d^2 / v) - exp(-CUT2) ends at d^2 = CUT2 v without a step, which points would bounce off. */
+/* The weight exp(-d^2 / v) - exp(-CUT2) is 0 at the cut-off d^2 = CUT2 v. Without the second term it would jump there,
+   and points would bounce off the jump. */
 #define CUT2 12.0
 #define AT_CUT 0x1.9c54c3b43bc8bp-18 /* exp(-CUT2) */
 
@@ -52,7 +53,8 @@ void koksma__source_tree_fini(koksma__source_tree *t)
     *t = (koksma__source_tree){0};
 }
 
-/* The interleaved bits of the coordinates: the first DEEPEST bits of plane coordinates, 10 in space. */
+/* Returns the interleaved bits of the coordinates: the first DEEPEST bits of each in the plane, the first 10 in
+   space. */
 static uint32_t key_of(const double *x, int dim)
 {
     const int bits = dim == 2 ? DEEPEST : 10;
@@ -68,7 +70,7 @@ static uint32_t key_of(const double *x, int dim)
     return key;
 }
 
-/* Sorts keys, whose upper halves are Morton's and whose lower halves are numbers of sources. */
+/* Sorts the keys: the upper half of each has the interleaved bits, the lower half the number of the source. */
 static void sort_keys(koksma__source_tree *t)
 {
     for (int shift = 32; shift < 64; shift += 8) {

@@ -20,12 +20,12 @@
 
 typedef struct surface {
     koksma__mesh mesh;
-    double *sums; /* sum of the areas of all triangles up to this one */
-    double side;  /* of the cube */
+    double *sums; /* sums[t]: total area of triangles 0 to t */
+    double side;  /* side of the bounding cube */
     const koksma_warp *warp;
 } surface;
 
-/* The corner of a triangle, its two edges from there, and their cross product. */
+/* The first corner of a triangle, the two edges from this corner, and their cross product. */
 typedef struct triangle {
     double corner[3], edge[2][3], normal[3];
 } triangle;
@@ -65,7 +65,7 @@ static void draw(const void *data, uint64_t seed, uint64_t i, koksma__domain_poi
     s->warp->map(point->at, point->at);
 }
 
-/* A point in the model's coordinates. */
+/* Computes the position of a point in the model's coordinates. */
 static void place_in_model(const surface *s, const koksma__domain_point *point, double *x)
 {
     const triangle a = triangle_of(&s->mesh, point->part);

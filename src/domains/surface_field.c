@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The field of a model: every point has the width sigma sqrt(area / n), and a moved point returns to the nearest
- * position of the model. Nodes are the triangles, quartered until no edge is longer than 1.4 widths. Where triangles
- * are much smaller than that, those in one cube of half a width become one node at their centroid.
+ * The target (field.h) of gaussian-blue-noise on a model: every point has the width sigma sqrt(area / n), and a moved
+ * point returns to the nearest position of the model. Nodes are the triangles, quartered until no edge is longer than
+ * 1.4 widths. If this makes more than 8 nodes for each point, all nodes in a cube with a side of half a width become
+ * one node at their centroid.
  *
- * Distances are those of space, as for the other methods; along an open border the density ends, which keeps points
- * from piling up there.
+ * Distances are measured in space, not along the surface; the other methods do the same. At an open border of the model
+ * the density ends, which keeps points from crowding there.
  */
 #include "domains/surface_field.h"
 
@@ -23,7 +24,7 @@ typedef struct surface_field {
     koksma__nearest *nearest;
     koksma__field *field;
     size_t capacity;
-    double width, per_area; /* points an area */
+    double width, per_area; /* number of points per area */
 } surface_field;
 
 static double width(const void *data, const double *x)
@@ -52,7 +53,7 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The edges of a part and their cross product. */
+/* Computes the corners of a triangle and the cross product of two of its edges. */
 static void edges_of(const koksma__point_domain *domain, uint32_t part, double c[3][3], double normal[3])
 {
     static const double at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
@@ -86,8 +87,8 @@ static void close_field(void *data)
     free(f);
 }
 
-/* Adds a triangle, or its quarters. The covariance of a triangle has the trace (a^2 + b^2 + c^2) / 36, a, b and c its
-   edges. */
+/* Adds the node of a triangle or, if it is too large, of its quarters. The covariance matrix of a triangle with edges
+   of lengths a, b and c has the trace (a^2 + b^2 + c^2) / 36. */
 static koksma_status add_triangle(surface_field *f, const double c[3][3], int depth)
 {
     double e[3][3], longest = 0, squares = 0, normal[3], middle[3][3];
@@ -99,7 +100,8 @@ static koksma_status add_triangle(surface_field *f, const double c[3][3], int de
         squares += dot(e[i], e[i]);
         longest = fmax(longest, dot(e[i], e[i]));
     }
-    const double least = M_SQRT2 * KOKSMA__NODE_WIDTHS * f->width; /* an equilateral one has a square's variance */
+    /* an equilateral triangle with sides of sqrt 2 times that of a square has the variance of the square */
+    const double least = M_SQRT2 * KOKSMA__NODE_WIDTHS * f->width;
     if (longest > least * least && depth < DEEPEST) {
         for (int i = 0; i < 4; i++) {
             double quarter[3][3];
@@ -121,7 +123,7 @@ static koksma_status add_triangle(surface_field *f, const double c[3][3], int de
     return node.mass > 0 ? koksma__field_add(f->field, &f->capacity, node) : KOKSMA_OK;
 }
 
-/* Compares the cubes of two nodes whose positions are in units of cubes. */
+/* Compares the cubes that contain two nodes; positions are in units of a cube's side. */
 static int by_cube(const koksma__field_node *p, const koksma__field_node *q)
 {
     for (int k = 0; k < 3; k++) {
@@ -133,7 +135,7 @@ static int by_cube(const koksma__field_node *p, const koksma__field_node *q)
     return 0;
 }
 
-/* The same, then by position and mass: nodes without any difference may be in any order. */
+/* Compares the cubes, then the positions, then the masses; nodes that agree in all of these may be in any order. */
 static int by_all(const void *a, const void *b)
 {
     const koksma__field_node *p = a, *q = b;
@@ -144,7 +146,8 @@ static int by_all(const void *a, const void *b)
     return order ? order : (p->mass > q->mass) - (p->mass < q->mass);
 }
 
-/* Makes one node of all in a cube of half a width. The variance of a merged node is that of its members about it. */
+/* Replaces all nodes in a cube with a side of half a width by one node, whose variance is that of these nodes about
+   it. */
 static void merge(surface_field *f)
 {
     koksma__field_node *nodes = f->field->nodes;
@@ -171,7 +174,7 @@ static void merge(surface_field *f)
             sum.x[k] /= sum.mass;
         }
         spread = fmax(spread / sum.mass - dot(sum.x, sum.x), 0);
-        sum.square = f->width * f->width + spread; /* twice the variance along one of the two axes of a surface */
+        sum.square = f->width * f->width + spread; /* spread: twice the variance along an axis of the surface */
         nodes[merged++] = sum;
     }
     f->field->n_nodes = merged;

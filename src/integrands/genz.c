@@ -10,7 +10,8 @@
  *     discontinuous   exp(sum a_i x_i) for x_1 <= u_1 and x_2 <= u_2, else 0
  *
  * u and a are random in (0,1), from the seed; a is then scaled such that its sum is the difficulty. The default
- * difficulties are those of Barthelmann, Novak and Ritter (2000); Genz's own program has h / d^e instead.
+ * difficulties are those of Barthelmann, Novak and Ritter (2000); Genz's own program takes h / d^e as the sum, with
+ * constants h and e for each family.
  *
  * Four of the families are products, with closed forms of each factor. For the oscillatory family, with s(t) = sin(t)
  * / t,
@@ -22,8 +23,8 @@
  * The corner peak is 1/d! times the integral over t of t^d exp(-t - t sum a_i x_i). Its integral is therefore an
  * integral over t that contains the product of (1 - exp(-a_i t)) / (a_i t); the same holds for its square, with 2 d +
  * 1 in place of d. They are computed by the trapezoidal rule in log t, which converges exponentially and avoids the
- * cancellation of the closed form, a sum over the 2^d corners of the cube. The first form also gives the variation,
- * f(0) - f(1, .., 1).
+ * cancellation of the closed form, a sum over the 2^d corners of the cube. The integral over t also gives the variation
+ * of the corner peak, f(0) - f(1, .., 1).
  */
 #include <math.h>
 #include <stdlib.h>

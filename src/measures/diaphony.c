@@ -29,8 +29,8 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    /* The kernel is K = 1 + q (1/6 - t + t^2). The sorting method evaluates 6 K / q instead of K, because the
-       coefficients of 6 K / q are exact in doubles and no digits are lost to cancellation. */
+    /* The kernel is K = 1 + q (1/6 - t + t^2) with q = 2 pi^2. The sorting method evaluates 6 K / q instead of K,
+       because the coefficients of 6 K / q are exact in doubles and no digits are lost to cancellation. */
     static const double q = 2 * M_PI * M_PI;
     const koksma__l2_row row = {12, {24, 0, 0, 0}, {(1 + q / 6) / 2, 0, 0, 0}, -q, q, "diaphony"};
     const double one = (1 + 6 / q) - 1;

@@ -6,10 +6,10 @@
  *     c^d - (2/n) sum_i prod_k a(x_ik) + (1/n^2) sum_ij prod_k K(x_ik, x_jk),
  *     a(u) = int_0^1 K(u, v) dv,  c = int_0^1 a(u) du.
  *
- * They differ only in the kernel K, whose coefficients are in the table row (see measures/shared/l2.h); shared/l2.c
- * chooses the method by n and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or
- * have 106 bits, and the relative error of the value is 1e-11 for 10^6 points. In more dimensions the error of the
- * square is about 1e-16 times its terms (l2-star: 1e-17).
+ * They differ only in the kernel K, whose coefficients are in the table row (see measures/shared/l2_pairs.h);
+ * shared/l2.c chooses the method by n and dim. Limits: the three terms cancel. In one and two dimensions the sums are
+ * exact or have 106 bits, and the relative error of the value is 1e-11 for 10^6 points. In more dimensions the error of
+ * the square is about 1e-16 times its terms (l2-star: 1e-17).
  */
 #include "measures/l2_boxes.h"
 
@@ -35,7 +35,7 @@
         .name = "l2-" #kind,                                                                                         \
         .title = (title_),                                                                                           \
         .cite = (cite_),                                                                                             \
-        .cost = "n log n in 2D, n log^(d-1) n in 3D, 4D, n^2 d",                                                     \
+        .cost = "n log n in 1D and 2D, n log^(d-1) n in 3D and 4D, else n^2 d",                                      \
         .family = KOKSMA_FAMILY_BOXES,                                                                               \
         .min_dim = 1,                                                                                                \
         .max_dim = KOKSMA_MAX_DIM,                                                                                   \

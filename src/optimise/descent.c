@@ -4,8 +4,8 @@
  * the torus, coordinates are reduced modulo 1 after each step; for other functions each is projected to its interval,
  * which is [0,1] or has length 1/n.
  *
- * Half of the descents start from the best set, with some points replaced by random ones or all moved a little; the
- * others start from the points {i a + s} (fractional parts) with random vectors a and s, or random points.
+ * Four of five descents start from the best set after a random change (kick); the others start from the points {i a +
+ * s} (fractional parts) with random vectors a and s, or from random points.
  */
 #include "optimise/descent.h"
 
@@ -145,7 +145,8 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
     return status;
 }
 
-/* Exchanges a coordinate between the points of some pairs that are close to each other in another coordinate. */
+/* Takes some random pairs of points that are close to each other in one coordinate, and exchanges another coordinate of
+   the two points. */
 static void exchange(koksma__descent *d, koksma__stream *random, size_t pairs)
 {
     const size_t n = d->points.n, dim = (size_t)d->points.dim;
@@ -193,8 +194,8 @@ static void kick(koksma__descent *d, koksma__stream *random)
     }
 }
 
-/* The points {i a + s} (fractional parts). In half of the cases one coordinate is i / n + s, and in half of those all
-   entries of a are multiples of 1/n, which makes the set a rank-1 lattice. */
+/* Sets the points {i a + s} (fractional parts). In half of the cases one coordinate is i / n + s, and in half of those
+   all entries of a are multiples of 1/n, which makes the set a rank-1 lattice. */
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random)
 {
     const double n = (double)d->points.n;
@@ -238,9 +239,9 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
     d->direction = d->gradient + n;
     d->before = d->direction + n;
     d->gradient_before = d->before + n;
-    d->steps = d->gradient_before + 2 * n; /* the current step is stored in the numbers before it */
+    d->steps = d->gradient_before + 2 * n; /* the `count` numbers before it have the current step */
     d->changes = d->steps + KOKSMA__MEMORY * n;
-    /* work that takes some tenths of a second, but at least one descent */
+    /* enough for some tenths of a second, but at least for one descent */
     d->budget = fmax(1.5e7, KOKSMA__ITERATIONS * cost);
     d->length = keep == KOKSMA_KEEP_NET ? (1 - 2e-9) / (double)points->n : 1 - 0x1p-53;
     for (size_t c = 0; c < n; c++) {

@@ -7,7 +7,7 @@
 
 enum { KOKSMA__MEMORY = 10, KOKSMA__ITERATIONS = 300 };
 
-/* A function of points: its value, and its derivatives with respect to the coordinates. */
+/* Computes a function of points: its value, and its derivatives with respect to the coordinates. */
 typedef koksma_status (*koksma__function)(const void *context, const koksma_points *points, double *value,
                                           double *gradient);
 
@@ -16,12 +16,12 @@ typedef struct koksma__descent {
     koksma__function function;
     const void *context;
     bool bounded;
-    size_t count;                       /* of coordinates */
+    size_t count;                       /* number of coordinates of all points */
     double *low, *gradient, *direction; /* low: lower ends of the coordinates' intervals */
     double *before, *gradient_before;
-    double *steps, *changes; /* the last KOKSMA__MEMORY differences of x and of the gradient */
+    double *steps, *changes; /* the last KOKSMA__MEMORY differences of x, and of the gradient */
     double length, products[KOKSMA__MEMORY], work, cost,
-        budget;  /* work so far, work of one gradient, and maximum work, each as a number of numbers read */
+        budget;  /* work so far, work of one gradient, limit of work: in numbers read */
     size_t kept; /* number of steps so far */
     double goal; /* a descent that is unlikely to reach this value ends early */
 } koksma__descent;
@@ -40,8 +40,8 @@ void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma
    / n + s. */
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random);
 
-/* Descends from the points in at most the given number of iterations, and leaves the best points found in their
-   place. */
+/* Descends from d->points in at most the given number of iterations. On return d->points has the best points found, and
+   *least their value. */
 koksma_status koksma__descend(koksma__descent *d, int iterations, double *least);
 
 #endif

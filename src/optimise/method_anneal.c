@@ -50,8 +50,8 @@ enum {
     STALE = 2
 };
 
-/* The mean threshold in the first round, divided by the square after a first descent, and the factor by which it
-   falls from each round to the next. */
+/* FIRST: the mean threshold in the first round, as a fraction of the square after a first descent. FALL: the factor by
+   which the mean threshold falls from each round to the next. */
 static const double FIRST = 0.1, FALL = 0.96;
 
 /* LEAP: single swaps are tried if they raise the square by at most this share. POLISH: number of coordinates read
@@ -65,7 +65,7 @@ typedef struct job {
     double *linear;         /* a_k of point i at k n + i */
     double *products;       /* two rows: R_p and R_q */
     double *before;         /* the set to restore if a trial swap gains nothing */
-    uint32_t *order, *rank; /* for each axis the points in order, and the rank of each point */
+    uint32_t *order, *rank; /* for each axis: the points in order, and the rank of each point */
     koksma__stream random;
     void *memory;
 } job;
@@ -133,7 +133,7 @@ static const double *others(const job *j, size_t k, size_t p, double *room)
     return room;
 }
 
-/* The change of n^2 times the squared discrepancy when points p and q swap coordinate k. */
+/* Returns the change of n^2 times the squared discrepancy when points p and q swap coordinate k. */
 static double change(const job *j, size_t k, size_t p, size_t q)
 {
     const double *restrict rp = others(j, k, p, j->products), *restrict rq = others(j, k, q, j->products + j->stride);
@@ -164,7 +164,7 @@ static void exchange(double *a, double *b)
     *b = was;
 }
 
-/* Points p and q swap coordinate k. */
+/* Swaps coordinate k of points p and q, and updates orders, kernels and integrals. */
 static void swap(job *j, double *xs, size_t k, size_t p, size_t q)
 {
     const size_t n = j->n;
@@ -204,7 +204,7 @@ static void propose(job *j, double *xs, double threshold)
     }
 }
 
-/* Random orders of the centres (i + 1/2)/n. */
+/* Gives the points the coordinates (i + 1/2)/n along each axis, in random order. */
 static void shuffle(job *j, double *xs)
 {
     for (size_t k = 0; k < j->dim; k++) {

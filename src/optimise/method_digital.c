@@ -36,7 +36,7 @@ static void fill(koksma_points *points, size_t k)
     }
 }
 
-/* Adds row `from` to row `to`. */
+/* Adds row `from` to row `to` in the matrix of coordinate k. */
 static void add_row(koksma_points *points, size_t k, unsigned from, unsigned to)
 {
     for (size_t high = 1; high < points->n; high *= 2) {
@@ -54,8 +54,8 @@ static void add_column(koksma_points *points, size_t k, unsigned from, unsigned 
     *x = (double)((uint64_t)(*x * 0x1p53) ^ y) * 0x1p-53;
 }
 
-/* One move. Only the rows that distinguish 2^m points, and LOWER rows below these, are changed: lower rows move
-   points too little to matter. */
+/* Makes a random move and returns the coordinate that it changed. It changes only the rows that distinguish 2^m points
+   and the LOWER rows below these, because lower rows move points too little to matter. */
 static size_t move(koksma_points *points, unsigned m, koksma__stream *random)
 {
     const size_t k = koksma__next_below(random, (size_t)points->dim);

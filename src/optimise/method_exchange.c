@@ -27,7 +27,7 @@ static double kernel(const koksma__l2_row *row, double u, double v)
     return koksma__l2_polynomial(row->g, u) + koksma__l2_polynomial(row->g, v) + t * (row->q + row->r * t);
 }
 
-/* The kernel of two points without the factor of coordinate k. */
+/* Returns the kernel of two points without the factor of coordinate k. */
 static double others(const koksma__l2_row *row, size_t dim, size_t k, const double *x, const double *y)
 {
     double product = 1;
@@ -37,7 +37,7 @@ static double others(const koksma__l2_row *row, size_t dim, size_t k, const doub
     return product;
 }
 
-/* The change of n^2 times the squared discrepancy when points p and q swap coordinate k. */
+/* Returns the change of n^2 times the squared discrepancy when points p and q swap coordinate k. */
 static double change(const koksma__l2_row *row, const koksma_points *points, size_t k, size_t p, size_t q)
 {
     const size_t n = points->n, dim = (size_t)points->dim;

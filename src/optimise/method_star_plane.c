@@ -20,12 +20,12 @@
  * A walk starts from the permutation of the points (i, {i a + s}), where a has small partial quotients and s is
  * random, or, in a share of the searches (width_of), from the best set. The least F that a walk has met is its
  * target; it accepts permutations whose F is below a limit, which exceeds the target by a threshold (Dueck 1993:
- * record-to-record travel). A move swaps the ranks by y of two points, so that, of the boxes of a cycle that is
- * violated at the target, one with too many points loses a point or one with too few gains a point: no other swap can
- * help. The last CYCLES violated cycles are stored, and a walk reduces the number of stored cycles that are violated
- * at the target: a move that increases this number, or violates a stored cycle at the limit, is rejected before any
- * constraint is checked. The least F is computed only when no stored cycle is violated; it gives a new target or a
- * new cycle (min-conflicts with constraints generated on demand). Work is counted in corners visited.
+ * record-to-record travel). A move swaps the ranks by y of two points. It is chosen for a cycle that is violated at the
+ * target: a box of this cycle with too many points loses a point, or a box with too few points gains one, because no
+ * other swap can help. The last CYCLES violated cycles are stored, and a walk reduces the number of stored cycles that
+ * are violated at the target: a move that increases this number, or violates a stored cycle at the limit, is rejected
+ * before any constraint is checked. The least F is computed only when no stored cycle is violated; it gives a new
+ * target or a new cycle (min-conflicts with constraints generated on demand). Work is counted in corners visited.
  *
  * Source: the constraints as in Clement, Doerr, Klamroth & Paquete 2023, who solve them as integer programs.
  */
@@ -41,11 +41,11 @@
 
 enum { MAX_N = 4096, PATIENCE = 2000, CYCLES = 256, GUIDES = 16, MAX_EDGES = 16, NONE = UINT32_MAX };
 
-/* Parameters of a search for n points. Among few points searches look widely, because lattices are far from the best
-   sets; among many points they look near the best set. */
+/* Parameters of a search for n points. With few points a search explores widely, because the best sets differ much from
+   lattices; with many points it stays near the best set. */
 typedef struct width {
-    double threshold; /* a walk rises at most this far above the least F that it has met */
-    double accepted;  /* a walk starts only from a set whose F is at most this far above the best F */
+    double threshold; /* a walk rises at most by this fraction above the least F that it has met */
+    double accepted;  /* a walk starts only from a set whose F is at most about this fraction above the best F */
     double again;     /* the share of searches that start from the best set */
 } width;
 
@@ -55,7 +55,7 @@ static width width_of(size_t n)
                    : (width){.threshold = 0.02, .accepted = 0.05, .again = 0.25};
 }
 
-/* The number of corners visited in one search, which takes some tenths of a second. */
+/* Returns the number of corners that one search visits; this takes some tenths of a second. */
 static double budget_of(size_t n)
 {
     return 2e7 + 3e5 * (double)n;
@@ -64,9 +64,9 @@ static double budget_of(size_t n)
 /* Violations by less than this many points count as rounding. */
 static const double TOLERANCE = 1e-10;
 
-/* An edge of a cycle of constraints: the count of the corner (i, j), at which the cycle goes from Y_j to X_i (too
-   many points; sign = 1); or the count of the corner (i, j) = (i' - 1, j' - 1), at which it goes from X_i' to Y_j'
-   (too few points; sign = -1). */
+/* An edge of a cycle of constraints. With sign = 1 it goes from node Y_j to node X_i, whose constraint X_i Y_j >=
+   c(i,j) - F fails if the corner has too many points. With sign = -1 it goes from X_i+1 to Y_j+1, whose constraint
+   X_i+1 Y_j+1 <= c(i,j) + F fails if the corner has too few points. */
 typedef struct edge {
     uint16_t i, j;
     int8_t sign;
@@ -83,19 +83,19 @@ typedef struct swap {
 } swap;
 
 typedef struct plane {
-    size_t n, side, stride;   /* side: n + 1 nodes for each axis */
+    size_t n, side, stride;   /* side: n + 1, the number of nodes of each axis */
     uint32_t *rank, *at;      /* p and its inverse, 1 .. n */
     int16_t *counts, *turned; /* c(i,j) at index i stride + j, and at j stride + i, for i, j = 0 .. n + 1 */
     double *v, *saved;        /* X_1 .. X_n+1, Y_1 .. Y_n+1 */
     float *rounded;           /* v as floats */
     uint32_t *cause, *queue, *found, *stamps;
     uint8_t *queued;
-    size_t first, waiting; /* the queue's first entry and length; a ring of 2 side nodes */
+    size_t first, waiting; /* first entry and length of the queue, a ring buffer of 2 side nodes */
     uint32_t stamp;
     cycle cycles[CYCLES];     /* the stored cycles; the most recently violated ones come first */
     cycle guides[GUIDES];     /* some of the stored cycles that are violated at a walk's target */
     size_t guided, conflicts; /* number of guides, and number of stored cycles violated at the target */
-    edge *traced, *critical;  /* capacity 2 side edges each */
+    edge *traced, *critical;  /* each has capacity for 2 side edges */
     size_t n_traced, n_critical;
     double work, budget;
     koksma__stream random;
@@ -153,7 +153,7 @@ static void count_all(plane *s)
     s->work += 2.0 * (double)(n * n);
 }
 
-/* The change of c(i,j) by a swap. */
+/* Returns the change of c(i,j) by a swap. */
 static int change(const plane *s, swap w, size_t i, size_t j)
 {
     const size_t a = s->rank[w.a], b = s->rank[w.b];
@@ -181,7 +181,7 @@ static void apply(plane *s, swap w)
     s->work += 2.0 * (double)(w.b - w.a) * (high - low);
 }
 
-/* Whether a cycle is violated at F, after a swap (NULL: no swap). */
+/* Returns whether a cycle is violated at F after a swap (NULL: without a swap). */
 static bool violated(const plane *s, const edge *edges, size_t n, double F, const swap *w)
 {
     double more = 1, less = 1;
@@ -204,7 +204,7 @@ static bool violated(const plane *s, const edge *edges, size_t n, double F, cons
     return more > less;
 }
 
-/* The F at which a cycle that is violated at F becomes satisfiable, rounded up. */
+/* Returns the value, rounded up, to which F must rise so that a cycle that is violated at F becomes satisfiable. */
 static double closing(const plane *s, const edge *edges, size_t n, double F)
 {
     double low = F, high = (double)s->n;
@@ -232,8 +232,8 @@ static void clear(plane *s)
     s->first = s->waiting = 0;
 }
 
-/* The corner of the constraint through which one node moves another; false if the two nodes belong to one axis, where
-   the only constraint is their order. */
+/* Writes to *out the edge (corner and sign) of the constraint by which node `from` moves node `to`. Returns false if
+   the two nodes belong to one axis, where the only constraint is their order. */
 static bool corner_of(const plane *s, uint32_t from, uint32_t to, edge *out)
 {
     const uint32_t side = (uint32_t)s->side;
@@ -246,7 +246,8 @@ static bool corner_of(const plane *s, uint32_t from, uint32_t to, edge *out)
     return true;
 }
 
-/* Traces the cycle that arises when node `from` moves node `to`, although `to` is among the causes of `from`. */
+/* Stores in s->traced the violated cycle that is found when node `from` has to move node `to`, which is among the
+   causes of `from`. */
 static void trace(plane *s, uint32_t from, uint32_t to)
 {
     s->n_traced = 0;
@@ -266,7 +267,8 @@ static void keep_cycle(plane *s, const cycle *c, size_t from)
     s->cycles[0] = copy;
 }
 
-/* Raises F by the traced cycle, which becomes the critical cycle and is stored. */
+/* Raises F until the traced cycle is satisfiable. This cycle becomes the critical one, and is stored if it has at most
+   MAX_EDGES edges. */
 static void raise(plane *s, double *F)
 {
     *F = fmax(closing(s, s->traced, s->n_traced, *F), *F * (1 + 1e-14));
@@ -279,7 +281,8 @@ static void raise(plane *s, double *F)
     }
 }
 
-/* Moves node `to` because of node `from`; false if `to` is among the causes of `from`. */
+/* Moves node `to` to `value` because of node `from`. Returns false if `to` is among the causes of `from`; the cycle is
+   then in s->traced. */
 static bool set(plane *s, uint32_t from, uint32_t to, double value)
 {
     if (s->stamps[to] == s->stamp) {
@@ -293,8 +296,8 @@ static bool set(plane *s, uint32_t from, uint32_t to, double value)
     return true;
 }
 
-/* Finds the corners of a node with the `count` nodes from number `others` on whose constraints may be violated at
-   F. */
+/* Finds those of the `count` nodes from number `others` on whose constraints with `node` may be violated at F: s->found
+   receives their indices, counted from `others`. Returns how many there are. */
 static size_t far(const plane *s, size_t count, const int16_t *counts, size_t others, uint32_t node, double F)
 {
     const float sign = node < s->side ? -1 : 1, rounding = (float)s->n * 0x1p-21F;
@@ -302,7 +305,7 @@ static size_t far(const plane *s, size_t count, const int16_t *counts, size_t ot
                                           (float)F - rounding, s->found);
 }
 
-/* Moves the nodes whose constraints with this node are violated; false if that makes a cycle. */
+/* Moves the nodes whose constraints with this node are violated. Returns false if this finds a violated cycle. */
 static bool relax(plane *s, uint32_t node, double F)
 {
     const size_t side = s->side;
@@ -338,7 +341,8 @@ static bool relax(plane *s, uint32_t node, double F)
     return true;
 }
 
-/* Processes the queue until no constraint is violated. A cycle raises F; false if F rises above limit. */
+/* Processes the queue until no constraint is violated. A violated cycle raises F; returns false if F rises above
+   `limit`. */
 static bool settle(plane *s, double *F, double limit)
 {
     const size_t nodes = 2 * s->side;
@@ -359,7 +363,7 @@ static bool settle(plane *s, double *F, double limit)
     return true;
 }
 
-/* Satisfies all constraints at F; a cycle raises F. Returns false if F rises above limit. */
+/* Satisfies all constraints at F. A violated cycle raises F; returns false if F rises above `limit`. */
 static bool settle_all(plane *s, double *F, double limit)
 {
     clear(s);
@@ -369,8 +373,8 @@ static bool settle_all(plane *s, double *F, double limit)
     return settle(s, F, limit);
 }
 
-/* A lower bound of the permutation's F: the largest F at which a stored cycle becomes satisfiable; that cycle becomes
-   the critical one. */
+/* Returns a lower bound of the least F of the permutation: the least F at which all stored cycles are satisfiable. The
+   cycle that requires this F becomes the critical one. */
 static double estimate(plane *s)
 {
     double F = 0;
@@ -385,7 +389,7 @@ static double estimate(plane *s)
     return F;
 }
 
-/* Computes the least F of the permutation, starting from guess; false if it is above limit. */
+/* Computes the least F of the permutation, starting the search at `guess`. Returns false if it is above `limit`. */
 static bool solve(plane *s, double *F, double guess, double limit)
 {
     for (;; guess *= 0.985) {
@@ -402,13 +406,14 @@ static bool solve(plane *s, double *F, double guess, double limit)
     }
 }
 
-/* Whether a rank is within `reach` of the corner's rank j: above j, or at most j. */
+/* Returns whether a rank is among the first `reach` ranks above j or, if `above` is false, among the last `reach` ranks
+   up to j. */
 static bool beside(size_t rank, size_t j, size_t reach, bool above)
 {
     return above ? rank > j && rank <= j + reach : rank <= j && rank + reach > j;
 }
 
-/* A random integer from 1 to most, about log-uniform. */
+/* Returns a random integer from 1 to `most`, distributed about log-uniformly. */
 static size_t log_uniform(koksma__stream *random, size_t most)
 {
     int bits = 0;
@@ -419,8 +424,9 @@ static size_t log_uniform(koksma__stream *random, size_t most)
     return d < most ? d : most;
 }
 
-/* Draws a swap that lowers the count of a corner with too many points, or raises the count of a corner with too few,
-   in one of the guides; if there is no guide, in the critical cycle. */
+/* Draws a swap for a random corner of one of the guides or, if there are none, of the critical cycle: it lowers the
+   count of a corner with too many points, or raises that of a corner with too few. Returns false if it finds no
+   swap. */
 static bool draw_swap(plane *s, swap *w)
 {
     const cycle *guide = s->guided ? &s->guides[koksma__next_below(&s->random, s->guided)] : NULL;
@@ -446,8 +452,8 @@ static bool draw_swap(plane *s, swap *w)
     return a > 0 && b <= n && beside(s->rank[a], j, reach, !many) && beside(s->rank[b], j, reach, many);
 }
 
-/* Whether a swap is refused: after it, more of the stored constraint cycles would be violated at the value `target`
-   than now (one violated cycle is permitted), or any would be violated at the value `limit`. */
+/* Returns whether a swap is refused: after it, more of the stored constraint cycles would be violated at the value
+   `target` than now (one violated cycle is permitted), or any would be violated at the value `limit`. */
 static bool refused(plane *s, double target, double limit, const swap *w)
 {
     size_t count = 0;
@@ -489,7 +495,7 @@ static void round_all(plane *s)
 static void push_violated(plane *s, swap w, double F)
 {
     const size_t side = s->side, stride = s->stride, a = s->rank[w.a], b = s->rank[w.b];
-    const bool fewer = a > b; /* whether the swap has lowered the counts */
+    const bool fewer = a > b; /* true: the swap has lowered the counts */
     const size_t low = fewer ? b : a, high = fewer ? a : b;
     for (size_t k = fewer ? w.a : low; k < (fewer ? w.b : high); k++) {
         const int16_t *counts = fewer ? s->counts + k * stride + low : s->turned + k * stride + w.a;
@@ -536,7 +542,7 @@ static bool move(plane *s, double target, double limit)
     return false;
 }
 
-/* Writes the coordinates at F to points, scaled such that the square's side is 1. */
+/* Writes the current coordinates to points, scaled such that the square's side is 1. */
 static void write_points(const plane *s, koksma_points *points)
 {
     for (size_t i = 0; i < s->n; i++) {
@@ -546,7 +552,8 @@ static void write_points(const plane *s, koksma_points *points)
     }
 }
 
-/* A walk from a permutation whose F is known; a set with a value below *best is written to points. */
+/* Walks from the current permutation, whose least F is given. Each set with a value below *best is written to
+   points. */
 static void walk(plane *s, double F, double *best, koksma_points *points)
 {
     const double threshold = F * width_of(s->n).threshold * koksma__next_unit(&s->random), below = 1 - 1e-7;
@@ -564,7 +571,7 @@ static void walk(plane *s, double F, double *best, koksma_points *points)
         }
         double to;
         if (!solve(s, &to, target, limit)) {
-            break; /* equal to the limit up to rounding */
+            break; /* F equals the limit up to rounding */
         }
         if (to < target) {
             m = 0;
@@ -579,7 +586,7 @@ static void walk(plane *s, double F, double *best, koksma_points *points)
     s->guided = 0;
 }
 
-/* Takes the ranks and coordinates from given points; the sides of the square are at 1. */
+/* Takes the ranks and coordinates from given points in the unit square. */
 static koksma_status take_points(plane *s, const double *xs, uint32_t *order)
 {
     const koksma_run run = {.threads = 1};

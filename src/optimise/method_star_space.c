@@ -5,18 +5,18 @@
  *
  *     E = sum over corners (X_i, Y_j, Z_k) of max(0, c - n X_i Y_j Z_k - n f)^2 + max(0, n X_i Y_j Z_k - o - n f)^2,
  *
- * where c and o are the numbers of points in the closed and in the open box of the corner, and X, Y, Z the sorted
- * coordinates of the points, and 1. For fixed ranks the counts are fixed, and the coordinates with E = 0 form a
- * convex set in log X, log Y, log Z. Coordinates with E = 0 have a star discrepancy of at most f; then a slightly
- * lower target is tried, until a target is not reached.
+ * where c and o are the numbers of points in the closed and in the open box of the corner, and X, Y and Z are the
+ * sorted coordinates of the points, followed by 1. For fixed ranks the counts are fixed, and the coordinates with E = 0
+ * form a convex set in log X, log Y, log Z. Coordinates with E = 0 have a star discrepancy of at most f; then a
+ * slightly lower target is tried, until a target is not reached.
  *
  * A vectorised pass over all corners (far_corners) gives the star discrepancy and a list of the corners whose local
  * discrepancy is near it. L-BFGS uses only the listed corners, about 1 % of all corners, and ignores changes of
- * ranks; the next pass checks the result. Three of four searches start a walk at the best set, the others at the best
- * of DRAWS sets {i a + s}. A walk starts again after STALE kicks (random changes) without a gain. A kick exchanges a
- * coordinate of two points so that a listed box with too many points loses one, or a box with too few gains one,
- * because no other exchange can help; one kick in five replaces points by random ones. The walk accepts the result of
- * a descent if its value is at most a threshold above the walk's value.
+ * ranks; the next pass checks the result. Three of four searches are a walk from the best set. The others are walks
+ * from the best of DRAWS sets {i a + s}; a new walk starts after STALE kicks (random changes) without a gain. A kick
+ * exchanges a coordinate of two points so that a listed box with too many points loses one, or a box with too few gains
+ * one, because no other exchange can help; one kick in five (with keep=net every kick) replaces a point by a random
+ * one. The walk accepts the result of a descent if its value is at most a threshold above the walk's value.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,8 +30,8 @@
 
 enum { MAX_N = 1024, ITERATIONS = 20, DRAWS = 16, STALE = 60, CAPACITY = 1 << 18, LANES = 32 };
 
-/* A corner: the points that give its coordinates (n: the side, at 1), the number of points in its box, and whether
-   these are too many (closed box; sign 1) or too few (open box; sign -1). */
+/* A corner. at[k]: the point with the same coordinate k (n: none, the coordinate is 1). count: the number of points in
+   its box. sign: 1 for the closed box, which may have too many points; -1 for the open box, which may have too few. */
 typedef struct corner {
     uint16_t at[3];
     int16_t count, sign;
@@ -41,9 +41,9 @@ typedef struct job {
     size_t n, stride; /* stride: length of a row of counts in memory */
     double target;
     uint32_t *order, *found; /* order: the points sorted along each axis, followed by their ranks along each axis */
-    double *low, *x;         /* the sorted coordinates along each axis, followed by 1 */
-    float *z;                /* the sorted coordinates of the third axis, followed by 0 */
-    int16_t *open, *closed;  /* the numbers of points before x_i, and up to x_i, with ranks below (j, k) */
+    double *low, *x;         /* x: for each axis the sorted coordinates, followed by 1 */
+    float *z;                /* the sorted coordinates along the third axis, 1, and zeros */
+    int16_t *open, *closed;  /* numbers of points before, or up to, x_i whose ranks by y and z are below (j, k) */
     corner *corners, *kept;  /* kept: the corners listed for the set of the walk */
     size_t listed, n_kept;
     void *memory;
@@ -104,8 +104,8 @@ static koksma_status sort(job *j, const double *xs)
     return KOKSMA_OK;
 }
 
-/* Lists the corners (i, b, any) with a difference above `limit` points, and raises *largest; false if the list is
-   full. */
+/* Lists those corners (X_i, Y_b, any Z) whose local discrepancy, times n, is above `limit`, and raises *largest to the
+   largest of these numbers. Returns false if the list is full. */
 static bool list_row(job *j, size_t i, size_t b, int16_t sign, double limit, double *largest)
 {
     const size_t n = j->n, columns = (n + 1 + LANES - 1) / LANES * LANES;
@@ -130,8 +130,8 @@ static bool list_row(job *j, size_t i, size_t b, int16_t sign, double limit, dou
     return true;
 }
 
-/* Lists the corners with a difference above `limit`; *value is the largest difference. The limit is raised if there
-   are too many corners, and lowered if there are none. */
+/* Lists the corners whose local discrepancy is above `limit`; *value receives the largest local discrepancy. The limit
+   is raised if there are too many corners, and lowered if there are none. */
 static koksma_status list(job *j, koksma__descent *d, double limit, double *value)
 {
     const size_t n = j->n;
@@ -160,7 +160,7 @@ static koksma_status list(job *j, koksma__descent *d, double limit, double *valu
     return status;
 }
 
-/* Whether a point is inside a corner's box along all axes except the axis `but`. */
+/* Returns whether a point is inside a corner's box along all axes, where the axis `but` does not count. */
 static bool inside(const job *j, const corner *at, const double *xs, size_t point, size_t but)
 {
     bool in = true;
@@ -171,7 +171,7 @@ static bool inside(const job *j, const corner *at, const double *xs, size_t poin
     return in;
 }
 
-/* E over the listed corners, with its derivatives. */
+/* Computes E, summed over the listed corners, and its derivatives. */
 static koksma_status excesses(const void *context, const koksma_points *points, double *value, double *gradient)
 {
     const job *j = context;
@@ -197,8 +197,9 @@ static koksma_status excesses(const void *context, const koksma_points *points, 
     return KOKSMA_OK;
 }
 
-/* Exchanges a coordinate of a point on the border of a corner's box with that of a near point, which is on the other
-   side of that border but not in the box. */
+/* Exchanges a coordinate of a point on the border of a corner's box with that of a near point that is outside of the
+   box along another axis. The box thus loses the point on its border if it has too many points, or gains it if it has
+   too few. */
 static void exchange(const job *j, double *xs, koksma__stream *random)
 {
     const corner *at = &j->kept[koksma__next_below(random, j->n_kept)];
@@ -236,7 +237,7 @@ static void kick(const job *j, koksma__descent *d, koksma_keep keep, koksma__str
     }
 }
 
-/* Draws some starts, and leaves the one with the least value in d->points. */
+/* Draws DRAWS sets, and leaves the one with the least value in d->points. */
 static koksma_status start(job *j, koksma__descent *d, const koksma_points *points, koksma_keep keep, double *best,
                            double value, koksma__stream *random)
 {
@@ -258,10 +259,11 @@ static koksma_status start(job *j, koksma__descent *d, const koksma_points *poin
     return status;
 }
 
-/* Descends with each coordinate confined to an interval of length 2 r around its present place, shifted where it
-   would leave the coordinate's range; r is the difference between the value and the target. This keeps most corners
-   that are not listed harmless: their local discrepancies are about r or more below the target, and the move of one
-   coordinate by r raises one by at most r. The next pass over all corners finds those that rise too far. */
+/* Descends with each coordinate confined to an interval of length 2 r about its present value, where r is the
+   difference between the value and the target. (An interval that would leave the coordinate's range is shifted.) Most
+   corners that are not listed then stay below the target: their local discrepancies are at least about r below it, and
+   moving one coordinate by r raises a local discrepancy by at most r. The next pass over all corners finds those that
+   rise above the target. */
 static koksma_status descend_near(job *j, koksma__descent *d, double value)
 {
     const double length = d->length, reach = fmin(value - j->target, length / 2);
@@ -278,7 +280,7 @@ static koksma_status descend_near(job *j, koksma__descent *d, double value)
 }
 
 /* Descends to targets below the value as long as that helps: the first target is far below the value if `cut` is
-   infinite (a start), and a little below it otherwise (after a kick). `lowest` and `best` get the least value and its
+   infinite (a start), and a little below it otherwise (after a kick). *lowest receives the least value, and `best` its
    set. Ends early if the value stays above `cut`. */
 static koksma_status follow(job *j, koksma__descent *d, double cut, double *best, double *lowest)
 {
@@ -305,7 +307,7 @@ static koksma_status follow(job *j, koksma__descent *d, double cut, double *best
     return status;
 }
 
-/* Lists the corners near the value of the walk's set, for kicks. */
+/* Lists the corners whose local discrepancy is near the value of the walk's set; kicks use this list. */
 static koksma_status keep_corners(job *j, koksma__descent *d, const double *at, double value)
 {
     double found;
@@ -316,7 +318,7 @@ static koksma_status keep_corners(job *j, koksma__descent *d, const double *at, 
     return status;
 }
 
-/* The walk; points has the best set, and is replaced by better ones. */
+/* Walks until the budget is used up. `points` has the best set; each better set replaces it. */
 static koksma_status wander(koksma_keep keep, koksma__descent *d, job *j, koksma__stream *random, double value,
                             double *best, koksma_points *points)
 {

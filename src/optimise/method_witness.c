@@ -27,8 +27,8 @@ static int serves(const koksma_spec *measure, const koksma_optimise_options *o)
                : 0;
 }
 
-/* Sets `out` to the direction in which a point leaves the region through the border that it touches; false if the
-   point touches no border. */
+/* Sets `out` to the direction in which a point leaves the region through the border that it touches. Returns false if
+   the point touches no border. */
 static bool outward(const koksma_witness *w, const double *x, double *out)
 {
     double distance = w->kind == KOKSMA_WITNESS_HALF_PLANE ? -w->hi[0] : 0, length = 0;

@@ -10,7 +10,7 @@
 #include "optimise/methods.def"
 #undef METHOD
 
-/* The random numbers of one search, in sequence. Initially all members but the seed are 0. */
+/* The random numbers of one search, drawn one after the other. At first all members but the seed are 0. */
 typedef struct koksma__stream {
     uint64_t seed, used;
     koksma__words words;
@@ -24,7 +24,7 @@ static inline uint32_t koksma__next(koksma__stream *s)
     return s->words.w[s->used++ % 4];
 }
 
-/* A double in [0,1) from 32 random bits; a random integer below n. */
+/* koksma__next_unit returns a double in [0,1) with 32 random bits, koksma__next_below a random integer below n. */
 static inline double koksma__next_unit(koksma__stream *s)
 {
     return koksma__next(s) * 0x1p-32;

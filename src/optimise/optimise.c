@@ -3,8 +3,8 @@
  * koksma_optimise runs in steps of a fixed amount of work. In each step SEARCHES independent searches, each with its
  * own seed, start from the best set; they run on any number of threads. The best of their results (the first of equal
  * ones) becomes the new best set if it is better. koksma_evaluate measures every result; values that a method
- * computes are not used. Processes that share a run each make every size-th search, where size is their number, and
- * send the results to the others, so that all continue from the same best set.
+ * computes are not used. Several processes can share a run: process r of p makes the searches r, r + p, r + 2 p, ... of
+ * each step. They exchange the results after each step, so that all continue from the same best set.
  */
 #include <koksma/optimise.h>
 
@@ -30,13 +30,13 @@ typedef struct step {
     const koksma_optimise_options *options;
     const koksma_method *method;
     const koksma_optimum *best;
-    double *found; /* SEARCHES pieces */
-    size_t piece;  /* size: number of doubles in the result of one search */
+    double *found; /* results of SEARCHES searches */
+    size_t piece;  /* number of doubles in the result of one search */
     const koksma_run *run;
     double start_s;
 } step;
 
-/* The value of a set; smaller is better. */
+/* Computes the value of a set, negated if larger values of the measure are better. */
 static koksma_status evaluate(const koksma_spec *measure, const koksma_optimise_options *o,
                               const koksma_points *points, double *value)
 {
@@ -45,7 +45,7 @@ static koksma_status evaluate(const koksma_spec *measure, const koksma_optimise_
     return status;
 }
 
-/* The result of search i: its value, followed by its points. */
+/* Returns the result of search i: its value, followed by its points. */
 static double *piece(const step *s, size_t i)
 {
     return s->found + i * s->piece;
@@ -76,7 +76,8 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(s->run, fmin(done, 1));
 }
 
-/* Runs the searches with the numbers 0 to SEARCHES - 1 that belong to this process. */
+/* Runs one step: those of the searches 0 to SEARCHES - 1 that this process makes. A better result replaces the best
+   set. */
 static koksma_status take_step(step *s, koksma_optimum *best)
 {
     const koksma_run run = {.threads = koksma__threads(s->run), .keep_going = keep_going, .context = s};
@@ -101,7 +102,7 @@ static koksma_status take_step(step *s, koksma_optimum *best)
     return KOKSMA_OK;
 }
 
-/* Whether all processes that share the run want to continue. */
+/* Sets *going to false if any of the processes that share the run wants to end it. */
 static koksma_status agree(const koksma_processes *others, bool *going)
 {
     double wishes[MOST_PROCESSES];
@@ -116,8 +117,9 @@ static koksma_status agree(const koksma_processes *others, bool *going)
     return KOKSMA_OK;
 }
 
-/* A lower bound: the projections of n points on an axis have a star discrepancy of at least 1/(2n) and an extreme
-   discrepancy of at least 1/n, and those of the points themselves are no smaller. */
+/* Returns a lower bound of the value (NAN: none is known): the projections of n points on an axis have a star
+   discrepancy of at least 1/(2n) and an extreme discrepancy of at least 1/n, and the discrepancies of the points
+   themselves are no smaller. */
 static double lower_bound(const koksma_spec *measure, const koksma_optimise_options *o)
 {
     return o->keep == KOKSMA_KEEP_SEQUENCE || o->n_projections ? (double)NAN
@@ -144,7 +146,8 @@ static koksma_status first_set(const koksma_optimise_options *o, const koksma_ru
 static koksma_status check(const koksma_spec *measure, const koksma_optimise_options *o, const koksma_method **method)
 {
     if (!measure->measure || measure->measure->answer != KOKSMA_ANSWER_EXACT) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a measure with exact values, such as star or l2-star",
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "%s: a search needs a measure with exact values, such as star or l2-star",
                             measure->measure ? measure->measure->name : "koksma_optimise");
     }
     KOKSMA__FAIL_IF((unsigned)o->keep > KOKSMA_KEEP_SEQUENCE, KOKSMA_ARGUMENT,

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The measure of searches for 2D points whose power spectrum has a given radial mean. With the power P(k) = (1/n)
- * |sum_j exp(-2 pi i k.x_j)|^2, its mean p_r over the N_r frequencies k of ring r (as in koksma/spectrum.h) and a
- * target t_r, the search minimises
+ * The measure that a search minimises to find 2D points whose power spectrum has a given radial mean. With the power
+ * P(k) = (1/n) |sum_j exp(-2 pi i k.x_j)|^2, its mean p_r over the N_r frequencies k of ring r (as in
+ * koksma/spectrum.h) and a target t_r, the search minimises
  *
  *     D^2 = sum_(r = 1 .. R) r (p_r - t_r)^2 / sum_r r,
  *
- * the mean square over the plane of frequencies. With sum_j exp(-2 pi i k.x_j) = C - i S,
+ * the mean square of the difference over the plane of frequencies. With sum_j exp(-2 pi i k.x_j) = C - i S,
  *
  *     d P(k) / d x_j = (4 pi k / n) (S cos(2 pi k.x_j) - C sin(2 pi k.x_j)).
  *
@@ -37,7 +37,7 @@ enum { LANES = 8, SETS = 16 };
 static koksma_status only_in_searches(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     (void)points, (void)args, (void)out;
-    return koksma__fail(KOKSMA_ARGUMENT, "radial power: only searches can compute it");
+    return koksma__fail(KOKSMA_ARGUMENT, "radial power: it can be computed only in a search (koksma_optimise)");
 }
 
 const koksma_measure koksma__measure_radial_power = {
@@ -73,7 +73,7 @@ typedef struct job {
     size_t n, stride, rings;
     double *tables[4]; /* cos and sin of 2 pi k x, then of 2 pi k y: [k stride + point], k = 0 .. rings */
     double *c, *s;     /* cos and sin of 2 pi (kx x + ky y) of all points */
-    double *sums;      /* C and S of each frequency in order */
+    double *sums;      /* C and S of each frequency, in the order of find_powers */
     double *means, *counts, *slopes;
     double *moves; /* the derivatives by x of all points, then by y */
     void *memory;
@@ -109,14 +109,14 @@ static koksma_status job_init(job *j, const koksma_points *points, size_t rings)
     return KOKSMA_OK;
 }
 
-/* The ring of a frequency; 0: none. */
+/* Returns the ring of a frequency, or 0 if it is in none of the rings. */
 static size_t ring_of(const job *j, int kx, int ky)
 {
     const size_t ring = (size_t)floor(hypot(kx, ky) + 0.5);
     return ring <= j->rings ? ring : 0;
 }
 
-/* Computes cosines and sines of all points at the frequency (kx, ky), ky >= 0. */
+/* Computes j->c and j->s for the frequency (kx, ky), ky >= 0. */
 static void waves(const job *j, int kx, int ky)
 {
     const size_t row = (size_t)abs(kx) * j->stride, column = (size_t)ky * j->stride;
@@ -144,7 +144,7 @@ static double sum(const job *j, const double *xs)
     return all;
 }
 
-/* Computes the sums of all frequencies and the means of all rings. */
+/* Computes C and S of all frequencies, and the mean power of each ring. */
 static void find_powers(job *j)
 {
     double *sums = j->sums;
@@ -259,7 +259,7 @@ static koksma_status read_profile(const char *path, double root, int rings, doub
     return status;
 }
 
-/* The target from a pattern: the mean radial power over SETS sets of n points. */
+/* Computes the target from a pattern: the radial power, averaged over SETS sets of n points. */
 static koksma_status power_of_pattern(const koksma_spec *pattern, size_t n, int rings, const koksma_run *run,
                                       double *power)
 {

@@ -11,11 +11,11 @@ extern const koksma_measure koksma__measure_radial_power;
 /* Fails unless the options of a search for a target power are valid. Errors: ARGUMENT, DIM. */
 koksma_status koksma__radial_power_check(const koksma_optimise_options *options);
 
-/* The work of one gradient, in points times frequencies. */
+/* Returns the work of one gradient, as the number of points times the number of frequencies. */
 double koksma__radial_power_cost(const koksma_optimise_options *options);
 
-/* The square of the distance and its derivatives with respect to the coordinates (NULL: the square only). Errors:
-   MEMORY. */
+/* Computes the square of the distance, and its derivatives with respect to the coordinates if `gradient` is not NULL.
+   Errors: MEMORY. */
 koksma_status koksma__radial_power_square(const koksma_optimise_options *options, const koksma_points *points,
                                           double *square, double *gradient);
 

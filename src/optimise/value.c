@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The value that a search minimises. With projections u of weights w_u it is the square root of sum_u w_u D_u^2 /
- * sum_u w_u, where D_u is the measure of the points' coordinates u:
+ * The value that a search minimises. With projections u of weights w_u it is the square root of sum_u w_u D_u^2 / sum_u
+ * w_u, where D_u is the measure of the points in the coordinates u.
  *
- * the weighted discrepancy of Sloan & Wozniakowski (1998) for the L2 family, so that the square of the value has a
+ * For the L2 family this is the weighted discrepancy of Sloan & Wozniakowski (1998). The square of the value has a
  * gradient if the square of the measure has one. For a sequence the value is the weighted geometric mean over its
- * prefixes of 2, 4, ..., n points and over the projections: a gain of 1 % counts as much at 2 points as at n,
- * although measures decrease with n at different rates.
+ * prefixes of 2, 4, ..., n points and over the projections: a gain of 1 % counts as much at 2 points as at n, although
+ * measures decrease with n at different rates.
  */
 #include "optimise/value.h"
 
@@ -42,7 +42,7 @@ static double weight(const koksma_optimise_options *o, size_t p)
     return o->weights ? o->weights[p] : 1;
 }
 
-/* The points, reduced to the coordinates of a projection. */
+/* Copies the points, with only the coordinates of a projection. */
 static void project(const koksma_points *points, uint64_t u, koksma_points *out)
 {
     const size_t dim = (size_t)points->dim;
@@ -56,7 +56,7 @@ static void project(const koksma_points *points, uint64_t u, koksma_points *out)
     }
 }
 
-/* The mean of the logarithms of the measure over all prefixes. */
+/* Computes the mean of the logarithms of the measure over all prefixes. */
 static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_points *points, double *mean)
 {
     double count = 0;
@@ -74,7 +74,8 @@ static koksma_status mean_of_prefixes(const koksma_spec *measure, const koksma_p
     return KOKSMA_OK;
 }
 
-/* The term that is averaged over projections: the square of the measure, or for a sequence its logarithm. */
+/* Computes the term that is averaged over projections: the square of the measure or, for a sequence, the mean of its
+   logarithms over the prefixes. */
 static koksma_status term(const koksma_spec *measure, const koksma_optimise_options *o, const koksma_points *points,
                           double *out)
 {

@@ -10,12 +10,13 @@
    without a coordinate or with a coordinate that the points do not have; a weight that is not above 0). */
 koksma_status koksma__search_check(const koksma_optimise_options *options);
 
-/* The value as in koksma_optimum. Errors: those of koksma_evaluate, ARGUMENT (a value of 0 in a geometric mean). */
+/* Computes the value that koksma_optimum has for these points. Errors: those of koksma_evaluate, ARGUMENT (a value of 0
+   in a geometric mean). */
 koksma_status koksma__search_value(const koksma_spec *measure, const koksma_optimise_options *options,
                                    const koksma_points *points, double *value);
 
-/* The square of the value and its derivatives with respect to the coordinates; not for sequences or for measures
-   without a gradient. Errors: MEMORY. */
+/* Computes the square of the value and its derivatives with respect to the coordinates. Must not be called for
+   sequences or for measures without a gradient. Errors: MEMORY. */
 koksma_status koksma__search_square(const koksma_spec *measure, const koksma_optimise_options *options,
                                     const koksma_points *points, double *square, double *gradient);
 

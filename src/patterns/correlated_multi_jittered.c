@@ -2,14 +2,14 @@
 /*
  * correlated-multi-jittered: multi-jittered points in random order, in which all columns share one permutation of the
  * rows, and all rows share one permutation of the columns. Each point is computed only from hashes, without the other
- * points.
+ * points. With m columns, r rows, the permutation p of the rows and the permutation q of the columns:
  *
  *     x = (c + (p(j) + u) / r) / m,   y = (j + (q(c) + v) / m) / r,   (c, j) = the cell of the permuted index
  *
  * Source: Kensler 2013; the permutation is that of koksma/sampler.h. columns=0 takes the largest divisor of n that is
- * at most sqrt(n). Permutations of up to 8 rows, columns or points are not quite uniform. The probabilities of the
- * positions of two elements are wrong by 0.4 to 1.6 % (root mean square over the pairs; at most 7 %, for 6 elements),
- * those of the position of one element by 0.4 % for 3 elements and by 0.1 % for 5 to 7.
+ * at most sqrt(n). Permutations of up to 8 elements (rows, columns or points) are not quite uniform. The probabilities
+ * of the positions of a pair of elements have errors of 0.4 to 1.6 % (root mean square over the pairs; at most 7 %,
+ * with 6 elements), the probabilities of the position of one element 0.4 % with 3 elements and 0.1 % with 5 to 7.
  */
 #include <koksma/sampler.h>
 
@@ -28,7 +28,7 @@ enum { FEW = 256, BLOCK = 256 };
 /* The grid and its permutations, computed once for all points. (koksma_cmj_2d of koksma/sampler.h computes them for
    each point.) */
 typedef struct grid {
-    uint64_t seed, key; /* key: the key of the permutation that orders the points */
+    uint64_t seed, key; /* key: that of the permutation that orders the points */
     uint32_t columns, rows;
     uint32_t *in_column, *in_row; /* the permutations p, of `rows` numbers, and q, of `columns` */
 } grid;

@@ -8,9 +8,9 @@
  * Source: Mitchell 1992 ("dart-throwing Poisson disk"; he does not state the distance: f = 0.75 fits his tables).
  * Dart throwing jams at f = 0.777 on average (random sequential packing covers 0.547 of the plane). A jammed set is
  * discarded and thrown again from the start, at most 200 times. The points are distributed as if all
- * darts were uniform in the square (shared/dart_cover.h). For a small f most darts fit: they are then thrown one by one
- * and checked against a grid of n cells, because the cells of dart_cover.h, which are smaller than d, would outnumber
- * the points by far.
+ * darts were uniform in the square (shared/dart_cover.h). For a small f most darts fit; they are then thrown one by one
+ * and checked against a grid of n cells. The cells of dart_cover.h are smaller than d, so there would be far more of
+ * them than points.
  */
 #include <string.h>
 

@@ -17,9 +17,9 @@
 
 enum { NONE, OWEN };
 
-/* In y = P^k a the digit a_l appears at position l, and column l of P^k times a_l is added to the positions before l.
-   The inverse P^-k, which is P^(b-k) modulo b, recovers the digits of a; this function returns column l = `level` of
-   it, the coefficients of (x + b - k)^l. */
+/* Points r and b^l d + r', with l = `level`, agree in the first l digits of y = P^k a if in these digits P^k (r' + d e)
+   = P^k r, where e is the unit vector of digit l. Therefore r' is r plus d times the first l entries of column l of
+   P^-k, which is P^(b-k) modulo b. This column has the coefficients of (x + b - k)^l. */
 static void relatives(const void *context, int k, int level, uint32_t *digits)
 {
     const uint32_t b = *(const uint32_t *)context, t = (b - (uint32_t)k) % b;

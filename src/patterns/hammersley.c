@@ -37,8 +37,9 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
     }
 }
 
-/* Computes the generator matrices of the 2D set with n = 2^m and an offset that is a multiple of 2^(m-32). Both
-   coordinates are then digital; as 32-bit numbers they are i 2^(32-m) + start and i with its bits reversed. */
+/* Computes the generator matrices of the 2D set with n = 2^m and an offset that is a multiple of 2^(m-32). The points
+   are then a digital net in base 2; as 32-bit numbers its coordinates are i 2^(32-m) + start and i with its bits
+   reversed. */
 typedef struct net {
     uint32_t directions[2][32], start;
 } net;
@@ -66,7 +67,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     job j;
     net digital;
     KOKSMA__FAIL_IF(args->params[1] == OWEN && args->params[0] != 0, KOKSMA_ARGUMENT,
-                    "hammersley: offset has no effect with scramble=owen; leave one out");
+                    "hammersley: offset has no effect with scramble=owen; leave out one of the two");
     if (args->params[1] == OWEN) {
         return koksma__owen_hammersley(seed, args->run, out);
     }

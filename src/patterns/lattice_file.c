@@ -83,7 +83,7 @@ static koksma_status read_head(koksma__number_lines *lines, int dim, vector *v)
         KOKSMA__TRY(koksma__number_lines_take(lines, "the number of dimensions", 1, &dims));
         KOKSMA__TRY(koksma__number_lines_take(lines, "the number of points", 1, &v->points));
         KOKSMA__FAIL_IF(v->points < 1 || v->points > UINT64_C(1) << 32, KOKSMA_MALFORMED,
-                        "%s: line %zu: %llu points; it takes 1 to 2^32", lines->name, lines->number,
+                        "%s: line %zu: %llu points; a lattice has 1 to 2^32", lines->name, lines->number,
                         (unsigned long long)v->points);
     }
     KOKSMA__FAIL_IF(dims < (uint64_t)dim, KOKSMA_DIM, "%s: it has %llu dimensions, not %d", lines->name,

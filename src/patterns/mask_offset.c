@@ -11,7 +11,8 @@
  *
  * Sources: Georgiev & Fajardo 2016, who shift the points on the torus by two optimised masks, which void-and-cluster
  * masks (Ulichney 1993) replace here; the scrambling of Laine & Karras 2011 and Burley 2020. New in this project are
- * the shift of the digits below those of the net, and the third mask, which pairs the strata.
+ * two things: the two masks shift only the digits below those of the net, and a third mask decides which strata in y
+ * are paired with those in x.
  */
 #include <koksma/mask.h>
 #include <koksma/sampler.h>

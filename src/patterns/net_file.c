@@ -63,7 +63,7 @@ static double value_of(const matrices *m, const uint32_t *y)
     return whole / scale;
 }
 
-/* Does the same as `column`, but for base 2, with each column of the matrix in one word. */
+/* Does the same as `column` (below), but for base 2, with each column of the matrix in one word. */
 static void binary_column(const matrices *m, int k, uint64_t first, size_t count, double *xs)
 {
     uint64_t words[MOST_COLUMNS] = {0}, y = 0;
@@ -75,7 +75,8 @@ static void binary_column(const matrices *m, int k, uint64_t first, size_t count
     }
     for (size_t i = 0; i < count; i++) {
         xs[i] = (double)(int64_t)y / (double)(INT64_C(1) << m->digits);
-        for (int c = 0; c < m->columns; c++) { /* the digits that change from first + i to the next index */
+        /* add a column for each digit of the index that changes on the step to the next point */
+        for (int c = 0; c < m->columns; c++) {
             y ^= words[c];
             if (!((first + i) >> c & 1)) {
                 break;
@@ -115,9 +116,9 @@ static void column(const void *context, int k, uint64_t first, size_t count, dou
 static koksma_status take(koksma__number_lines *lines, const char *what, uint64_t least, uint64_t most, uint64_t *out)
 {
     KOKSMA__TRY(koksma__number_lines_take(lines, what, 1, out));
-    KOKSMA__FAIL_IF(*out < least || *out > most, KOKSMA_MALFORMED, "%s: line %zu: %s is %llu; it takes %llu to %llu",
-                    lines->name, lines->number, what, (unsigned long long)*out, (unsigned long long)least,
-                    (unsigned long long)most);
+    KOKSMA__FAIL_IF(*out < least || *out > most, KOKSMA_MALFORMED,
+                    "%s: line %zu: %s is %llu; it has to be %llu to %llu", lines->name, lines->number, what,
+                    (unsigned long long)*out, (unsigned long long)least, (unsigned long long)most);
     return KOKSMA_OK;
 }
 

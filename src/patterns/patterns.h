@@ -4,7 +4,7 @@
 
 #include <koksma/koksma.h>
 
-/* The function koksma_pattern.ranges of patterns that can always compute a point from its index. */
+/* The member `ranges` of patterns that can make any range of their points whatever their parameters are. */
 static inline bool koksma__ranges_always(const double *params)
 {
     (void)params;

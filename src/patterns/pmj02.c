@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * pmj02: progressive multi-jittered points whose prefixes of 2^m points are (0,m,2)-nets in base 2, with every other
- * property of Christensen, Kensler & Kilpatrick 2018. The points are made by stochastic generation from two matrices:
- * that of the Stirling numbers of the first kind modulo 2, and this matrix shifted by a row and a column.
+ * property of Christensen, Kensler & Kilpatrick 2018. The points are made by stochastic generation (shared/grow.h) from
+ * two matrices: that of the Stirling numbers of the first kind modulo 2, and this matrix shifted by a row and a column.
  *     x(2^l + i) is at a random position in the empty half of the stratum of width 2^-l of x(i XOR partner_l)
  *
  * Source: Christensen, Kensler & Kilpatrick 2018; the generation is from Helmer, Christensen & Kensler 2021.

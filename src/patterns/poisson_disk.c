@@ -6,10 +6,10 @@
  *     x_i = the first of u_1, u_2, .. uniform in [0,1)^dim with |u - x_j| >= d for all j < i
  *
  * Source: Shirley 1991, section 5.5.4 (dart throwing in the square, d = 0.1 and 0.2 for 16 points); Cook 1986.
- * Without torus=1 points crowd at the sides, where darts have fewer neighbours: 16 points with d = 0.2 have a density
- * of 1.40 in the outer tenths of a coordinate and of .9 inside. A mean over the square is therefore biased, and for
- * the integrand `checker` the points are no better than jittered ones. The default is Shirley's square without
- * wraparound; torus=1 is recommended.
+ * Without torus=1 points crowd at the sides, where darts have fewer neighbours: 16 points with d = 0.2 have 1.40 times
+ * the mean density in the outer tenths of a coordinate, and .9 times inside. A mean over the square is therefore
+ * biased, and for the integrand `checker` the points are no better than jittered ones. The default is Shirley's square
+ * without wraparound; torus=1 is recommended.
  *
  * The set consists of the first n darts that fit. After 3,000 rejections in a row the search restarts with an empty
  * set, and after 200 restarts it fails: the error message then gives the largest d that any n points can have. Dart

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * ranking-keys: the points of all pixels of a square image, pixel after pixel. The pixels of a cell of 32 x 32 share one
- * Owen-scrambled (0,2)-sequence; the key of a pixel, optimised so that the errors of neighbouring pixels cancel, selects
- * its block of the sequence and the order in it.
+ * Owen-scrambled (0,2)-sequence; the key of a pixel, optimised so that the errors of neighbouring pixels cancel,
+ * selects the pixel's block of the sequence and the order of the points in the block.
  *
  *     point s of pixel (x, y), pair of dimensions k = koksma_keys_2d(koksma_keys_of(seed, x, y, k, spp), s)
  *

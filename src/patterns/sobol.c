@@ -6,8 +6,8 @@
  *
  * The generator matrices are upper triangular, so that points below 2^32 are multiples of 2^-32.
  * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008; with numbers=bratley-fox those of Bratley & Fox 1988,
- * which GSL uses; with numbers=groups our own, found by a search for even projections on dimensions 2 k and 2 k + 1
- * and on dimensions 4 k .. 4 k + 3 of the first 2^4 .. 2^12 points (tools/make_sobol_groups.c). Options for
+ * which GSL uses; with numbers=groups our own, found by a search (tools/make_sobol_groups.c) in which the first 2^4 ..
+ * 2^12 points should have even projections on dimensions 2 k and 2 k + 1, and on dimensions 4 k .. 4 k + 3. Options for
  * scrambling:
  *     scramble=digital-shift  exclusive or with one random word for each dimension
  *     scramble=lms            a random lower triangular matrix for each dimension, and a digital shift (Matousek
@@ -15,9 +15,9 @@
  *     scramble=owen           Owen's nested uniform scrambling (1995), exact, by stochastic generation (Helmer et al.
  *                             2021); bits below those that distinguish n points are independent random bits
  *     scramble=hash-owen      nested scrambling by a hash (Laine & Karras 2011, Burley 2020, constants of Vegdahl
- *                             2021), with random access; single flips and pairs of flips have the distribution of
- *                             exact Owen scrambling, so that variances are equal; of the 128 flip trees of three
- *                             bits the hash produces 32
+ *                             2021), with random access; each flip of a bit, and each pair of flips, has the
+ *                             distribution of exact Owen scrambling, so that variances are equal; but of the 128
+ *                             combinations of flips in the tree of three bits the hash produces only 32
  *     shuffle=1               with hash-owen: the hash scrambles the order of the points, too; the first 2^m points
  *                             are still an aligned block of the sequence
  *

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * void-and-cluster: the centres of a mask's pixels in order of their ranks: a progressive blue-noise set of up to
- * size^2 points. Each next pixel is the one in the largest void: the pixel at which the earlier points have the least
- * energy.
+ * size^2 points. The next pixel is always the one in the largest void: the pixel at which the earlier points have the
+ * least energy.
  *
  *     x = (column + 1/2) / size, y = (row + 1/2) / size of the pixel of rank i
  *     energy of a pixel = sum over set pixels of exp(-d^2 / (2 s^2)), s = 1.5 pixels, d on the torus

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * void-and-cluster-3d: the centres of the voxels of a mask in space and time, in order of their ranks. Each next
- * voxel is the one in the largest void: the voxel at which the earlier points have the least energy.
+ * void-and-cluster-3d: the centres of the voxels of a mask in space and time, in order of their ranks. The next voxel
+ * is always the one in the largest void: the voxel at which the earlier points have the least energy.
  *
  *     x = (column + 1/2) / size, y = (row + 1/2) / size, z = (frame + 1/2) / frames of the voxel of rank i
  *     energy of a voxel = sum over set voxels of exp(-d^2 / (2 s^2)), s = 1.5 voxels, d on the torus

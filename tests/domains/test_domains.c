@@ -365,9 +365,10 @@ static void wrong_inputs_are_refused(void **state)
         int dim;
         koksma_status status;
     } rows[] = {
-        {"sobol", "sobol: no form with a density; random, ", some, 16, 2, KOKSMA_UNSUPPORTED},
-        {"sobol", "sobol: no form on a model; random, ", NULL, 16, 3, KOKSMA_UNSUPPORTED},
-        {"random:shift=1", "shift has no form", some, 16, 2, KOKSMA_ARGUMENT},
+        {"sobol", "sobol: it can't make points with a density; random, ", some, 16, 2, KOKSMA_UNSUPPORTED},
+        {"sobol", "sobol: it can't make points on a model; random, ", NULL, 16, 3, KOKSMA_UNSUPPORTED},
+        {"random:shift=1", "the modifier shift can't be used for points with a density", some, 16, 2,
+         KOKSMA_ARGUMENT},
         {"random", "2 dimensions, not 3", some, 16, 3, KOKSMA_DIM},
         {"random", "not 4", NULL, 16, 4, KOKSMA_DIM},
         {"random", "0 everywhere", none, 16, 2, KOKSMA_MALFORMED},

@@ -52,7 +52,7 @@ class Density(unittest.TestCase):
                 (koksma.MalformedError, "0 everywhere", {"density": 0 * self.map})):
             with self.assertRaisesRegex(error, said):
                 koksma.generate("random", **{"n": 5, **arguments})
-        with self.assertRaisesRegex(koksma.UnsupportedError, "no form with a density"):
+        with self.assertRaisesRegex(koksma.UnsupportedError, "can't make points with a density"):
             koksma.generate("sobol", 5, density=self.map)
 
 

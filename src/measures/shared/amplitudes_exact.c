@@ -27,7 +27,7 @@ typedef struct job {
     double (*sums)[ROWS][COLUMNS]; /* one tile of sums for each tile of rows in the band and each tile of columns */
     double *power;
     const koksma_run *run;
-    double done, share; /* fraction of all work that was done before this step; fraction that this step is */
+    double done, share; /* fraction of all work that was done before this step; fraction that this step makes up */
 } job;
 
 static bool keep_going(void *context, double fraction)

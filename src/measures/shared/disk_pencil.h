@@ -21,7 +21,7 @@ typedef struct koksma__disk_best {
     koksma_witness witness;
 } koksma__disk_best;
 
-/* Sets *best to this disk if its difference is larger. */
+/* Sets *best to the disk with `count` points if its |count/n - area| exceeds the value of *best. */
 void koksma__disk_try(const koksma__disk_set *set, koksma__disk_best *best, bool closed, size_t count,
                       const double *centre, double square_radius);
 

@@ -18,7 +18,8 @@ typedef struct koksma__domain {
     /* returns the mass of the half-plane a x + b y <= a p[0] + b p[1] */
     double (*area_below_through)(double a, double b, const double p[2]);
     /* computes the chords with midpoint p. They are the lines through p for which the mass on one side is stationary
-       as the line turns about p. There is at least one; at a corner they are the two adjacent sides */
+       as the line turns about p. There is at least one; if p is a corner of the domain, they are the two adjacent
+       sides */
     void (*chords)(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS]);
     double radius; /* radius of a circle that contains the domain */
 } koksma__domain;

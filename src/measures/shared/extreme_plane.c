@@ -70,7 +70,7 @@ typedef struct searcher {
     size_t n_waiting;
     best_strip best;
     void *memory;
-    double upper, work, budget; /* number of points visited so far; number of visits that costs as much as a sweep */
+    double upper, work, budget; /* work: number of points visited; budget: visits that cost as much as a sweep */
     bool late;
 } searcher;
 
@@ -167,7 +167,7 @@ static const koksma__run_list *narrowed(searcher *s, const koksma__run_list *fro
 
 static void search(searcher *s, const koksma__run_list *list, int depth, const tile *tiles, size_t count);
 
-/* Cuts a tile and searches its parts, with those of other tiles if they have the same list. */
+/* Cuts a tile and searches its parts, together with the parts of other tiles that have the same list. */
 static void search_parts(searcher *s, const koksma__run_list *list, int depth, tile t, tile *parts, size_t *count)
 {
     const size_t side = tile_sides[depth], part = tile_sides[depth + 1];

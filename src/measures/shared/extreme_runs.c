@@ -23,8 +23,7 @@ enum {
     EXCESS = 4,
     DEFICIT = 6,
     COUNT = 8
-}; /* positions in the numbers of a run; each line has
-                                                                     an offset and a slope */
+}; /* indices into the numbers of a run in a list; TOP to DEFICIT are lines, each with an offset and a slope */
 
 /* The functions of a run at the narrowest and at the widest strip. */
 typedef struct ends {

@@ -27,7 +27,7 @@ static double slope(const double f[4], double u)
 typedef struct job {
     const koksma__l2_row *row;
     size_t n, dim;
-    double *u, *g;            /* xs[k n + j] is coordinate k of point j */
+    double *u, *g;            /* u[k n + j] is coordinate k of point j, g[k n + j] the function g of it */
     double *factors, *behind; /* kernel K_k of point i and each other point; product of the factors after k */
 } job;
 

@@ -147,7 +147,7 @@ static koksma_status settle(const sorter *s, const item *items, size_t n_items, 
     return KOKSMA_OK;
 }
 
-/* Writes the indices of the items whose key first occurs in this block. */
+/* Writes to s->order the indices of the items of all keys that first occur in this block. */
 static koksma_status store(void *context, size_t block)
 {
     const sorter *s = context;

@@ -143,8 +143,9 @@ koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spe
     return written;
 }
 
-/* Amplitudes from the method FAST have errors of up to AMPLITUDE n. A power below this error cannot be distinguished
-   from 0, and powers that differ by less cannot be distinguished from each other. */
+/* The sums over n points from the method FAST have errors of up to AMPLITUDE n. A power below AMPLITUDE^2 n can thus
+   not be distinguished from 0, and powers that differ by less than their errors can not be distinguished from each
+   other. */
 #define AMPLITUDE 1e-9
 
 static double anisotropy_db(double points, double power, double variance)

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: the excess (k = -n y_j, b counts
- * points) or the deficit (k = n y_j, b minus that) of the box to (x, y_j), times n. Inserting a point adds a constant
- * to the lines of a range of ranks; x only grows. The amount `lazy` of a node has not been added to its children yet.
- * The lowest levels of the tree are replaced by blocks of leaves, which are scanned. The star discrepancy of the
- * plane is the largest value of a leaf over all x, and x takes n values from left to right.
+ * A segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: n times the excess of the box to (x,
+ * y_j), where k_j = -n y_j and b_j is the number of points, or n times its deficit, where k_j = n y_j and b_j is minus
+ * this number. Inserting a point adds a constant to the lines of a range of ranks; x only grows. The amount `lazy` of a
+ * node has not been added to its children yet. The lowest levels of the tree are replaced by blocks of leaves, which
+ * are scanned. The star discrepancy of the plane is the largest value of a leaf over all x, and x takes n values from
+ * left to right.
  *
  * At first the nodes store bounds. The bound of a node is a line that is above all its leaves at the current x. It
  * has the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only when its

@@ -4,9 +4,9 @@
  *
  * Cells are at least d wide, so that the 3^dim cells around a position contain all points within d of it. Every child
  * of a cube has the centre of the cube as a corner. A ball that contains a whole child therefore contains the centre,
- * so only the points within d of the centre are compared with the 2^dim children. They are found once for each region
- * of 4^dim cubes. On the torus the distance along one axis is at most 1/2. The largest distance from a point to a box
- * is computed axis by axis, and images need not be considered.
+ * so only the points within d of the centre are compared with the 2^dim children. These points are found once for each
+ * region of 4^dim cubes. On the torus the distance along one axis is at most 1/2. The largest distance from a point to
+ * a box is computed axis by axis, and images need not be considered.
  */
 #include "patterns/shared/ball_cover.h"
 
@@ -26,7 +26,8 @@ enum { LOOK_EVERY = 1 << 14, CHILDREN = 1 << KOKSMA__BALL_DIMS };
 
 double koksma__balls_per_volume(int dim)
 {
-    static const double filled[] = {0.547067, 0.384131, 0.260078, 0.170776, 0.109302}; /* fraction of the volume */
+    /* the fraction of the volume that the balls fill, for dim = 2, 3, ... */
+    static const double filled[] = {0.547067, 0.384131, 0.260078, 0.170776, 0.109302};
     double ball = dim % 2 ? 2 : M_PI;
     for (int k = dim % 2 ? 3 : 4; k <= dim; k += 2) {
         ball *= 2 * M_PI / k;
@@ -106,9 +107,9 @@ static double distance2(const koksma__balls *s, const double *x, const double *y
     return sum;
 }
 
-/* Copies of the points found near a position. If xs is NULL, only their existence is recorded. */
+/* Copies of the points found near a position. If xs is NULL, no points are copied. */
 typedef struct near_points {
-    double limit2, *xs; /* squared distance; dim coordinates for each point */
+    double limit2, *xs; /* limit2: limit of the squared distance; xs: dim coordinates for each point */
     size_t n;
 } near_points;
 

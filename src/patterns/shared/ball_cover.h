@@ -6,9 +6,9 @@
  * each round each cube is cut into 2^dim, and those inside one ball of radius d are dropped. Source: Ebeida,
  * Mitchell, Patney, Davidson & Owens 2012.
  *
- * The number of cubes first grows and then shrinks. Its maximum for each point is about 12 in 3 dimensions, 65 in 4,
- * 600 in 5 and 4,500 in 6. If the cover needs more than KOKSMA__BALL_BYTES, the call fails with KOKSMA_IMPOSSIBLE and
- * the error text of koksma__balls_fill.
+ * The number of cubes first grows and then shrinks. At its maximum it is about 12 times the number of points in 3
+ * dimensions, 65 times in 4, 600 times in 5 and 4,500 times in 6. If the cover needs more than KOKSMA__BALL_BYTES, the
+ * call fails with KOKSMA_IMPOSSIBLE and the error text of koksma__balls_fill.
  */
 #ifndef KOKSMA_PATTERNS_SHARED_BALL_COVER_H
 #define KOKSMA_PATTERNS_SHARED_BALL_COVER_H

@@ -35,10 +35,10 @@
 
 static const double far_away = 1e9;
 
-/* The points in the 5 x 5 cells around a cell, the torus having side 1. If these cells reach over an edge of the
-   torus, the coordinates of the points there go on below 0 or above 1. These are all points that can be within d of a
-   point of the cell; the corner cells are needed because the diagonal of a cell is a little shorter than d. `count`
-   is a multiple of 8: points far away fill up the arrays. */
+/* The points in the 5 x 5 cells around a cell; the torus has side 1. Points in those of the 25 cells that lie beyond an
+   edge of the torus have coordinates below 0 or above 1. The 25 cells contain all points that can be within d of a
+   point of the cell; the corner cells are needed because the diagonal of a cell is a little shorter than d. `count` is
+   a multiple of 8: points far away fill up the arrays. */
 typedef struct around {
     size_t count;
     double xs[32], ys[32];

@@ -32,7 +32,8 @@ static bool get_room(void **things, size_t *room, size_t count, size_t size)
 
 /* Chooses cells and tiles for distance d, and the limits on squared distances between fixed-point positions. The
    difference of two such positions has an error of less than a unit in each coordinate, and the difference of a
-   position and the middle of a square one of less than half a unit. 1.42 and 0.71 are these errors times sqrt(2). */
+   position and the middle of a square one of less than half a unit. Distances thus have errors of less than sqrt(2)
+   times as much: 1.42 and 0.71. */
 static void choose_grid(koksma__disks *s, double d)
 {
     s->d = d;

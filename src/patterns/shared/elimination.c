@@ -41,7 +41,7 @@
 
 enum { GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22 };
 
-#define BETA 0.65 /* beta of the paper; its gamma = 1.5 needs no pow() */
+#define BETA 0.65 /* beta of the paper; its other constant, the exponent gamma = 1.5, is applied by sqrt() */
 
 typedef struct entry {
     double weight;
@@ -60,7 +60,7 @@ typedef struct elimination {
     entry *heap;            /* heaviest point first */
     uint32_t *heap_place;   /* index of a point in the heap */
     uint32_t cells;         /* cells on a side */
-    size_t reach;           /* how many cells d_max extends over at most; unused with `scale` */
+    size_t reach;           /* largest number of cells that d_max extends over; unused with `scale` */
     uint32_t *cell_start;   /* where each cell's points begin in `members` */
     uint32_t *cell_count;   /* number of points left in each cell */
     uint32_t *members;      /* the points of all cells, cell by cell */
@@ -188,10 +188,10 @@ static double weight_at(const elimination *e, double square)
     return t4 * t4;
 }
 
-/* Returns the sum of the weights of all images of another point within d_max, by recursion over the axes. across: the
-   difference to the nearest image along each axis; square: the squared distance to the image that is chosen along the
-   axes before k and the nearest one along axis k and those after it. Along each axis images are visited from the
-   nearest to the farthest. */
+/* Returns the sum of the weights of all images of another point within d_max, by recursion over the axes. across: for
+   each axis the difference to the nearest image. square: the squared distance to the image that the callers have chosen
+   along the axes before k, and that is the nearest one along the other axes. Along each axis images are visited from
+   the nearest to the farthest. */
 static double weight_of_images(elimination *e, const double *across, int k, double square)
 {
     if (k == e->dim) {
@@ -210,9 +210,9 @@ static double weight_of_images(elimination *e, const double *across, int k, doub
     }
 }
 
-/* Visits the neighbours of `point` in one cell. With relieve = false, while the heap is still in the order of the
-   points, adds their contributions to the weight of `point`; with relieve = true, after `point` was removed,
-   subtracts its contributions from their weights. */
+/* Visits the neighbours of `point` in one cell. With relieve = false it adds their contributions to the weight of
+   `point`; the heap is then still in the order of the points. With relieve = true, when `point` was removed from the
+   heap, it subtracts the contributions of `point` from the weights of its neighbours. */
 static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve)
 {
     const size_t dim = (size_t)e->dim;

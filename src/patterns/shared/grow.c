@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Stochastic generation (grow.h): doubles a set level by level. New point start + i of a level is put into the half
- * of its partner's stratum in which the partner is not; the digits below are new random bits. It takes O(n) for each
- * coordinate, and needs no tree and no comparisons of points.
+ * Stochastic generation (grow.h): doubles a set level by level. The new point 2^l + i of level l is put into a half of
+ * the stratum of its partner: the half that does not contain the partner. The digits below are new random bits. It
+ * takes O(n) for each coordinate, and needs no tree and no comparisons of points.
  */
 #include "patterns/shared/grow.h"
 

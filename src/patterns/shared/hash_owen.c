@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Hashed Owen scrambling of digital sequences (Laine & Karras 2011, Burley 2020) for blocks of points, with the
    seeds and the order of koksma/sampler.h. The order is a nested uniform shuffle of the index by the same hash; an
-   exclusive or maps indices below 2^16 to indices below 2^16, so that koksma/sampler.h needs only a small table. */
+   exclusive or with a constant then makes indices below 2^16 map to indices below 2^16, so that koksma/sampler.h needs
+   only a small table. */
 #include "patterns/shared/hash_owen.h"
 
 #include <koksma/sampler.h>

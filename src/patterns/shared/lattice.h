@@ -26,23 +26,23 @@ typedef struct koksma__lattice_search {
     double *product;         /* n numbers: elements 1 .. n/2 are the products of the coordinates so far */
     double *values;          /* n/2 + 1 numbers: the amount that each multiplier would add to the sum, up to rounding
                              */
-    double few[2 * KOKSMA__LATTICE_FEW], kernel[KOKSMA__LATTICE_FEW]; /* for small n: memory of `product` and
-                                                                         `values`; B_2(i / n) */
+    /* only for small n. few: memory of `product` and `values`; kernel[i]: B_2(i / n) */
+    double few[2 * KOKSMA__LATTICE_FEW], kernel[KOKSMA__LATTICE_FEW];
 } koksma__lattice_search;
 
 /* Prepares a search for n > 1 points. It must be closed even if koksma__lattice_open failed. */
 koksma_status koksma__lattice_open(koksma__lattice_search *search, size_t n, const koksma_run *run);
 void koksma__lattice_close(koksma__lattice_search *search);
 
-/* koksma__lattice_start restarts the search without coordinates. koksma__lattice_extend appends a coordinate with the
-   multiplier z and returns the amount that this adds to the sum, in a unit that is the same for all z. */
+/* koksma__lattice_start restarts the search, with no coordinates yet. koksma__lattice_extend appends a coordinate with
+   the multiplier z and returns the amount that this adds to the sum, in a unit that is the same for all z. */
 void koksma__lattice_start(koksma__lattice_search *search);
 double koksma__lattice_extend(koksma__lattice_search *search, uint64_t z);
 
-/* Appends a coordinate if only projections of up to `order` coordinates have a weight. The factor of the next
-   coordinate is then the sum of the elementary symmetric polynomials of degree 0 to order - 1 of all earlier terms.
-   `sums` are (n/2 + 1) * order numbers; those of point i begin at i * order. Initially they are the product of
-   koksma__lattice_start in degree 0, and 0 in all other degrees. */
+/* Appends a coordinate in a search in which only projections of up to `order` coordinates have a weight. The factor of
+   the next coordinate is then the sum of the elementary symmetric polynomials of degree 0 to order - 1 of all earlier
+   terms. `sums` are (n/2 + 1) * order numbers; those of point i begin at i * order. Before the first call the caller
+   sets degree 0 to search->product[i] as koksma__lattice_start leaves it, and all other degrees to 0. */
 void koksma__lattice_extend_orders(koksma__lattice_search *search, uint64_t z, int order, double *sums);
 
 /* Computes in search->values the amount that each z would add to the sum; the value is infinite if z has a divisor in

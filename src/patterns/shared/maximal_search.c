@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Searches for the distance at which a maximal set has exactly n points, from one of fewer points: the distance shrinks
- * by as much as one more point needed before, and the free area that opens is filled. Where more than n points fit, the
- * distance is bisected: free areas open one at a time.
+ * Searches for the distance at which a maximal set has exactly n points, starting from a maximal set of fewer points.
+ * Each try lets the distance shrink and fills the free area that opens. How far it shrinks is estimated from the last
+ * try: the change of the distance for each added point. When more than n points fit, the points of this try are removed
+ * and the distance is bisected. This ends with n points because free areas open one at a time.
  */
 #include "patterns/shared/maximal_search.h"
 
@@ -34,8 +35,8 @@ koksma_status koksma__maximal_shrink(int dim, double high, size_t kept, size_t n
             high = d;
             kept = found;
         }
-        if (low > 0 && high - low < 1e-12 * high) { /* `low` was found when fewer points were kept; it no longer gives
-                                                       too many */
+        if (low > 0 && high - low < 1e-12 * high) { /* `low` gave more than n points when fewer were kept; with the
+                                                       points kept now it does not */
             low = 0;
             step = guess;
         }

@@ -133,7 +133,7 @@ koksma_status koksma__number_lines_take(koksma__number_lines *lines, const char 
     if (count == needed) {
         return KOKSMA_OK;
     }
-    return count ? koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: %zu of the %zu numbers of %s", lines->name,
+    return count ? koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: only %zu of the %zu numbers of %s", lines->name,
                                 lines->number, count, needed, what)
                  : koksma__fail(KOKSMA_MALFORMED, "%s: it ends before %s", lines->name, what);
 }

@@ -3,16 +3,17 @@
  * Owen's nested uniform scrambling of a digital sequence in base b, by stochastic generation (Helmer, Christensen &
  * Kensler 2021). If each coordinate is a (0,1)-sequence, each of its strata of width b^-l contains one of the first
  * b^l points, called r, and for each d with 0 < d < b one of the points d b^l .. (d + 1) b^l - 1, called d b^l + r'.
- * Digit l of r is known from its value. Its relatives d b^l + r' get the other b - 1 digits, drawn without
- * replacement, and uniform digits below. The groups of relatives of level l are disjoint, and every number is
- * computed once: O(n) for each coordinate.
+ * Digit l of r is known from its value. The points d b^l + r', which are called the relatives of r, get the other b - 1
+ * digits, drawn without replacement, and uniform digits below. The groups of relatives of level l are disjoint, and
+ * every number is computed once: O(n) for each coordinate.
  *
  * r' is r plus d times a vector, digit by digit modulo b, without carries. Tables of about sqrt(b^l) entries for each
  * d give the sums for the lower and the upper half of the digits of r.
  *
  * Coordinates are multiples of b^-M, where b^M is the largest power of b up to 2^53, and are stored as whole numbers
- * in doubles. Each number has 64 random bits, a fraction in [0,1): the whole part of its product with the number of
- * remaining digits chooses one of these digits, and the fractional part of the product gives the digits below.
+ * in doubles. For each coordinate of a point 64 random bits are drawn, as a fraction in [0,1). The fraction is
+ * multiplied by the number of remaining digits: the whole part of the product chooses one of these digits, and the
+ * fractional part gives the digits below.
  */
 #include "patterns/shared/owen_sequence.h"
 
@@ -43,7 +44,7 @@ typedef struct level {
 
 typedef struct column {
     const job *job;
-    double *v; /* the column; before a number is computed, its memory has its random bits */
+    double *v; /* the column; before a number is computed, its memory contains its random bits */
     uint16_t *order, *picked;
 } column;
 
@@ -81,7 +82,8 @@ static inline uint32_t digit_of(double v, double width, uint32_t base, double *p
     return (uint32_t)(upper - *prefix);
 }
 
-/* Computes the relatives of r in bases up to 16, with the remaining digits as 4-bit parts of one word. */
+/* Computes the relatives of r (see the top of the file) in bases up to 16. The digits that are not drawn yet are stored
+   as 4-bit parts of one word. low, high: the rows of r in the tables of the level. */
 static inline void place_packed(const column *c, const level *l, size_t r, const size_t *low, const size_t *high)
 {
     const uint32_t base = c->job->base;

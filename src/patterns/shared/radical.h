@@ -15,8 +15,8 @@ enum { KOKSMA__RADICAL_TABLE = 1024 };
    are not mapped. */
 typedef uint32_t (*koksma__digit)(const void *context, uint32_t base, int j, uint32_t a);
 
-/* One coordinate. The table has the mirrored low digits, `low_digits` of them; the contribution of the others is
-   added. */
+/* One coordinate. The table has the values of all combinations of the `low_digits` lowest digits, mirrored; the
+   contribution of the higher digits is added to an entry. */
 typedef struct koksma__radical {
     uint32_t base;
     int digits, low_digits; /* number of digits of the numerator; number of digits of the table's indices */

@@ -21,7 +21,7 @@ typedef struct koksma__space_forces {
 koksma_status koksma__space_forces_init(koksma__space_forces *f, size_t n, int dim, double s);
 void koksma__space_forces_fini(koksma__space_forces *f);
 
-/* Sorts the points into cells; the functions below read these copies. */
+/* Copies the points into f->sorted, cell by cell; the functions below read these copies. */
 void koksma__space_forces_sort(koksma__space_forces *f, const double *xs);
 
 /* Computes the force on sorted point number `at`: with w(t) = exp(-|t|^2 / (2 s^2)), the sum of t w(t) over the other

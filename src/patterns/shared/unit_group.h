@@ -17,8 +17,8 @@ typedef struct koksma__unit_axis {
 
 /* Finds generators g_k such that each unit u modulo m, or its negative -u, has one representation as a product of
    powers g_k^(x_k), 0 <= x_k < length_k. The first axis is the longest. *cut receives whether the length of the first
-   axis is half its order. This is so if g_0^length_0 equals, up to the sign, the product of elements of the other
-   axes, each to the power of half its order. Returns the number of axes. 2 < m < 2^32. */
+   axis is half its order; g_0^length_0 is then, up to the sign, the product of g_k^(order_k / 2) over the other axes
+   that have `turns` set. Returns the number of axes. 2 < m < 2^32. */
 int koksma__unit_axes(uint64_t m, koksma__unit_axis axes[KOKSMA__MAX_PRIMES], bool *cut);
 
 /* Lists the primes that divide n in ascending order; returns how many there are. 0 < n < 2^32. */

@@ -7,21 +7,21 @@
  * In a block the sum depends only on z modulo m, and is a correlation over the group of units modulo m, where u and
  * -u are identified because B_2(x) = B_2(1 - x). Fourier transforms are done along all axes of the group except the
  * first. Each line along the first axis is then correlated with a precomputed kernel. A line whose length is a power
- * of two is correlated cyclically; others are padded with zeros. If the first axis is cut (unit_group.h), the kernel
- * continues with a sign: the value of the line's character at the product of the other axes' elements of half their
- * orders. For small blocks the sums are computed as a product with a matrix.
+ * of two is correlated cyclically; others are padded with zeros. If the first axis is cut (unit_group.h), the kernel is
+ * not periodic along it: beyond the length of the axis it repeats with a sign that depends on the line (see sign_of).
+ * For small blocks the sums are computed as a product with a matrix.
  *
  * Then the sums of the blocks are added over the divisors of n, prime by prime: value[i] += value[p i mod n], because
  * the sum of z in the block of m/p is stored at p i.
  *
- * The mean of the weights of each block is subtracted from them. This changes the sums of all z equally and removes
- * most of the rounding error. The rounding error is assumed to be below 256 (1 + log2 m) u |weights| |kernel| /
- * sqrt(count) in 2-norms, u = 2^-53, plus 64 u times the product of the norms before the subtraction / sqrt(count):
- * 20 to 1,200 times the errors measured (65 <= n <= 2^21). The bound is divided by sqrt(count) because errors of a
- * transform spread evenly over its numbers; the bound that Brent, Percival & Zimmermann 2007 prove, without this
- * division, is 10,000 times the errors measured at 2^20 and would leave thousands of z undecided at 2^24. For the few
- * z that this bound leaves undecided, sums in a fixed order decide, so that no bit of a lattice depends on a
- * transform.
+ * The numbers product[i] of a block are called its weights; their mean is subtracted from them. This changes the sums
+ * of all z equally and removes most of the rounding error. The rounding error is assumed to be below 256 (1 + log2 m) u
+ * |weights| |kernel| / sqrt(count) in 2-norms, u = 2^-53, plus 64 u times the product of the norms before the
+ * subtraction / sqrt(count): 20 to 1,200 times the errors measured (65 <= n <= 2^21). The bound is divided by
+ * sqrt(count) because errors of a transform spread evenly over its numbers; the bound that Brent, Percival & Zimmermann
+ * 2007 prove, without this division, is 10,000 times the errors measured at 2^20 and would leave thousands of z
+ * undecided at 2^24. For the few z that this bound leaves undecided, sums in a fixed order decide, so that no bit of a
+ * lattice depends on a transform.
  */
 #include "patterns/shared/unit_sums.h"
 
@@ -181,8 +181,9 @@ static void transform_axes(koksma__unit_sums *s, const block *b, double *re, dou
     }
 }
 
-/* Returns the sign with which the kernel of a line continues if the first axis is cut: the value of the line's
-   character at the product of the elements of half order of those axes that have `turns` set. */
+/* Returns the sign with which the kernel of a line repeats beyond the length of the first axis if this axis is cut.
+   There g_0^length_0 is, up to its sign, the product of g_k^(order_k / 2) over the other axes k that have `turns` set
+   (unit_group.h), and the sign is the value of the line's character at this product. */
 static double sign_of(const block *b, size_t line)
 {
     size_t turns = 0;

@@ -37,8 +37,8 @@ typedef struct mask {
     size_t n;
     double *energy;
     bool *set;
-    best *pyramids[2][LEVELS + 1]; /* pyramids of unset pixels (VOIDS) and set pixels (CLUSTERS); level 0 is `energy`
-                                      */
+    best *pyramids[2][LEVELS + 1]; /* pyramids of unset pixels (VOIDS) and set pixels (CLUSTERS); level 0, the pixels
+                                      themselves, is not stored */
     bool maintained[2];
     double gauss[2 * REACH + 1][2 * REACH + 1];
 } mask;
@@ -62,7 +62,7 @@ static best pixel(const mask *m, int kind, size_t at)
     return one;
 }
 
-/* Updates node (x, y) of a level from its four children, or fewer at the far sides. */
+/* Updates node (x, y) of a level from its four children, or fewer at the right and lower sides. */
 static void renew_node(mask *m, int kind, int level, int x, int y)
 {
     const int below = width_of(m, level - 1), right = 2 * x + 1 < below, down = 2 * y + 1 < below;
@@ -127,7 +127,7 @@ static void change(mask *m, size_t at, bool on)
     }
 }
 
-/* After this call changes update only the pyramid of one kind. */
+/* Computes the pyramid of one kind. After this call a change of a pixel updates only this pyramid. */
 static void maintain_only(mask *m, int kind)
 {
     const int all[2] = {0, m->size - 1};
@@ -169,8 +169,7 @@ static koksma_status begin(mask *m, uint64_t seed, const koksma_run *run, size_t
     return KOKSMA_OK;
 }
 
-/* Computes the ranks of the first `count` pixels by removing them one by one. Afterwards it sets these pixels again.
-   */
+/* Computes the ranks of the `count` pixels that are set, by removing them one by one; then sets these pixels again. */
 static void rank_first(mask *m, size_t count, uint32_t *ranks)
 {
     for (size_t i = 0; i < m->n; i++) {

@@ -3,7 +3,7 @@
  * Void and cluster (Ulichney 1993) in space and time: the energy of a voxel is the sum of Gaussians (standard
  * deviation 1.5 voxels along each axis, on the torus, cut off at 4 voxels) about the voxels that are set. The steps
  * are those of void_cluster.c: a tenth of the voxels is set at random, clusters are moved to voids, these voxels are
- * ranked by removing the tightest cluster, and the others by filling the largest void.
+ * ranked by removing the tightest cluster again and again, and the others by filling the largest void.
  *
  * The largest void and the tightest cluster are found by a tournament over all voxels: node i of a binary tree has
  * the better voxel of nodes 2 i and 2 i + 1. A change of a voxel updates the paths above up to 9^3 voxels around it.
