@@ -535,7 +535,7 @@ const cli_command cli_command_study = {
         "quick: writes DIR/plan.json from the options and runs it. Numbers of points that a pattern does not accept "
         "are left out and listed. A pattern file:PATH is a file of points.\n"
         "new: writes an example plan; it overwrites no file.\n"
-        "estimate: measures samples and prints what the study would cost: time and space on disk.\n"
+        "estimate: times some jobs and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
         "'sha256' is the hash of the CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
         "results, fail while a run uses DIR, and fail if anything but a run has changed the results.\n"
