@@ -148,7 +148,7 @@ void cli_work_hide(cli_work *work);
 /* Clears the progress line if one is shown. Printing a message or a row clears it, too. */
 void cli_work_end(void);
 bool cli_interrupted(void);
-double cli_seconds(void);                                        /* on the monotonic clock of started_s */
+double cli_seconds(void);                                        /* the monotonic clock's time, as in started_s */
 const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* Returns `text`, such as "1 min 15 s". */
 
 /* Prints that the interrupted study in `folder` can continue. folder is NULL in the MPI ranks above 0, which print

@@ -166,7 +166,7 @@ static const cli_option options[] = {
     {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
     {0, "density", "FILE.png|.exr|.pfm", "the points' density follows the luminance of this image"},
     {0, "on", "FILE.obj|.ply|.ply.gz|.off|.gltf|.glb|.serialized",
-     "points on this model: x y z; with -d 6 normals too, -d 7 triangles"},
+     "points on this model: x y z; -d 6 adds the normal, -d 7 also the number of the triangle, from 0"},
     {'o', "output", "FILE.txt|.csv|.npy", "the file (default: text on stdout)"},
     CLI_RUN_OPTIONS,
     {0},
@@ -186,8 +186,8 @@ const cli_command cli_command_generate = {
         "patterns are generated in memory, with at most 2^28 coordinates.\n"
         "\n"
         "With --density and --on the pattern is random, sample-elimination, progressive-elimination, poisson-disk,\n"
-        "poisson-disk-maximal or gaussian-blue-noise; on a model d is in the model's units, and distances are those\n"
-        "of space.\n"
+        "poisson-disk-maximal or gaussian-blue-noise. On a model the distance d is in the model's units, and\n"
+        "distances are those of straight lines through space, not along the surface.\n"
         "\n"
         "Equal arguments give equal bits, on any number of threads. Some patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"

@@ -71,7 +71,7 @@ static void put_details(const char *details)
     }
 }
 
-/* Command lines as they stand; with less than the usual indent 78 characters fit a terminal of 80. */
+/* Prints command lines unchanged. With less than the usual indent, lines of 78 characters fit a terminal of 80. */
 static void put_examples(const char *examples)
 {
     printf(".SH EXAMPLES\n.nf\n.in 2n\n");

@@ -25,7 +25,7 @@ typedef struct job {
     uint64_t projections[MOST_PROJECTIONS];
     double weights[MOST_PROJECTIONS];
     koksma_processes ranks;
-    double *power; /* --power at each frequency; NULL: a measure */
+    double *power; /* --power: the target at each frequency; NULL: minimise a measure */
     double first;  /* the value of the initial set */
     char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
 } job;
@@ -132,7 +132,7 @@ static bool parse_weights(job *j)
         }
     }
     if (text && n != j->options.n_projections) {
-        cli_usage_error(j->arguments, "--weights %s: it takes one of each of %zu --projections", text,
+        cli_usage_error(j->arguments, "--weights %s: it takes one weight for each of the %zu --projections", text,
                         j->options.n_projections);
         return false;
     }
@@ -344,7 +344,7 @@ const cli_command cli_command_optimise = {
         "--scene SCENE renders. With --scene the candidates are sets of low L2 discrepancy and their shifts. The "
         "weights of the projections on x, on y and on the plane come from the scene. The confidence intervals of "
         "koksma rank eliminate candidates;\n"
-        "the best one is compared with listed patterns in SCENE and in held-out scenes.\n"
+        "the best one is compared with the listed patterns (--against) in SCENE and in the held-out scenes.\n"
         "gain: 1 - (error of the set / error of the best listed pattern), with a 95 % interval in each scene.\n"
         "shrinks_by: the gain in SCENE minus the gain in the row's scene. The exit code is 1 if the average gain\n"
         "in the held-out scenes is not above 0.",

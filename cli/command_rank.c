@@ -104,8 +104,8 @@ static void put_check(cli_rows *rows, const koksma_rank_options *options, const 
     }
 }
 
-/* Adds the values of a whole ranking to a JSON row. advised: the index of the advised pattern, which has no effect if
-   none is advised. */
+/* Adds the values of a whole ranking to a JSON row. advised: the index of the advised pattern, ignored if none is
+   advised. */
 static void put_ranking(cli_rows *rows, const koksma_rank_options *options, const koksma_ranking *ranking,
                         size_t advised)
 {
@@ -380,13 +380,14 @@ const cli_command cli_command_rank = {
         "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared "
         "with their modifiers, such as random shifts.\n"
         "\n"
-        "The sequence of work depends on the command line, not on the machine: rounds of 8, 16, 32, ... trials\n"
-        "until the best pattern is decided, and also the best pattern without bands; then such rounds at half and\n"
-        "at twice the size for the first three patterns without bands and the first three of all, with a remark\n"
-        "if another pattern is the best at that size; then rounds until every pair is decided. A pair is decided\n"
-        "if the confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 % of 1\n"
-        "(equal). A time limit ends the sequence early; a longer limit never changes which pattern is named as the "
-        "best. With too\n"
+        "The sequence of work depends on the command line, not on the machine. It begins with rounds of 8, 16, 32,\n"
+        "... trials until the best pattern, and the best pattern without bands, are decided. Then such rounds are\n"
+        "made at\n"
+        "half and at twice the size, for the best three patterns without bands and the best three of all; a remark\n"
+        "appears if another pattern is the best at that size. The last rounds decide every pair of patterns. A pair\n"
+        "is decided if the confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 %\n"
+        "of 1 (equal). A time limit ends the sequence early; a longer limit never changes which pattern is named as\n"
+        "the best. With too\n"
         "little time the answer is 'undecided', with an estimate of the time needed.\n"
         "\n"
         "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the\n"
@@ -395,7 +396,8 @@ const cli_command cli_command_rank = {
         "until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
         "\n"
         "coherence: the peak of the error's power spectrum divided by its mean, over the first 8 trials.\n"
-        "'coherent' means that white noise has such a value with a probability below 0.5 % (koksma compare --help). "
+        "'coherent' means that white noise has a coherence this large with a probability below 0.5 % (koksma compare "
+        "--help). "
         "A coherent "
         "error\n"
         "has bands or another pattern, which eyes notice more than noise of the same size. The advice therefore "
@@ -404,8 +406,9 @@ const cli_command cli_command_rank = {
         "If the 0.1 % of the pixels with the largest error have at least half of the total error (top_share in "
         "--json), a warning tells that few pixels decide the order. 'robust' is the error without them. Each image "
         "is compared "
-        "17 times, with each part of the reference image. At 160 x 120 pixels this takes 0.7 s for hdr-flip and a "
-        "millisecond for mae.\n"
+        "17 times: with the reference, which is the mean of 16 images, and with the mean without each of these. At "
+        "160 "
+        "x 120 pixels this takes 0.7 s for hdr-flip and a millisecond for mae.\n"
         "\n"
         "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other.\n"
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"

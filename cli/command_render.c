@@ -201,7 +201,7 @@ static bool set_sky(const cli_arguments *arguments, koksma_scene *scene, int *co
     return !status;
 }
 
-/* Reads --aov, whose samples are not splatted. Returns false after an error. */
+/* Reads --aov; refuses it together with --splat, because the layers are not splatted. Returns false after an error. */
 static bool parse_aovs(const cli_arguments *arguments, const koksma_render_options *options, cli_adaptive *adaptive,
                        koksma_aovs *out, int *code)
 {
@@ -210,7 +210,7 @@ static bool parse_aovs(const cli_arguments *arguments, const koksma_render_optio
     if (status) {
         *code = cli_fail(arguments, status);
     } else if (text && options->splat) {
-        cli_usage_error(arguments, "--aov goes without --splat: its layers are of each pixel's own samples");
+        cli_usage_error(arguments, "--aov excludes --splat: each pixel of a layer has only its own samples");
         *code = CLI_USAGE;
         return false;
     }

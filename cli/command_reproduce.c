@@ -145,7 +145,8 @@ static const cli_option option_table[] = {
     {0, "quick", NULL, "use the 'quick' number of trials of each block that has one"},
     {0, "papers-only", NULL, "leave out the plan open-questions, which is added if both papers are given"},
     {0, "table", "ID|all|none",
-     "table to print at the end (default: the first one); if several plans have this ID, the first plan's table"},
+     "table to print at the end (default: the first one); if several plans have a table with this ID, that of the "
+     "first plan"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},

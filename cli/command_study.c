@@ -546,7 +546,7 @@ const cli_command cli_command_study = {
         "further ones, such as ldr-flip, which takes longer than many renders. In a plan they are 'metric' and "
         "'metrics'.\n"
         "new: writes an example plan; it overwrites no file.\n"
-        "estimate: measures samples and prints what the study would cost: time and space on disk.\n"
+        "estimate: times some jobs and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
         "'sha256' is the hash of the CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
         "results, fail while a run uses DIR, and fail if anything but a run has changed the results.\n"

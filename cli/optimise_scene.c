@@ -3,9 +3,9 @@
  * `koksma optimise --scene SCENE -n SPP`: searches for a point set that gives the image of one scene a small error if
  * every pixel uses it as file:FILE.
  *
- * 1. Weights. In every pixel the radiance is sampled once at 8 x 8 positions and analysed as a two-way layout. This
- * gives the variance along x, along y, and of the interaction of both (which includes the noise of lights and
- * lenses), summed over the pixels.
+ * 1. Weights. In every pixel the radiance is sampled once at 8 x 8 positions and analysed as a two-way layout (analysis
+ * of variance). This gives the variance along x, along y, and of the interaction of both (which includes the noise of
+ * lights and lenses), summed over the pixels.
  *
  * 2. Candidates. koksma_optimise minimises an L2 discrepancy (l2-star, l2-periodic, l2-extreme in turn) of the
  * projections on x, on y and on the plane. The weight of a projection is its share of the variance, divided
@@ -16,9 +16,9 @@
  * 3. Elimination. koksma_rank_patterns renders the scene with all candidates until it is decided which one has the
  *    least error. A candidate is rendered no further once its confidence interval shows a larger error.
  *
- * 4. Evaluation. The chosen set is compared with listed patterns, in the scene itself with other random numbers, and
- *    in held-out scenes, which took no part in steps 1 to 3. A gain that only the first scene shows is due to chance,
- *    not to better points.
+ * 4. Evaluation. The chosen set is compared with the listed patterns (--against), in the scene itself with other random
+ *    numbers, and in held-out scenes, which took no part in steps 1 to 3. A gain that only the first scene shows is due
+ *    to chance, not to better points.
  */
 #include "optimise_scene.h"
 
@@ -58,7 +58,7 @@ typedef struct scene_job {
     koksma_scene *open; /* the scene that is being rendered */
     uint64_t seed, salt, n_sets, phases, max_trials;
     int spp, width, height;
-    double shares[3]; /* shares in the variance: x, y, both together */
+    double shares[3]; /* shares of the variance: along x, along y, and of their interaction */
     size_t n;         /* number of candidates: sets times phases */
     size_t chosen, eliminated;
     bool settled;
@@ -232,7 +232,7 @@ static koksma_status find_shares(scene_job *j)
 
 /* ---- Candidates -------------------------------------------------------------------------------------------- */
 
-/* For each measure the mean square for n random points, multiplied by n; on the line and in the plane. */
+/* For each L2 discrepancy its mean square over sets of n random points, times n: in one dimension, and in the plane. */
 static const struct {
     const char *measure;
     double line, plane;
@@ -521,7 +521,7 @@ static int report(scene_job *j, koksma_status *status)
     if (!*status && j->n_held_out && !cli_flag(j->arguments, "quiet")) {
         cli_say("optimise",
                 "%zu of %zu candidates eliminated; gain over the best listed pattern: %.1f %% in %s, %.1f %% on "
-                "average in %zu held-out scenes, which is %.1f points less",
+                "average in %zu held-out scenes, which is %.1f percentage points less",
                 j->eliminated, j->n, 100 * home, j->scene, 100 * mean.gain, j->n_held_out, 100 * (home - mean.gain));
     }
     const int code = cli_rows_close(rows);

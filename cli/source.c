@@ -83,7 +83,9 @@ int cli_source_open(const cli_arguments *arguments, const char *text, cli_source
 {
     *source = (cli_source){.is_pattern = cli_source_is_pattern(text)};
     if (source->is_pattern && strncmp(text, prefix, sizeof prefix - 1) != 0 && !access(text, F_OK)) {
-        return cli_usage_error(arguments, "%s is a file, too; it takes ./%s or %s%s", text, text, prefix, text);
+        return cli_usage_error(arguments,
+                               "%s is both a file and a pattern; write ./%s for the file, %s%s for the points", text,
+                               text, prefix, text);
     }
     const int code = source->is_pattern ? cli_pattern_open(arguments, text, source) : CLI_YES;
     return !code && source->is_pattern && !source->n

@@ -19,7 +19,7 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
         if (isnan(q.oscillation) && !cli_flag(c->arguments, "quiet")) {
             cli_say("curve",
                     "%s: the oscillation is not computed, because the largest frequency, %d, is less than 5 sqrt(n) "
-                    "above the rise of the spectrum%s",
+                    "above the frequency where the power first reaches about 1%s",
                     source, s.half, s.half < KOKSMA_SPECTRUM_MAX_HALF ? "; try a larger --half" : "");
         }
         sink->points = s.points;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Calls on the memory of an array of another language, for the Python package: one call of a function in C with four
- * plain arguments, where the public functions take structs that Python has to build. On a busy machine each struct
- * costs more than 10 us after a call that has used the processor's caches.
+ * Functions for the Python package that work on the memory of a NumPy array. They take four plain arguments, whereas
+ * the public functions take structs that Python has to build. On a busy machine each struct costs more than 10 us if
+ * the previous call has filled the processor's caches with its own data.
  */
 #ifndef KOKSMA_API_ARRAY_CALLS_H
 #define KOKSMA_API_ARRAY_CALLS_H
@@ -33,14 +33,15 @@ enum {
     KOKSMA__ARRAY_WRITABLE = 0x400
 };
 
-/* Returned where an array is not of shape (n, dim), of aligned doubles in C's order, and not empty. */
+/* Returned for an array that is empty or is not of shape (n, dim) with aligned doubles in C's order. */
 enum { KOKSMA__ARRAY_OTHER = -1 };
 
-/* koksma_evaluate of the points in an array, on `threads` threads. Returns a koksma_status or ARRAY_OTHER. */
+/* Calls koksma_evaluate for the points in an array, on `threads` threads. Returns its status or KOKSMA__ARRAY_OTHER. */
 KOKSMA__LAB int koksma__evaluate_array(const koksma_spec *measure, const koksma__array *array, int threads,
                                        koksma_value *out);
 
-/* koksma_generate into an array, which has to be writable. Returns a koksma_status or ARRAY_OTHER. */
+/* Calls koksma_generate, which writes the points into the array. Returns its status, or KOKSMA__ARRAY_OTHER, also if
+   the array is not writable. */
 KOKSMA__LAB int koksma__generate_array(const koksma_spec *pattern, uint64_t seed, const koksma__array *array,
                                        int threads);
 

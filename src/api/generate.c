@@ -120,7 +120,8 @@ koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint
     const uint64_t most = KOKSMA_MAX_INDEX < SIZE_MAX ? KOKSMA_MAX_INDEX + 1 : SIZE_MAX;
     const uint64_t end = p->claims & KOKSMA_CLAIM_SEQUENCE ? KOKSMA_MAX_INDEX + 1 : n;
     KOKSMA__FAIL_IF(end > KOKSMA_MAX_INDEX + 1 || (!(p->claims & KOKSMA_CLAIM_SEQUENCE) && n > most), KOKSMA_N,
-                    "%s: n = %llu: at most %llu points", p->name, (unsigned long long)n, (unsigned long long)most);
+                    "%s: n = %llu: the maximum is %llu points", p->name, (unsigned long long)n,
+                    (unsigned long long)most);
     KOKSMA__FAIL_IF(first > end || out->n > end - first, KOKSMA_N,
                     "%s: first = %llu with %zu points ends beyond the last %s, which has number %llu", p->name,
                     (unsigned long long)first, out->n,

@@ -26,7 +26,7 @@ typedef struct job {
     koksma__domain_kind kind;
     size_t n, dim;
     const double *xs;
-    koksma__sum *sums; /* for each block of rows the sum over pairs and the sum of potentials */
+    koksma__sum *sums; /* for each block of rows the sum over pairs, and the sum of the potentials P of l2_edge.c */
 } job;
 
 static koksma_status sum_rows(void *context, size_t block)

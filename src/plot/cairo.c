@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The module koksma-cairo.so: draws the strokes of backend.h as PDF and PNG by cairo, into memory. */
+/* The module koksma-cairo.so: the backend (backend.h) that draws PDF and PNG into memory, by cairo. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

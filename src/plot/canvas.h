@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A canvas in memory: strokes on a backend, shapes clipped at a box, and texts broken into lines. */
+/* A canvas in memory: draws shapes, clipped at a box, and texts, broken into lines, through a backend (backend.h). */
 #ifndef KOKSMA_PLOT_CANVAS_H
 #define KOKSMA_PLOT_CANVAS_H
 

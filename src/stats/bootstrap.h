@@ -7,7 +7,7 @@
 
 enum { KOKSMA__LEAST_PAIRS = 7 }; /* the fewest pairs for which an interval is computed */
 
-/* A statistic of n pairs (x, y); It is NaN if the statistic has no value. */
+/* Computes a statistic of n pairs (x, y); NaN if it has no value. */
 typedef double (*koksma__pair_statistic)(const double *x, const double *y, size_t n);
 
 /* Means with their standard errors; an error counts as 0 if it is NaN or if `error` is NULL. `seed` is the seed for
@@ -19,11 +19,11 @@ typedef struct koksma__means {
 
 /* Computes the statistic and its percentile bootstrap interval (Efron 1979) over the pairs from `samples`
    resamples, ignoring those without a value. Each resample also redraws the means from normal distributions with
-   their standard errors. Random numbers are hashes: equal seeds draw the same pairs, and the same errors for
-   equal means. `values` is NULL or receives the statistic of each resample, in order, NaN if it has none. With n
-   below 7 the interval is [-1, 1] and `values` is not set: resamples of so few pairs exclude 0 in 8 to 13 % of
-   cases without any correlation. If the pairs are in perfect order, all resamples have the same order. The interval
-   then has width 0, although the statistic is not certain. Errors: MEMORY. */
+   their standard errors. Random numbers are hashes: equal seeds draw the same pairs, and means with equal `seed` get
+   the same deviations in units of their errors. `values` is NULL or receives the statistic of each resample, in order,
+   NaN if it has none. With n below 7 the interval is [-1, 1] and `values` is not set: bootstrap intervals of so few
+   pairs exclude 0 in 8 to 13 % of cases without any correlation. If the pairs are in perfect order, all resamples have
+   the same order. The interval then has width 0, although the statistic is not certain. Errors: MEMORY. */
 koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
                                       koksma__pair_statistic statistic, size_t samples, uint64_t seed, double *values,
                                       koksma__estimate *out);

@@ -32,12 +32,14 @@ void koksma_joint_add(koksma_joint *joint, size_t n, const double *values)
 
 /*
  * Prefixes of one set are nested, so the means at several sizes are correlated. Their residuals are too small to show
- * how far the line would move with other sets. The slope is sum_i w_i log m_i with w_i = (x_i - x)/sum (x_i - x)^2,
- * so that to first order its variance over trials is
+ * how far the line would move with other sets. With x_i the logarithm of size i, x' the mean of all x_i, and m_i the
+ * mean over the T trials at size i, the slope is sum_i w_i log m_i with w_i = (x_i - x') / sum (x_i - x')^2, so that
+ * to first order its variance over trials is
  *
  *     sum_ik w_i w_k S_ik/(m_i m_k) / (T (T - 1)),
  *
- * where S are the sums of products of deviations: the infinitesimal jackknife (Efron 1982, chapter 6).
+ * where S_ik is the sum over the trials of the products of the deviations from m_i and m_k: the infinitesimal jackknife
+ * (Efron 1982, chapter 6).
  */
 static double error_of_trials(size_t n, const double *sizes, const double *means, const koksma_joint *joint)
 {

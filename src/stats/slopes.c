@@ -67,8 +67,9 @@ static double squared_residuals(const koksma__fit *f, const double *n, const kok
     return sum;
 }
 
-/* Returns half the width of the interval of the slope, which is sum c_i y_i with c_i = (x_i - x') / sxx. The variance
-   is V = sum c_i^2 sigma_i^2, with V^2 / sum (c_i^2 sigma_i^2)^2 / (trials_i - 1) degrees of freedom (Satterthwaite
+/* Returns half the width of the interval of the slope. With x_i = log n_i, their mean x', y_i = log mean_i and the
+   standard error sigma_i of y_i, the slope is sum c_i y_i with c_i = (x_i - x') / sum (x_i - x')^2. Its variance is
+   V = sum c_i^2 sigma_i^2, with V^2 / (sum (c_i^2 sigma_i^2)^2 / (trials_i - 1)) degrees of freedom (Satterthwaite
    1946; Welch 1947). */
 static double half_of_trials(const koksma__fit *f, const double *n, const koksma__summary *y, size_t count)
 {
@@ -94,10 +95,11 @@ static double half_of_residuals(const koksma__fit *f, const double *n, const kok
     return koksma_student_975(count - 2) * sqrt(scatter / f->xx);
 }
 
-/* Tests the lack of fit of the weighted line at 1 %: Q = sum w_i r_i^2 with w_i = 1 / sigma_i^2, where the sigmas
-   are estimates. With p = count - 2, the leverages h_i and A = sum (1 - h_i)^2 / (trials_i - 1), Q / (p + 2 A - 6
-   A / (p + 2)) approximately follows F with p and p (p + 2) / (3 A) degrees of freedom (Johansen 1980; for means,
-   Welch 1951). The tail of F is computed by the cube root approximation (Paulson 1942). */
+/* Tests the lack of fit of the weighted line at 1 %: Q = sum w_i r_i^2 with the residuals r_i and w_i = 1 / sigma_i^2,
+   where the standard errors sigma_i are estimates. With p = count - 2, the leverages h_i and
+   A = sum (1 - h_i)^2 / (trials_i - 1), Q / (p + 2 A - 6 A / (p + 2)) approximately follows F with p and
+   p (p + 2) / (3 A) degrees of freedom (Johansen 1980; for means, Welch 1951). The tail of F is computed by the cube
+   root approximation (Paulson 1942). */
 static bool lies_off_line(const double *n, const koksma__summary *y, size_t count)
 {
     const koksma__fit f = fit_of(n, y, count, true);

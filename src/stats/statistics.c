@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Means, standard deviations and intervals of values, and comparisons of pairs by their differences. Sums are
-   compensated (core/sum.h) and in order of the index, so that equal values give equal bits. If a difference is
-   exactly 0, rounding errors of about 1e-16 of the values remain, and an interval of width 0 would make them
+   compensated (core/sum.h) and in order of the index, so that equal values give equal bits. If all differences are 0
+   in exact arithmetic, rounding leaves about 1e-16 of the values, and an interval of width 0 would make that
    significant. Therefore differences up to 1e-12 of the values count as 0. */
 #include "stats/statistics.h"
 

@@ -40,9 +40,9 @@ typedef struct koksma__estimate {
     double value, low, high;
 } koksma__estimate;
 
-/* Returns the factor by which the number of trials must grow so that a test finds the difference of two means with a
-   probability of 80 %, because errors decrease as trials^-1/2. half: half the width of the present interval of the
-   difference. */
+/* Returns the factor by which the number of trials must grow so that a test at 5 % finds the difference of two means
+   with a probability of 80 %; standard errors decrease as trials^-1/2. half: half the width of the present interval of
+   the difference. */
 double koksma__trials_factor(double difference, double half);
 
 /* Computes the relative difference of means over n pairs, mean a / mean base - 1. It is 0 if both means are 0; the

@@ -101,8 +101,7 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
     KOKSMA__REQUIRE(points, distance);
     KOKSMA__REQUIRE_RUN(run);
     KOKSMA__TRY(koksma__points_check(points));
-    KOKSMA__FAIL_IF(points->n == 1, KOKSMA_N,
-                    "smallest distance: n = 1: one point has no distance; two points or more have");
+    KOKSMA__FAIL_IF(points->n == 1, KOKSMA_N, "smallest distance: n = 1: it needs 2 points or more");
     if (points->dim == 2) {
         return koksma__closest_pair(points, torus, run, distance);
     }

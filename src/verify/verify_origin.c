@@ -75,7 +75,7 @@ static koksma_status look_present(koksma__verification *v)
     f->holds = count > 0 || !is_sequence_from_one(v->points, v->counts);
     snprintf(f->detail, sizeof f->detail, "%zu at the origin%s", count,
              count > 0  ? ""
-             : f->holds ? ", where only unscrambled sequences need one"
+             : f->holds ? "; only unscrambled sequences need a point there"
                         : ": different multiples of 2^-m in each coordinate, as a sequence without its first point");
     return KOKSMA_OK;
 }

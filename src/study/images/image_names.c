@@ -31,8 +31,8 @@ static void keep(koksma__image_name *p, const char *place, const char *text, siz
     }
 }
 
-/* The state of a match. `failed` marks pairs of a place and a position in the path that do not fit, so that each
-   pair is tried only once. */
+/* The state of a match. `failed` marks the pairs of a place (a name in braces) and a position in the path from which
+   the rest of the template does not fit the rest of the path, so that each pair is tried only once. */
 typedef struct trial_fit {
     const char *path;
     size_t length;

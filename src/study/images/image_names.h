@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Images identified by their file names: a path with places in braces, as in out_{spp}_{trial}.exr. */
+/* Images identified by their file names: a path with places (names in braces), as in out_{spp}_{trial}.exr. */
 #ifndef KOKSMA_STUDY_IMAGES_IMAGE_NAMES_H
 #define KOKSMA_STUDY_IMAGES_IMAGE_NAMES_H
 

@@ -196,8 +196,8 @@ static koksma_status add_behind(const picture *first, size_t n_first, const pict
     return KOKSMA_OK;
 }
 
-/* Computes positions and distances to the best among rows of equal spp. The images in `all` are in the order of
-   the rows. */
+/* Ranks the rows of equal spp: computes each row's position, and by how much its error exceeds the smallest. The
+   images in `all` are in the order of the rows. */
 static koksma_status add_positions(const pictures *all, koksma_images_row *rows, size_t n)
 {
     koksma_status status = KOKSMA_OK;

@@ -87,8 +87,9 @@ static void put_answer(koksma__document *d, const koksma__images *all, long long
         koksma__doc_say(d, ", less than all %zu others.", more);
     } else {
         koksma__doc_say(
-            d, ", the least of %zu; %zu have more with 95 %% confidence, and for %zu the images do not decide.", n,
-            more, n - 1 - more);
+            d,
+            ", the least of %zu groups; %zu have a larger error with 95 %% confidence, and for %zu it is undecided.",
+            n, more, n - 1 - more);
     }
     koksma__doc_paragraph_end(d);
 }
@@ -153,10 +154,10 @@ static void put_errors(koksma__document *d, const koksma__images *all)
     koksma__doc_section(d, "errors", "Which images are nearest to the reference?");
     koksma__doc_paragraph(
         d,
-        "Error: the mean over the trials of %s to the reference. Behind: "
-        "how much larger it is than that of the first, over that; its interval is of the differences of images "
-        "with equal {trial}, and is known where both groups have the same trials. Each interval holds for itself "
-        "with 95 %%. Bands: the error has a pattern, which eyes notice more than noise (`koksma compare --help`).",
+        "Error: %s to the reference, averaged over the trials. Behind: the relative difference of a group's error to "
+        "the error of the first group. Its interval comes from the differences of images with equal {trial}, and is "
+        "known only if both groups have the same trials. Each interval alone holds with 95 %% confidence. Bands: the "
+        "error has a pattern, which eyes notice more than noise (`koksma compare --help`).",
         metric);
     for (size_t i = 0; i < all->n; i++) {
         if (begins_spp(all, i)) {

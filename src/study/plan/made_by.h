@@ -27,7 +27,7 @@ typedef struct koksma__made_by {
 koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what,
                                    const char *metric, bool first, koksma__made_by *out);
 
-/* Splits the text of a reference, "name:pattern@spp x replicates" without blanks, into its parts. Errors:
+/* Splits the text of a reference, "name:pattern@SPPxREPLICATES" as in "r:jittered@256x4", into its parts. Errors:
    MALFORMED. */
 koksma_status koksma__reference_parse(const char *text, char name[KOKSMA_MAX_SPEC], char pattern[KOKSMA_MAX_SPEC],
                                       long long *spp, long long *replicates);

@@ -100,7 +100,7 @@ typedef struct koksma__table {
     char *id, *title;
     size_t part;          /* index of the part (of a joined plan) that has this table */
     char *scene;          /* scene of an image table; NULL: a discrepancy table */
-    char *measure, *also; /* measures of a discrepancy table; `also` is shown beside the first, NULL: none */
+    char *measure, *also; /* measures of a discrepancy table; `also` (or NULL) is shown beside `measure` */
     koksma__wholes n;     /* numbers of points; with several, each is a column (discrepancy tables only) */
     long long dim;        /* dimension, in a discrepancy table */
     /* whether the scene was fitted to the printed numbers, so that agreement with them confirms nothing */
@@ -217,7 +217,7 @@ static inline bool koksma__is_left_out(const koksma__left_out *of, size_t p, siz
     return of->is && of->is[p * sizes + k];
 }
 
-/* Whether the columns of a table are numbers of points. */
+/* Whether a table has several numbers of points, each of which is a column. */
 static inline bool koksma__table_is_over_n(const koksma__table *table)
 {
     return table->n.n > 1;

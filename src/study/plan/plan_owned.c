@@ -67,7 +67,7 @@ koksma_status koksma__plan_own(koksma__plan *p)
     return KOKSMA_OK;
 }
 
-/* Shifts the indices of blocks and parts in q to their values once q's lists follow p's. */
+/* Changes the indices of blocks and parts in q to those that they have after q's lists are appended to p's. */
 static void shift(const koksma__plan *p, koksma__plan *q)
 {
     for (size_t i = 0; i < q->n_parts; i++) {

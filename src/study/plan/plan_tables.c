@@ -104,7 +104,7 @@ static koksma_status parse_sizes(const koksma__json_node *node, koksma__table *t
     if (!status && koksma__json_is_array(&n)) {
         status = koksma__plan_wholes(node, "n", 1, (long long)KOKSMA_MAX_COORDINATES, &t->n);
         return !status && t->n.n > KOKSMA__TABLE_PRINTED
-                   ? koksma__json_fail(&n, "a table is over at most %d numbers of points", KOKSMA__TABLE_PRINTED)
+                   ? koksma__json_fail(&n, "a table has at most %d numbers of points", KOKSMA__TABLE_PRINTED)
                    : status;
     }
     t->n.at = calloc(1, sizeof *t->n.at);
@@ -123,7 +123,8 @@ static koksma_status check_shape(const koksma__json_node *node, const koksma__ta
                          "'fitted' needs a scene, because a measure has nothing to fit");
     for (size_t i = 0; i + 1 < t->n.n; i++) {
         KOKSMA__JSON_FAIL_IF(t->n.at[i] >= t->n.at[i + 1], node,
-                             "a table's numbers of points rise: %lld comes before %lld", t->n.at[i], t->n.at[i + 1]);
+                             "a table's numbers of points must ascend, but %lld comes before %lld", t->n.at[i],
+                             t->n.at[i + 1]);
     }
     for (size_t r = 0; r < t->n_rows; r++) {
         KOKSMA__JSON_FAIL_IF(t->rows[r].n_published > (over_n ? t->n.n : 3), node,

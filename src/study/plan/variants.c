@@ -227,7 +227,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
         if (status) {
             return koksma__json_fail_in(&item, status);
         }
-        if (scratch.adaptive.method) { /* two texts of equal parameters are one variant */
+        if (scratch.adaptive.method) { /* texts with equal parameters are one variant */
             char text[KOKSMA_MAX_SPEC];
             koksma_adaptive_text(&scratch.adaptive, text);
             free(words->at[i]);

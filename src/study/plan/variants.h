@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A variant: how a scene is rendered apart from pattern, samples, size and seed, such as the pairing and other
+ * A variant: all settings of a render except its pattern, samples, size and seed, that is, the pairing and other
  * members of koksma_render_options. Its canonical text lists the options that differ from their defaults, in the
  * order of the table in variants.c and separated by ";": "" or "pairing=aligned". The text is part of the key of
  * every row.

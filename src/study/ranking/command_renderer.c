@@ -3,9 +3,9 @@
  * Runs another renderer by a command line (koksma_rank_by_command). Every picture has its own temporary directory,
  * so that the program may write other files beside the picture. What the program prints goes to a file in that
  * directory; its last line is part of the error message if the program fails. The command runs in its own process
- * group, so that a stop kills all processes that the shell started. The library polls waitpid in steps of 10 ms,
- * which is short compared with rendering a picture, because a library must not reap its caller's other child
- * processes.
+ * group, so that a stop kills all processes that the shell started. The library waits for this process alone,
+ * because it must not reap its caller's other child processes. It polls waitpid every 10 ms, which is short compared
+ * with rendering a picture, and asks the caller's keep_going in between.
  */
 #include <koksma/study.h>
 
@@ -116,7 +116,7 @@ static koksma_status start(const char *command, const char *log, pid_t *child)
     return error ? koksma__fail(KOKSMA_SYSTEM, "/bin/sh: %s", strerror(error)) : KOKSMA_OK;
 }
 
-/* *outcome: the status that waitpid returns. */
+/* Waits until the command has ended; kills it if keep_going asks for a stop. *outcome: its status from waitpid. */
 static koksma_status wait_for(pid_t child, const koksma_run *run, int *outcome)
 {
     bool stop = false;

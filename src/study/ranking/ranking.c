@@ -3,9 +3,9 @@
  * Finds the pattern that leaves the least error in a scene. The ranking works in three steps:
  *     1. a contest of all patterns at the requested image size, until the best pattern is decided, and then until the
  *        best pattern whose error is not coherent (the advised pattern) is decided;
- *     2. a contest at half and one at twice the size. Each compares the best three patterns that may be advised and
- *        the best three of all, until the best of the first three (of all, if every error is coherent) and then the
- *        best of all is decided;
+ *     2. a contest at half and one at twice the size. Each compares the best three patterns whose error is not
+ *        coherent and the best three of all patterns. It runs until the best pattern whose error is not coherent is
+ *        decided, and then until the best pattern is decided (only the latter if every error is coherent);
  *     3. the first contest again, until every pair of patterns is decided.
  * A time limit may end the ranking at any point; the rows then report what is known. Every decision is a function of
  * the options only (ranking_contest.c describes the treatment of patterns too slow for the time limit,
@@ -88,8 +88,8 @@ static size_t first_patterns(const koksma__contest *c, size_t best, bool advised
     return n;
 }
 
-/* Stores in `patterns` the best patterns that may be advised, then the best patterns of all, without repeating any;
-   returns their number. *leader: the index in `patterns` of the pattern with the least error. */
+/* Stores in `patterns` the best patterns whose error is not coherent, then the best of all patterns, without repeating
+   any; returns their number. *leader: the index in `patterns` of the pattern with the least error. */
 static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHECKED], size_t *leader)
 {
     size_t all[CHECKED];
@@ -125,8 +125,8 @@ static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, siz
     return result;
 }
 
-/* Checks the advised pattern and then the first place, as a time limit may end the check in between. Where every
-   error is coherent, both checks have one result. */
+/* Checks the advised pattern first and then the leader, because a time limit may end the check in between. If no
+   pattern is advised, because every error is coherent, both checks have the same result. */
 static koksma_status check_best(koksma__contest *contest, size_t leader, koksma_rank_check *check)
 {
     const bool same = contest->asked->table.advised == NOBODY;
@@ -349,7 +349,7 @@ static koksma_status nobody_can_serve(const koksma__contest *c)
             return KOKSMA_OK;
         }
     }
-    return koksma__fail(KOKSMA_ARGUMENT, "no pattern can serve: %s", c->contestants[c->n - 1].reason);
+    return koksma__fail(KOKSMA_ARGUMENT, "none of the patterns can be ranked: %s", c->contestants[c->n - 1].reason);
 }
 
 /* Whether to check other sizes. If another renderer is used and the options give no size, none are checked, because

@@ -92,9 +92,9 @@ static koksma_status take_out(const timed *t, size_t trial, koksma_status status
 
 /* ---- Trials --------------------------------------------------------------------------------------------- */
 
-/* Adds the pixel errors of a trial to the sums of the coherence, in the order of the trials: while an earlier
-   trial is missing, the errors wait; else those of later trials that wait only for this one are added, too. Takes
-   ownership of `errors`. */
+/* Adds the pixel errors of a trial to the sums of the coherence, in the order of the trials. If an earlier trial is
+   missing, the errors are kept until it has been added; otherwise they are added now, and after them the kept errors of
+   the next trials. Takes ownership of `errors`. */
 static koksma_status add_coherence(const koksma__contest *c, koksma__contestant *p, size_t trial, double *errors)
 {
     koksma_status status = KOKSMA_OK;

@@ -96,7 +96,7 @@ static const koksma__discrepancy_block *measured_in(const koksma__topic *topic, 
 
 /* ---- Images -------------------------------------------------------------------------------------------- */
 
-/* Whether two blocks render a scene at the same size and with the same last reference. */
+/* Whether two blocks render a scene at the same size and with the same last reference, to which errors refer. */
 static bool same_pictures(const koksma_study *study, const koksma__image_block *a, const koksma__image_block *b,
                           const char *scene)
 {

@@ -6,9 +6,9 @@
  *
  * A pattern is "in bands" when more than half of its images are coherent, each judged alone (p < KOKSMA_COHERENT_P,
  * coherence >= KOKSMA_COHERENT_LEAST). Patterns whose errors are white noise are called "in bands" in at most 2
- * KOKSMA_COHERENT_P = 1 % of all cases, however much their images have in common (Markov's inequality for the number
- * of coherent images). `koksma rank` and the pictures of a report use spectra averaged over images, which show weaker
- * waves than single images.
+ * KOKSMA_COHERENT_P = 1 % of all cases, however strongly the images of a pattern depend on each other (Markov's
+ * inequality for the number of coherent images). `koksma rank` and the pictures of a report use spectra averaged over
+ * images, which show weaker waves than single images.
  */
 #ifndef KOKSMA_STUDY_REPORT_COHERENCE_ROWS_H
 #define KOKSMA_STUDY_REPORT_COHERENCE_ROWS_H

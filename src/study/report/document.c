@@ -490,7 +490,7 @@ void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__se
     koksma__json_write_text(&d->json, "style", styles[style]);
     if (style == KOKSMA__SERIES_LINE || style == KOKSMA__SERIES_MARKS) {
         size_t number = koksma__take_curve_number(label, d->curves);
-        /* all dashes of the pattern's family are in use: dashes repeat, and the marks differ */
+        /* all dashes of the pattern's colour are in use: dashes repeat, and the page gives these lines other marks */
         if (number == KOKSMA__CURVE_STYLES) {
             for (size_t i = koksma__colour_of(label) % KOKSMA__COLOURS; i < number; i += KOKSMA__COLOURS) {
                 d->curves[i] = false;

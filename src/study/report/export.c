@@ -36,7 +36,7 @@ typedef struct writer {
     long long series;     /* the id of the series to which `before` and `after` belong; 0: no series */
     char *before, *after; /* the columns of a CSV row before the trial, and the columns after the values */
     koksma__json_writer json;
-    size_t rows, widths[N_TEXTS]; /* lengths of the byte strings in NPY */
+    size_t rows, widths[N_TEXTS]; /* NPY: number of rows; lengths of the byte strings */
 } writer;
 
 static const char *text_of(const koksma__series *s, int k)

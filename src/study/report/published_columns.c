@@ -104,9 +104,9 @@ void koksma__published_say_z(koksma__document *d, const koksma__z_sums *z)
     if (z->count > 1) {
         const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
         koksma__doc_paragraph(d,
-                              "The %zu values of z together: their sum over √%zu is %+.1f (by chance between -2 and "
-                              "+2 in 95 %% of tables; otherwise the means deviate to one side), and the sum of their "
-                              "squares is %.1f (by chance below %.1f in 95 %%).",
+                              "The %zu values of z together: their sum divided by √%zu is %+.1f (by chance between "
+                              "-2 and +2 in 95 %% of tables; otherwise the means deviate to one side), and the sum "
+                              "of their squares is %.1f (by chance below %.1f in 95 %%).",
                               z->count, z->count, z->sum / sqrt(k), z->squares, limit);
     }
 }

@@ -28,8 +28,8 @@ void koksma__published_mean(koksma__document *d, const koksma__summary *mean, si
 /* Writes a cell that has a verdict only. */
 void koksma__published_verdict(koksma__document *d, const koksma__verdict *verdict);
 
-/* Sums over the z-values of a table. Each z may be explained by chance although all together are not, because they
-   have one sign or all are large. Cells that differ for a known reason do not count. */
+/* Sums over the z-values of a table. Chance may explain each z alone but not all of them together, for example if all
+   have the same sign or all are large. Cells that differ for a known reason do not count. */
 typedef struct koksma__z_sums {
     size_t count;
     double sum, squares;

@@ -2,8 +2,8 @@
 /*
  * Compares published tables with the store: the cell of a row (mean, SD and maximum over trials), the verdict on the
  * published mean, and the rows that koksma_study_table_row returns. A published mean of a discrepancy agrees if |z|,
- * the difference divided by the errors of both means and the rounding, is below KOKSMA__AGREEMENT_Z; a published mean
- * of image errors agrees if it is within KOKSMA__IMAGE_TOLERANCE of ours.
+ * the difference divided by the sum of its standard error and half a unit of the last published digit, is below
+ * KOKSMA__AGREEMENT_Z; a published mean of image errors agrees if it is within KOKSMA__IMAGE_TOLERANCE of ours.
  */
 #include <math.h>
 #include <stdlib.h>

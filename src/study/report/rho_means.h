@@ -8,9 +8,9 @@
 #include "stats/statistics.h"
 
 /* KOKSMA__RHO_VARIANTS: the number of combinations of options that have a column in a table. KOKSMA__RHO_SAMPLES:
-   the number of bootstrap resamples. Holm's correction over the 45 pairs of ten measures compares p with .0011,
-   which is two or three of 4,000 resamples: with so few, the significant differences changed with the resamples'
-   seed. Among 20,000 resamples this p corresponds to eleven. */
+   the number of bootstrap resamples. Holm's correction over the 45 pairs of ten measures compares p with .0011.
+   With 4,000 resamples two or three of them decide whether p is below that, and which differences were significant
+   changed with the resamples' seed; with 20,000 eleven of them decide. */
 enum { KOKSMA__RHO_VARIANTS = 24, KOKSMA__RHO_SAMPLES = 20000 };
 
 /* Sums over the cases of a measure in one scene with one number of samples. */

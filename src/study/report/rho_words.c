@@ -101,7 +101,8 @@ static void say_predictors(koksma__document *d, const koksma__rho_means *s, cons
     }
     koksma__doc_say(d, "%s", always ? "." : "");
     if (sure > always) {
-        koksma__doc_say(d, " For %zu more that depends on one scene.", sure - always);
+        koksma__doc_say(d, " %zu more are surely above 0 over all scenes, but not without one of them.",
+                        sure - always);
     }
 }
 
@@ -153,7 +154,7 @@ void koksma__rho_sentence(koksma__document *d, const koksma__rho_means *s, const
     if (too_few) {
         koksma__doc_say(d,
                         "*Undecided:* %d patterns or more would give a rank correlation an interval. The largest "
-                        "of too few is that of `%s` (",
+                        "correlation, over fewer patterns, is that of `%s` (",
                         KOKSMA__LEAST_PAIRS, s->of[first].measure);
         say_cases(d, &s->of[first]);
         koksma__doc_say(d, ").");
@@ -169,13 +170,14 @@ void koksma__rho_sentence(koksma__document *d, const koksma__rho_means *s, const
     koksma__doc_paragraph(
         d,
         "A case is the rank correlation, over patterns, of a measure of n points with the error of "
-        "images of n samples a pixel. Intervals are of 95 %% by %d bootstrap resamples of the "
-        "patterns and their means. _Surely_ is at 5 %% for all tests of a kind together, by Holm: %zu "
-        "pairs of measures here, and %zu measures against 0. The correlations of a measure that is "
-        "better when larger have the other sign, so that +1 is always the order of the errors.",
+        "images of n samples a pixel. Intervals are 95 %% intervals from %d bootstrap resamples of the "
+        "patterns and their means. _Surely_ means significant at 5 %% for all tests of a kind together "
+        "(Holm's method): the tests of %zu pairs of measures here, and those of %zu measures against 0. The "
+        "sign of the correlations is reversed for a measure that is better when larger, so that +1 always "
+        "means that the measure orders the patterns as their errors do.",
         KOKSMA__RHO_SAMPLES, j->of[0].n_pairs, s->n);
     if (0.05 * (KOKSMA__RHO_SAMPLES + 1) < 2 * (double)j->of[0].n_pairs) {
-        koksma__doc_paragraph(d, "%d resamples cannot tell so many pairs apart: no difference is sure.",
+        koksma__doc_paragraph(d, "%d resamples are too few for so many pairs: no difference can be called sure.",
                               KOKSMA__RHO_SAMPLES);
     }
 }

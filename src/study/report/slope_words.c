@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Writes the sentence on the slopes of one measure or scene. It names the pattern whose values fall fastest. If
- * other patterns may be that one, because none surely falls faster than they (the interval of the difference of two
- * slopes contains 0), it names those whose slopes have the narrowest intervals, and how many trials would separate
- * two of them. A pattern with a wide interval thus hides no order among patterns with narrow ones. The
- * sentence also gives the number of patterns that fall faster than random points (or the power of theory), the number that follow
- * no power law, and the patterns with means of 0. For measures of quality or distance, for which a
- * fast fall is not better, it does not compare the patterns.
+ * Writes the sentence on the slopes of one measure or scene. It names the pattern whose values fall fastest. A pattern
+ * surely falls faster than another if the interval of the difference of their slopes excludes 0. A pattern is a
+ * candidate if no other surely falls faster. If there are several candidates, the sentence names those whose slopes
+ * have the narrowest intervals, and how many trials would separate two of them, so that a pattern with a wide interval
+ * hides no order among patterns with narrow ones. The sentence also gives the number of patterns that fall faster than
+ * random points (or the power of theory), the number that follow no power law, and the patterns with means of 0. For
+ * measures of quality or distance, for which a fast fall is not better, it does not compare the patterns.
  */
 #include "study/report/slope_words.h"
 

@@ -17,8 +17,9 @@
 #include "study/run/run_control.h"
 #include "study/run/tasks.h"
 
-/* Numbers of bytes: of a row of table `result` with its share of the B-tree, of each of the row's up to VALUES values
-   (both measured on 1e5 rows of each kind), and of each channel of a pixel of a reference. */
+/* Bytes on disk: ROW for each row of table `result`, with its share of the B-tree; VALUE for each value in a row, which
+   has up to VALUES of them (both measured on 1e5 rows of each kind); REFERENCE_PIXEL for each channel of each pixel of
+   a reference. */
 static const double ROW = 34, VALUE = 8, REFERENCE_PIXEL = 4;
 enum { VALUES = KOKSMA__RESULT_VALUES };
 
@@ -65,8 +66,9 @@ static double distance(const koksma__task *s, const koksma__task *t)
            (strcmp(s->variant, t->variant) ? 0.5 : 0);
 }
 
-/* The power of n by which the time of timed task i grows towards n, from the nearest timed task of the same pattern
-   and variant, preferably on that side; otherwise the default power. */
+/* Times are extrapolated from the size of timed task i to n by a power of the size. Returns its exponent, which follows
+   from task i and the nearest timed task of the same pattern and variant, preferably one that is on the same side of
+   task i as n. If no such task has been timed yet, returns the default exponent. */
 static double power_at(const guesses *g, size_t i, long long n)
 {
     const koksma__task *t = g->at[i].task;
@@ -76,7 +78,7 @@ static double power_at(const guesses *g, size_t i, long long n)
         const koksma__task *other = g->at[j].task;
         if (is_timed(g, j) && other->n != t->n && same_kind(other, t)) {
             const double ratio = log((double)other->n / (double)t->n);
-            /* a task on the other side is used only if there is none on this side */
+            /* a task on the other side of task i is used only if there is none on the side of n */
             const double far = fabs(ratio) + ((ratio > 0) == up ? 0 : 100);
             if (far < best) {
                 best = far;
@@ -244,7 +246,9 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
         qsort(g.at, g.n, sizeof *g.at, by_n);
         status = time_tasks(study, &g, run, budget_s);
     }
-    for (size_t i = g.n; !status && i-- > 0;) { /* tasks of large n first: a reference has many samples */
+    /* Tasks of large n come first: the time of a reference is estimated from the first task that uses it, and the
+       number of samples of a reference is large, too. */
+    for (size_t i = g.n; !status && i-- > 0;) {
         add_task(g.at[i].task, g.at[i].seconds, cost);
         add_references(study, g.at[i].task, g.at[i].seconds, counted, cost);
     }

@@ -2,8 +2,8 @@
 /*
  * Rank 0 of an MPI run: it exchanges messages with the other ranks and works on a second thread. A batch counts as
  * assigned until its results arrive. When nothing else is left to do, rank 0 also does jobs that are still assigned:
- * if a rank is lost and MPI lets the others continue, only the work on its batch is repeated. Otherwise the run ends;
- * the same command then continues from the store.
+ * if a rank is lost and MPI lets the others continue, only the work on its batch is repeated. If MPI ends all ranks,
+ * the run ends, and the same command continues it from the store.
  */
 #include "study/run/mpi_serve.h"
 

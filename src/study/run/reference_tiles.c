@@ -42,8 +42,8 @@ static koksma_status add_tiles(koksma__reference_tiles *tiles, size_t reference)
     return status;
 }
 
-/* Whether the study has the reference's file and the row with its hash and its own error. If the database was
-   removed, or predates the hashes, the reference is rendered again. */
+/* Whether the study has the reference's file, and its store the row with the file's hash and the reference's own error.
+   If the database was removed, or predates the hashes, the reference is rendered again. */
 static bool is_kept(const koksma_study *study, const koksma__reference_image *reference)
 {
     char name[KOKSMA__REFERENCE_NAME];

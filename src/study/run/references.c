@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reference images. The paper used 400 jittered samples per pixel. If the error of a reference is not far below the
- * errors that are measured against it, these are distorted. So a plan may ask for the mean of many independent
+ * Reference images. Shirley (1991) used 400 jittered samples per pixel. A reference distorts the errors that are
+ * measured against it unless its own error is far below them. So a plan may ask for the mean of many independent
  * renders (replicates), whose spread also gives an estimate of the reference's own error. A finished reference is a
  * file in DIR/references, named by the hash of everything it depends on, and a row of the store.
  */

@@ -98,7 +98,7 @@ koksma_status koksma__study_open_to_write(koksma_study *study)
         return KOKSMA_OK;
     }
     snprintf(path, sizeof path, "%s/results.sqlite", study->folder);
-    koksma__store_close(study->store); /* the lock of this store would block the next open */
+    koksma__store_close(study->store); /* while open, this store holds a lock that would make the next call fail */
     const koksma_status status = koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
     study->is_written = !status;
     if (status) {
@@ -158,7 +158,7 @@ static koksma_status recall_plan(koksma_study *study)
     trials.quick = quick;
     for (unsigned long i = 0; !status && i < n; i++) {
         koksma__plan plan = {0};
-        char *text = NULL, *name = NULL; /* older databases have no name */
+        char *text = NULL, *name = NULL; /* databases of older versions lack the plan's name */
         snprintf(key, sizeof key, "plan-text-%lu", i);
         status = koksma__store_get_text(study->store, key, &text);
         snprintf(key, sizeof key, "plan-name-%lu", i);

@@ -268,7 +268,7 @@ static koksma_status find_series(koksma__tasks *tasks, owners *o)
         koksma__task *t = &tasks->at[i];
         for (size_t k = 0; !status && k < t->n_series; k++) {
             owner *own = &o->at[t->series[k]];
-            if (!own->task) { /* blocks of a plan may share a series; its first task has the most trials */
+            if (!own->task) { /* several tasks may share a series; the first has the most trials and owns it */
                 own->bits = calloc(((size_t)t->trials + 7) / 8, 1);
                 status = own->bits ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
                 own->task = t;
@@ -330,9 +330,9 @@ bool koksma__task_failed_alone(const koksma_study *study, koksma_status status)
 /* Bounds of a value that are at most this far apart count as exact; the limit is larger than the rounding error. */
 static const double AS_GOOD_AS_EXACT = 2e-12;
 
-/* Checks that a value can be stored. The store has no column for a second bound, so it accepts finite values of a
-   measure that promises exact values only if the search was not cut short; measures that promise estimates or bounds
-   may store those. */
+/* Checks that a value can be stored: it must be finite. The store has one number for each value, not a lower and an
+   upper bound. So the value of a measure that promises exact values is rejected if its search was cut short; the
+   estimates or bounds of a measure that promises only these are stored. */
 static koksma_status check_value(const koksma_spec *measure, const koksma_value *value)
 {
     char text[KOKSMA_MAX_SPEC];

@@ -67,8 +67,8 @@ koksma__series koksma__task_series(const koksma__task *task, size_t k, char name
 /* The seed of a job. */
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
 
-/* Does one job, which gives n_series results. The references must have their pixels. Errors: INTERRUPTED, if `run`
-   stops the job; MEMORY; those of generating, measuring and rendering, whose text begins with the job's block,
+/* Does one job, which gives n_series results. The pixels of the references must be loaded. Errors: INTERRUPTED, if
+   `run` stops the job; MEMORY; those of generating, measuring and rendering, whose text begins with the job's block,
    pattern, n and trial. */
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *task, long long trial,
                               const koksma_run *run, koksma__result *results);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A queue of the numbers 0 .. n-1, each of which is taken once and put back when its work is done. */
+/* A queue of the numbers 0 .. n-1, each of which is taken once, and put back as done after its work. */
 #ifndef KOKSMA_STUDY_RUN_WORK_QUEUE_H
 #define KOKSMA_STUDY_RUN_WORK_QUEUE_H
 

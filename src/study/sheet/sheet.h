@@ -85,7 +85,7 @@ typedef struct koksma__sheet {
     koksma__document notes; /* notes for a list: what is left out, and why */
     size_t n_notes;
     koksma__sheet_values plane;
-    koksma__sheet_ranking *rankings; /* a ranking's index is scene * n_spp + spp */
+    koksma__sheet_ranking *rankings; /* scene i with the k-th number of samples: i * n_spp + k */
     size_t n_rankings;
 } koksma__sheet;
 

@@ -123,8 +123,8 @@ koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_paragraph(
             d,
             "Root mean square errors of the mean of five functions at n = %zu, slopes of log RMSE over "
-            "log n, with 95 %% intervals. Gain: so many times more random points give this error. "
-            "Of a sampler with one set the error is that of this set.",
+            "log n, with 95 %% intervals. Gain: the factor by which more random points are needed for the same "
+            "error. For a sampler that has only one set, the error is that of this set.",
             sheet->sizes[sheet->n_sizes - 1]);
         put_table(sheet, results, d);
         for (size_t i = 0; i < N_INTEGRANDS; i++) {

@@ -71,7 +71,7 @@ koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *
             status = draw_set(sheet->samplers[0], sheet->sizes[i], true, d);
         }
     }
-    koksma__doc_paragraph(d, "Above the first set of each size, below those of the others:");
+    koksma__doc_paragraph(d, "Above: the sampler's first set of each size. Below: the first set of every other one.");
     for (size_t s = 1; s < sheet->n_samplers && !status; s++) {
         status = draw_set(sheet->samplers[s], common, false, d);
     }

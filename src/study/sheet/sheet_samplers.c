@@ -127,8 +127,8 @@ static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_
     return KOKSMA_OK;
 }
 
-/* Sets the seed and the number of consecutive sets of a sampler that the sheet's sampler is compared with, at the
-   sheet's sizes. */
+/* Sets the seed of the first set of a sampler that the sheet's sampler is compared with. Lowers its number of sets so
+   that every size of the sheet has that many sets, whose seeds are consecutive from the first one on. */
 static void count_sets(const koksma__sheet *sheet, koksma__sheet_sampler *sampler, const koksma__file_set *sets,
                        size_t count)
 {

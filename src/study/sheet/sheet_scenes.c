@@ -210,8 +210,8 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
     }
     koksma__doc_section(d, "scenes", "Errors in scenes");
     if (!sheet->n_spp) {
-        koksma__doc_paragraph(d, "No scene was rendered: no set has 4, 16, 64 or another number of up to 256 points, "
-                                 "one for each sample of a pixel.");
+        koksma__doc_paragraph(d, "No scene was rendered: a pixel needs a set with one point for each of its samples, "
+                                 "and the sampler has no set of 4, 16, 64 or any other number of up to 256 points.");
     } else {
         koksma__doc_metric_begin(d, sheet->metric_text);
         koksma__doc_say(d,
@@ -227,8 +227,8 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
     if (sheet->samplers[0]->sets != SIZE_MAX && sheet->n_spp) {
         koksma__doc_paragraph(
             d,
-            "Each pixel and use takes one of the files of its number of points at random: few files "
-            "(here %zu or more) repeat over the image and give bands.",
+            "Each pixel and use takes one of the sampler's files of the needed size at random. The sampler has at "
+            "least %zu files of each size; if these are few, they repeat over the image and give bands.",
             sheet->samplers[0]->sets);
     }
     for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {

@@ -191,7 +191,7 @@ static koksma_status put_section(koksma__sheet *sheet, const spectra *all, koksm
     put_pairs(all, sheet->n_samplers, d);
     koksma__doc_paragraph(d, "Effective Nyquist frequency: signals up to it alias little. Oscillation: how far the "
                              "radial mean strays from 1 "
-                             "beyond (Heck, Schlömer & Deussen 2013).");
+                             "beyond that frequency (Heck, Schlömer & Deussen 2013).");
     put_quality(all, sheet->n_samplers, d);
     put_commands(sheet, all, d);
     koksma__doc_end(d);

@@ -57,7 +57,7 @@ bool koksma__database_had_conflict(koksma__database *database);
 koksma_status koksma__statement_open(koksma__database *database, const char *sql, koksma__statement **out);
 void koksma__statement_close(koksma__statement *statement);
 
-/* Bind a value to parameter number *column, counted from 1, and increment *column. A text must outlive the
+/* Bind a value to parameter number *column, counted from 1, and increment *column. A text must stay valid until the
    statement's next reset; NaN is stored as NULL. */
 void koksma__bind_text(koksma__statement *statement, int *column, const char *text);
 void koksma__bind_whole(koksma__statement *statement, int *column, long long value);

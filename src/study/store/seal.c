@@ -9,7 +9,7 @@
  * detects forged rows by computing them again.
  *
  * Checksum of the words x: h = 0, and for each h = (h + x) c mod 2^64, h ^= h >> 32, with c = 0x9e3779b97f4a7c15.
- * The first word is the table's number; a text's word is its hash (core/hash.h), a number's are the bits of the
+ * The first word is the table's number; a text's word is its hash (core/hash.h), a number's word is the bits of the
  * double. The word of a series' metric comes last, and only if it is not empty.
  */
 #include "study/store/seal.h"

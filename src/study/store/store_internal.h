@@ -46,8 +46,8 @@ enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SERIES_COLUMNS = 13, KOKSMA__SCHEMA = 
 static const double KOKSMA__WRITE_AFTER_S = 0.2;
 
 /* A row of table result has four values. For an image, a coherence or a metric these are one result. For point sets they
-   are one value each of up to four measures: series with equal pattern, n, dim and options have consecutive ids
-   from a multiple of GROUP, as far as they were created one after the other. The ids of rows ascend in the order
+   are one value each of up to four measures: series with equal pattern, n, dim and options get consecutive ids
+   from a multiple of GROUP on if they are created one after the other. The ids of rows ascend in the order
    in which a run makes them, so that rows are appended. */
 enum { KOKSMA__GROUP = KOKSMA__RESULT_VALUES };
 
@@ -146,7 +146,7 @@ koksma_status koksma__store_upgrade(int schema, koksma__store *store);
 
 /* ---- store_tables.c ------------------------------------------------------------------------------------------- */
 
-/* Adds the rows of all tables but result to the seal. */
+/* Adds the rows of all tables except `result` to the seal. */
 koksma_status koksma__seal_rest(koksma__store *store, koksma__seal *seal);
 
 /* Fails with MALFORMED: the rows in the file are not those that runs wrote. */

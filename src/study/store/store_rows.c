@@ -105,7 +105,7 @@ koksma_status koksma__store_write_rows(koksma__store *store)
     store->spare.at = taken.at;
     store->written_s = koksma__now_s();
     pthread_mutex_unlock(&store->gather_lock);
-    if (taken.n) { /* the data read about series before are now out of date */
+    if (taken.n) { /* what was read about series before is now out of date */
         koksma__store_forget(store);
     }
     koksma_status status = taken.n || store->in_transaction ? koksma__store_begin(store) : KOKSMA_OK;

@@ -95,7 +95,9 @@ static void say_limits(koksma__document *d, const listing *l)
 {
     const koksma__rho_means *s = l->means;
     if (l->most_patterns > KOKSMA__CASE_PATTERNS) {
-        koksma__doc_paragraph(d, "Of up to %zu patterns the first %d are correlated; the others are in the export.",
+        koksma__doc_paragraph(d,
+                              "A case has up to %zu patterns; correlations use only the first %d of them. "
+                              "`koksma study export` has the results of all.",
                               l->most_patterns, KOKSMA__CASE_PATTERNS);
     }
     if (s->n_variants > KOKSMA__RHO_VARIANTS) {

@@ -142,8 +142,9 @@ static void say_verdict(koksma__document *d, const verdict *all)
                     all->cases - all->beyond, all->cases, 100 * all->closest, all->where);
     if (all->infinite) {
         koksma__doc_say(d,
-                        "The edge of an object in a picture is seldom along an axis: there the variation is infinite "
-                        "(%zu rows), and the inequality promises nothing, though the errors are as small. ",
+                        "The edge of an object in a picture is seldom parallel to an axis. If it is not, the "
+                        "variation is infinite (%zu rows) and the inequality promises nothing, although the errors "
+                        "are as small as in the other rows. ",
                         all->infinite);
     }
     if (all->no_use) {

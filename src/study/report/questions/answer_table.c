@@ -223,11 +223,11 @@ static koksma_status say_bands(koksma_study *study, koksma__document *d, const s
     if (i == 0) {
         koksma__doc_say(d, " The error of %s has no visible bands.", first);
     } else if (i < s->known) {
-        koksma__doc_say(d,
-                        " The error of %s is in visible bands; of the patterns without bands %s leaves the least, "
-                        "%.1f %% more.",
-                        first, c->patterns->at[s->by[i]],
-                        100 * (s->means[s->by[i]].mean / s->means[s->by[0]].mean - 1));
+        koksma__doc_say(
+            d,
+            " The error of %s is in visible bands; of the patterns without bands, %s has the least error, "
+            "%.1f %% more.",
+            first, c->patterns->at[s->by[i]], 100 * (s->means[s->by[i]].mean / s->means[s->by[0]].mean - 1));
     } else {
         koksma__doc_say(d, " The errors of all patterns are in visible bands.");
     }

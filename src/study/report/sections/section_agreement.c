@@ -38,8 +38,8 @@ static const char *verb(size_t n)
     return n == 1 ? "differs" : "differ";
 }
 
-/* Writes a sentence for a group of tables, if the group has means to compare, and another, as an answer that is open, for
-   those of its means whose difference nobody can explain. */
+/* Writes how many published means of a group of tables agree, unless the group has no means to compare. If some differ
+   for an unknown reason, their number follows in a sentence of its own, marked as an undecided answer. */
 static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
 {
     const size_t agree = counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED],

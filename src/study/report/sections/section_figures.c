@@ -133,7 +133,7 @@ static koksma_status add_part(koksma__document *d, const koksma__figure *f, cons
 static void describe_adaptive(const koksma__figure *f, double pixels, const koksma_adaptive_report *report,
                               char note[NOTE])
 {
-    const int length = koksma__snprintf(note, NOTE, " (image: %lld samples a pixel at first, %.1f more in the mean",
+    const int length = koksma__snprintf(note, NOTE, " (image: %lld samples a pixel at first, %.1f more on average",
                                         f->n, (double)(report->samples - report->first) / pixels);
     if (report->splits) {
         koksma__snprintf(note + length, (size_t)(NOTE - length), "; %.0f %% of %llu splits needless)",

@@ -173,8 +173,8 @@ static koksma_status add_reference_remark(koksma_study *study, koksma__document 
     say_changes(d, t, means);
     if (!status && isfinite(error)) {
         koksma__doc_say(d,
-                        "The mean error of the converged reference itself is %.2g: %.2g of the smallest error in "
-                        "the table.",
+                        "The mean error of the converged reference itself is %.2g, which is %.2g times the smallest "
+                        "error in the table.",
                         error, error / smallest);
     }
     koksma__doc_paragraph_end(d);
@@ -247,7 +247,7 @@ static void say_order(const koksma__report_scope *scope, koksma__document *d, co
                         r + 1 < first->n_rows ? ", " : ".");
     }
     if (koksma__plan_of(scope)->order) {
-        koksma__doc_say(d, " The overall order in the text: %s.", koksma__plan_of(scope)->order);
+        koksma__doc_say(d, " The overall order that the paper's text gives: %s.", koksma__plan_of(scope)->order);
     }
     koksma__doc_paragraph_end(d);
 }
@@ -282,7 +282,8 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     koksma_status status = KOKSMA_OK;
     koksma__doc_paragraph(d,
                           "Absolute error in luminance over the pixels, with a box filter one pixel wide. Intervals "
-                          "are 95 %% over trials. A maximum is the error of one pixel; maxima get no verdict.");
+                          "are 95 %% intervals of means over trials. A maximum is the error of one pixel; maxima get "
+                          "no verdict.");
     for (const koksma__table *t = next_table(scope, &i); !status && t; t = next_table(scope, &i)) {
         status = add_table(scope->study, d, t);
     }

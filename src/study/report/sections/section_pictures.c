@@ -29,13 +29,13 @@ static bool is_shown(const koksma__report_scope *scope)
     return scope->study->plan.n_images > 0;
 }
 
-/* Whether a block has pattern p at the middle one of its numbers of samples, with which the pictures are rendered. */
+/* Whether pattern p of a block can make the block's middle number of samples, with which the pictures are rendered. */
 static bool is_served(const koksma__image_block *block, size_t p)
 {
     return !koksma__is_left_out(&block->left_out, p, block->spp.n, block->spp.n / 2);
 }
 
-/* The first pattern that a block has at the middle one of its numbers of samples. */
+/* The first pattern of a block that can make the block's middle number of samples. */
 static size_t first_served(const koksma__image_block *block)
 {
     size_t p = 0;
@@ -93,10 +93,10 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
     snprintf(name, sizeof name, "coherence-%.30s-%lld", first->scene->name, first->n);
     koksma__doc_paragraph(
         d, "Coherence of the error: the peak of its power spectrum over the mean power, from the same "
-           "trials. The columns _noise from_ and _to_ give the interval of the coherence of 95 %% of "
-           "white-noise errors with as large a part in common among the trials. An error whose coherence "
-           "exceeds that of 99.5 %% of them is coherent: it has bands or another pattern, which the eye sees "
-           "sooner than noise of the same size.");
+           "trials. Part of an error may be common to all trials (column _in common_). For white noise with an "
+           "equally large common part, 95 %% of the coherences lie between the columns _noise from_ and _to_. An "
+           "error whose coherence exceeds that of 99.5 %% of such noise is coherent: it has bands or another "
+           "pattern, which the eye sees sooner than noise of the same size.");
     koksma__doc_table_begin(d, name);
     koksma__doc_head(d, "pattern");
     koksma__doc_head_interval(d, "coherence", 3);
