@@ -9,18 +9,20 @@
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 
-/* Asks the caller before it reads the clock: after a long job both may demand a stop, and an interruption takes
-   precedence over the time limit. */
+/* Asks the caller before it compares the time with the limit: after a long job both may demand a stop, and an
+   interruption takes precedence. The clock is read once, for both. */
 static bool look(koksma__run_control *control)
 {
+    const bool timed = control->end_s > 0 && !atomic_load(&control->stop);
+    const double now_s = timed ? koksma__now_s() : control->end_s;
     const double part = control->by_time && control->end_s > 0
-                            ? fmin((koksma__now_s() - control->start_s) / (control->end_s - control->start_s), 1)
+                            ? fmin((now_s - control->start_s) / (control->end_s - control->start_s), 1)
                             : control->fraction;
     if (!atomic_load(&control->interrupted) && !koksma__keep_going(control->caller_run, part)) {
         atomic_store(&control->interrupted, true);
         atomic_store(&control->stop, true);
     }
-    if (!atomic_load(&control->stop) && control->end_s > 0 && koksma__now_s() > control->end_s) {
+    if (!atomic_load(&control->stop) && timed && now_s > control->end_s) {
         atomic_store(&control->is_up, true);
         atomic_store(&control->stop, true);
     }
