@@ -129,7 +129,7 @@ with tempfile.TemporaryDirectory() as folder:
                         "--spp", "4"], 80, None, subprocess.STDOUT)
     check(re.findall(r"ranking +(\d+) %, at most (?:\d+) h", text) and set(re.findall(r"ranking +(\d+) %", text)) == {"0"}, f"rank: {text[:400]!r}")
     cost = piped("study", "estimate", "./plan.json", "--threads", "2", "--time-limit", "0.2")
-    check(re.fullmatch(r"about (\d+ (min|h) )?[\d.]+ (s|min) on 2 threads, \d+ MB: 1680 jobs, 4560 rows, and 2 reference images "
+    check(re.fullmatch(r"about (\d+ (min|h) )?[\d.]+ (s|min) on 2 threads, \d+ MB: 1680 jobs, 6480 rows, and 2 reference images "
                        r"\([^()]+ of this time\)\n", cost), f"estimate: {cost}")
 print("\n".join(failures) or f"{tables} tables")
 sys.exit(bool(failures))
