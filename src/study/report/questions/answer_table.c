@@ -318,10 +318,12 @@ static void add_metric_heads(koksma__document *d, const by_metrics *all)
             d, &(koksma__column){
                    .name = name, .title = "position", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 3});
         snprintf(name, sizeof name, "%s, robust", group);
-        koksma__doc_column(
-            d,
-            &(koksma__column){
-                .name = name, .title = "without 0.1 %", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4});
+        koksma__doc_column(d, &(koksma__column){.name = name,
+                                                .title = "without 0.1 %",
+                                                .group = group,
+                                                .type = KOKSMA__COLUMN_NUMBER,
+                                                .digits = 4,
+                                                .hidden = true});
         snprintf(name, sizeof name, "%s, top share", group);
         koksma__doc_column(
             d, &(koksma__column){
