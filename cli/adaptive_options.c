@@ -133,8 +133,8 @@ koksma_status cli_adaptive_strata(cli_adaptive *adaptive)
                                           .n_splits = space->n_splits,
                                           .caption = space->name};
     }
-    snprintf(caption, sizeof caption, "pixel %d,%d: %zu strata, use %s", strata->x, strata->y, strata->spaces[0].n,
-             strata->spaces[0].name);
+    snprintf(caption, sizeof caption, "pixel %d,%d: %zu strata, samples for %s", strata->x, strata->y,
+             strata->spaces[0].n, strata->spaces[0].name);
     panels[0].caption = caption;
     koksma_status status = koksma_plot_format_of(adaptive->strata_path, &format);
     status = status ? status : koksma_plot_strata(panels, strata->n_spaces, 0, format, &bytes, &size);

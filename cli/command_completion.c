@@ -201,8 +201,9 @@ static void put_operand_cases(const cli_command *command, const char *call)
     printf("      esac;;\n    esac;;\n");
 }
 
-/* Prints a `case` statement in the common syntax of bash and zsh. The statement sets words, list and files by the
-   option before the cursor, or else by the operands. */
+/* Prints a `case` statement in the common syntax of bash and zsh. The statement sets the shell variables `words`,
+   `list` and `files` according to the option before the cursor or, if it takes no argument, according to the
+   operands. */
 static void put_cases(void)
 {
     static const char call[] = "$(_koksma_names";

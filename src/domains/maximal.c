@@ -10,7 +10,7 @@
  * pieces with 2^-30 of their part's side are dropped, too. The points have the distribution of dart throwing on the
  * whole domain, because every dart outside of the pieces would be rejected.
  *
- * dart-throwing throws darts in the same way, but until there are n points. A set that becomes maximal before is
+ * dart-throwing throws darts in the same way, but until there are n points. A set that becomes maximal with fewer is
  * discarded and thrown again, at most 200 times.
  *
  * d=0 searches for the distance at which a maximal set has exactly n points (patterns/shared/maximal_search.h). The

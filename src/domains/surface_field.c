@@ -146,8 +146,9 @@ static int by_all(const void *a, const void *b)
     return order ? order : (p->mass > q->mass) - (p->mass < q->mass);
 }
 
-/* Replaces all nodes in a cube with a side of half a width by one node, whose variance is that of these nodes about
-   it. */
+/* Replaces the nodes in each cube of side width / 2 by one node at their centroid, weighted by mass, with the sum of
+   their masses. Its `square` (field.h) has the variance of their positions about the centroid; their own variances are
+   left out. */
 static void merge(surface_field *f)
 {
     koksma__field_node *nodes = f->field->nodes;

@@ -6,8 +6,8 @@
 #include <stddef.h>
 
 /* The model of the power: a mean over `images` images, with the share `common` of their squared errors equal in all.
-   Each image has `waves` frequencies with a mirror image and `real` frequencies without one; the mean (0, 0) counts
-   as neither. */
+   The spectrum of an image has `waves` pairs of conjugate frequencies (u, v) and (-u, -v), each pair counted once, and
+   `real` frequencies that are their own conjugates; the mean (0, 0) is not counted. */
 typedef struct koksma__coherence_law {
     size_t images, waves, real;
     double common;

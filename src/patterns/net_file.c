@@ -15,8 +15,9 @@
  *     # soboljk   lines "k degree a m_1 ... m_degree" from dimension k = 2 on; the matrix of dimension 1 is the
  *                 identity (Joe & Kuo 2008, whose own files begin with the line "d s a m_i" in place of "# soboljk")
  *
- * LatNet Builder writes the same files with the heading "# Parameters for ..." among the first comments in place of the
- * kind and the line of the base. Its Sobol' points have the number of dimensions in a line of their own, and by default
+ * The files of LatNet Builder begin differently: in place of the line "# dnet", "# plattice" or "# soboljk" there is a
+ * heading "# Parameters for ..." among the first comments, which also gives the base ("... in base 2"); they have no line
+ * for the base. Its Sobol' points have the number of dimensions in a line of their own, and by default
  * only m_1 ... m_degree in each line ("# Parameters m_{j,c} ..."): the polynomials are then the primitive ones in Joe &
  * Kuo's order, by degree and then by a. If its digital net has the line "# Interlacing factor", d, there are d matrices for
  * each dimension, and row l of the j-th of them (j = 0 .. d - 1) is row l d + j, counted from 0, of the dimension's matrix

@@ -6,9 +6,10 @@
  *
  * The argument of sine and cosine is in turns (an angle divided by 2 pi): the nearest quarter turn is subtracted
  * without rounding, and minimax polynomials on [-pi/4, pi/4] (Moshier's Cephes library) give the result. The arc
- * tangent is reduced to |x| <= tan(pi/8) by atan x = pi/4 + atan((x - 1) / (x + 1)). Powers are 2^(e log2 x) in
- * doubles, because e multiplies the error of the logarithm: log2 by the series of the area tangent of (m - 1) / (m +
- * 1), 2^f by Taylor's series.
+ * tangent is reduced to |x| <= tan(pi/8) by atan x = pi/4 + atan((x - 1) / (x + 1)). The power x^e
+ * is 2^(e log2 x), computed in doubles, because e multiplies the error of the logarithm. For the mantissa m of x, ln m =
+ * 2 artanh((m - 1) / (m + 1)) by its series; for the part f of e log2 x that rounding to the nearest integer leaves, 2^f
+ * by the Taylor series.
  */
 #ifndef KOKSMA_RENDER_ELEMENTARY_H
 #define KOKSMA_RENDER_ELEMENTARY_H

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The memory of a task of the wavefront tracer: two queues of paths in blocks of lanes, sums of light, and the
- * samples drawn so far. The samples of a use are drawn when the first path needs them, for the pixels of the group
- * that have a path left, and are stored for the bounce, because the uses that an image needs depend on what its rays
- * hit.
+ * samples drawn so far. Which uses (koksma/render.h) an image needs depends on what its rays hit. The samples of a use
+ * are therefore drawn only when a path first needs them in a bounce, for all pixels of the group that still have a
+ * path; they are kept until the end of the bounce.
  */
 #include <stdlib.h>
 #include <string.h>
