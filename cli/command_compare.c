@@ -196,8 +196,8 @@ const cli_command cli_command_compare = {
         "degree of visual angle (67 for 3840 pixels on 0.7 m, seen from 0.7 m).\n"
         "coherence: the peak of the error's power spectrum divided by its mean, averaged over the images. For white\n"
         "noise 95 % of the values lie from noise_low to noise_high. 'coherent' means that white noise has a "
-        "coherence "
-        "this large with a probability below 0.5 %: the error has bands or another pattern, at frequency_x and "
+        "coherence this large with a probability below 0.5 %: the error has bands or another pattern, at frequency_x "
+        "and "
         "frequency_y cycles a pixel (--json). Every pixel must be a finite number.\n",
     .examples = "koksma compare ball.exr reference.exr\n"
                 "koksma compare ball.exr reference.exr -o difference.png\n"

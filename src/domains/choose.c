@@ -257,7 +257,6 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     }
     return koksma__fail(KOKSMA_UNSUPPORTED,
                         "%s: it can't make points %s; random, best-candidate, dart-throwing, sample-elimination, "
-                        "progressive-elimination, "
-                        "poisson-disk, poisson-disk-maximal and gaussian-blue-noise can",
+                        "progressive-elimination, poisson-disk, poisson-disk-maximal and gaussian-blue-noise can",
                         p->name, domain->what);
 }

@@ -61,16 +61,13 @@ static void shuffled(const void *context, int k, int some, uint64_t first, size_
     uint32_t index[KOKSMA__COLUMN_BLOCK], v[KOKSMA__COLUMN_BLOCK], directions[32];
     koksma__hash_owen_order(j->seed, j->part, first, count, index);
     for (int c = 0; c < some; c++) {
-        const uint32_t common = koksma_mirror(koksma__early_digits(j->sums[k + c]));
         directions_of(k + c, directions);
         koksma__mirror_directions(directions, directions);
         koksma__kernels()->digital_at(count, index, directions, v);
-        for (size_t i = 0; common && i < count; i++) {
-            v[i] ^= common;
-        }
-        koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
         if (j->part) {
-            koksma__hash_owen_late(j->seed, k + c, (uint32_t)(j->sums[k + c] & KOKSMA__LATE_MASK), count, v, xs[c]);
+            koksma__hash_owen_scramble_part(j->seed, k + c, j->sums[k + c], count, v, xs[c]);
+        } else {
+            koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
         }
     }
 }

@@ -107,18 +107,6 @@ static koksma_status fill_digital(const job *j, const koksma_args *args, koksma_
     return status || !j->sums ? status : koksma__add_late_digits(args->run, j->sums, out);
 }
 
-/* Scrambles coordinate k of points beyond 2^32, whose first 32 digits within the part are in v, with their bits
-   reversed. */
-static void scramble_late(const job *j, int k, size_t count, uint32_t *v, double *xs)
-{
-    const uint32_t common = koksma_mirror(koksma__early_digits(j->sums[k]));
-    for (size_t i = 0; common && i < count; i++) {
-        v[i] ^= common;
-    }
-    koksma__hash_owen_scramble(j->seed, k, count, v, xs);
-    koksma__hash_owen_late(j->seed, k, (uint32_t)(j->sums[k] & KOKSMA__LATE_MASK), count, v, xs);
-}
-
 static void hash_owen(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
 {
     const job *j = context;
@@ -145,7 +133,7 @@ static void hash_owen(const void *context, int k, int some, uint64_t first, size
             }
         }
         if (j->sums) {
-            scramble_late(j, k + c, count, v, xs[c]);
+            koksma__hash_owen_scramble_part(j->seed, k + c, j->sums[k + c], count, v, xs[c]);
         } else {
             koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
         }

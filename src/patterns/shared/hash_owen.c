@@ -29,7 +29,9 @@ void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v,
     koksma__kernels()->fractions(count, v, xs);
 }
 
-void koksma__hash_owen_late(uint64_t seed, int k, uint32_t late, size_t count, const uint32_t *v, double *xs)
+/* Scrambles digits 33 to 53, which are `late` for all points, and adds them to xs[i]; v[i] has the 32 scrambled digits
+   before them. */
+static void add_late(uint64_t seed, int k, uint32_t late, size_t count, const uint32_t *v, double *xs)
 {
     const uint32_t digits = koksma_mirror(late) >> (32 - KOKSMA__LATE_DIGITS); /* digit 33 is bit 0 */
     const uint64_t key = (uint64_t)koksma_seed_of(seed, (uint32_t)k) << 32;
@@ -38,6 +40,16 @@ void koksma__hash_owen_late(uint64_t seed, int k, uint32_t late, size_t count, c
         const uint32_t scrambled = koksma_owen_hash(digits, s) ^ koksma_owen_hash(0, s);
         xs[i] += (koksma_mirror(scrambled) >> (32 - KOKSMA__LATE_DIGITS)) * 0x1p-53;
     }
+}
+
+void koksma__hash_owen_scramble_part(uint64_t seed, int k, uint64_t sum, size_t count, uint32_t *v, double *xs)
+{
+    const uint32_t common = koksma_mirror(koksma__early_digits(sum));
+    for (size_t i = 0; common && i < count; i++) {
+        v[i] ^= common;
+    }
+    koksma__hash_owen_scramble(seed, k, count, v, xs);
+    add_late(seed, k, (uint32_t)(sum & KOKSMA__LATE_MASK), count, v, xs);
 }
 
 void koksma__mirror_directions(const uint32_t *directions, uint32_t *mirrored)

@@ -14,9 +14,10 @@ void koksma__hash_owen_order(uint64_t seed, uint64_t part, uint64_t first, size_
    receives the scrambled coordinate. */
 void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v, double *xs);
 
-/* Scrambles digits 33 to 53 of coordinate k, which are `late` for all points of a part, and adds them to xs[i]; v[i] has
-   the 32 scrambled digits before them. In each string of 32 digits, 21 digits 0 stay 0, as in the points below 2^32. */
-void koksma__hash_owen_late(uint64_t seed, int k, uint32_t late, size_t count, const uint32_t *v, double *xs);
+/* Does the same for points beyond 2^32: v[i] has the first 32 digits within the part, and `sum` the digits that the part
+   adds to all of them (patterns/shared/parts.h). Digits 33 to 53 are scrambled after each string of 32 digits so that 21
+   digits 0 stay 0, as in the points below 2^32. */
+void koksma__hash_owen_scramble_part(uint64_t seed, int k, uint64_t sum, size_t count, uint32_t *v, double *xs);
 
 /* Reverses the bits of the 32 direction numbers, because the hash takes words with bits reversed. */
 void koksma__mirror_directions(const uint32_t *directions, uint32_t *mirrored);
