@@ -235,7 +235,7 @@ static bool ending_fits(const cli_arguments *arguments, const char *argument, co
                                  (int)(end - at), at);
     }
     if (used) {
-        cli_usage_error(arguments, "%s: its name ends in %s", path, all);
+        cli_usage_error(arguments, "%s: its name must end in %s", path, all);
     }
     return !used;
 }

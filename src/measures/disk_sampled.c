@@ -5,7 +5,7 @@
  * Formula: the root of the mean, over `disks` random disks on the torus, of (#{x_i in the disk}/n - area)^2; its
  * standard error is the standard error of the mean of the squares, divided by twice the value.
  * Source: Mitchell 1992, section 4.
- * Known exactly: E(square) is the square of l2-disk.
+ * Known exactly: the expectation of the squared value is l2-disk squared.
  * Limits: the value is random; equal seeds give equal bits.
  * In 3 dimensions balls replace the disks.
  */

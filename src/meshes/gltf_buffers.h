@@ -29,9 +29,10 @@ koksma_status koksma__gltf_view(const koksma__gltf *g, size_t view, koksma__gltf
 koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const koksma__json_node *object, const char *key,
                                        koksma__gltf_elements *out, long long *number);
 
-/* Component k of element i: as an integer, or as a real number. For integers of a normalised accessor the real number
-   lies between -1 and 1. */
+/* Returns element i of an accessor of integers with one component, such as indices. */
 size_t koksma__gltf_whole(const koksma__gltf_elements *e, size_t i);
+
+/* Returns component k of element i. For integers of a normalised accessor it lies between -1 and 1. */
 float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k);
 
 #endif

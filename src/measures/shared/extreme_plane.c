@@ -167,7 +167,8 @@ static const koksma__run_list *narrowed(searcher *s, const koksma__run_list *fro
 
 static void search(searcher *s, const koksma__run_list *list, int depth, const tile *tiles, size_t count);
 
-/* Cuts a tile and searches its parts, together with the parts of other tiles that have the same list. */
+/* Cuts a tile and adds its parts to parts[0 .. *count - 1], which the caller fills from several tiles with the same
+   list. As soon as there are LANES parts it searches them together; the rest is left to the caller. */
 static void search_parts(searcher *s, const koksma__run_list *list, int depth, tile t, tile *parts, size_t *count)
 {
     const size_t side = tile_sides[depth], part = tile_sides[depth + 1];

@@ -27,7 +27,7 @@ typedef struct sorter {
     uint32_t mask; /* one less than the number of values of a digit */
 } sorter;
 
-/* An item with its number, which decides the order if keys are equal. */
+/* An item with its number x: items whose keys, the first 32 bits of x, are equal are ordered by x. */
 typedef struct exact {
     double x;
     uint32_t index;

@@ -8,8 +8,9 @@
 
 typedef struct koksma__number_lines {
     char name[KOKSMA_MAX_SPEC + 16]; /* "pattern:PATH", for error messages */
-    /* the word of a first line "# word"; "soboljk" after Joe & Kuo's header "d s a m_i"; of LatNet Builder's output
-       "lattice", "plattice", "dnet", "soboljk" or "sobol"; else "" */
+    /* What the file says that it has: the first of these that applies. If its comments have a heading of LatNet
+       Builder: "lattice", "plattice", "dnet", "soboljk" or "sobol", by the heading. If its first line is "# word":
+       the word. If it begins with Joe & Kuo's header "d s a m_i": "soboljk". Otherwise "". */
     char kind[16];
     uint64_t base; /* the base that LatNet Builder's output has in its heading; 0 for other files */
     char *text, *at;

@@ -272,8 +272,10 @@ static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_go
     return round;
 }
 
-/* Finds the pattern that leads for the goal; NOBODY if none does. If several equal patterns lead, it is the one that
-   led after the fewest rounds and, among those, the one with the smallest mean error after that round. */
+/* Finds the leader: the pattern that is decided to be no worse than all others. For the goals that leave out patterns
+   with coherent errors, neither the leader nor those others have one. NOBODY if there is no leader. If several equal
+   patterns lead, it is the one that led after the fewest rounds and, among those, the one with the smallest mean error
+   after that round. */
 static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goal)
 {
     size_t leader = KOKSMA__RANK_NOBODY;

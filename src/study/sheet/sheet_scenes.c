@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Errors of the samplers in scenes, computed by koksma_rank_patterns at one size without a time limit, so that the
- * numbers depend only on the scene and the samplers.
+ * Errors of the samplers in scenes, computed by koksma_rank_patterns without a time limit and for one image size, so
+ * that the numbers do not depend on the speed of the machine.
  */
 #include "study/sheet/sheet_scenes.h"
 

@@ -16,8 +16,8 @@ typedef struct koksma__series {
     const char *metric; /* canonical spec of the metric of a series of kind "metric"; else "", or NULL in a lookup */
     const char *scene, *scene_hash, *options, *pattern, *what;
     long long n, dim, width, height;
-    /* revisions (made_by.h) of a series that was read; ignored when a series is looked up or added: this
-       program's are used */
+    /* The revisions of the code (made_by.h) that made the points or the image, and that measured them. Reading a
+       series sets them; looking one up or adding one ignores them and uses the revisions of this program. */
     const char *made_by, *measured_by;
     long long id; /* id of a series that was read; 0: unknown */
 } koksma__series;
