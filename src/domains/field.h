@@ -7,8 +7,9 @@
 #include "domains/domain.h"
 
 /* A small part of the domain: its centroid, its mass, which is the number of points that the density puts there, and
-   `square`: the squared width of a point there plus twice the variance of the part along an axis. The variance makes
-   sums over nodes come close to integrals. */
+   `square`: the squared width of a point there plus twice the variance of the part along an axis. With the variance
+   added, a Gaussian at the centroid is close to the mean of the Gaussian over the part, so that sums over nodes come
+   close to integrals. */
 typedef struct koksma__field_node {
     double x[3], mass, square;
 } koksma__field_node;

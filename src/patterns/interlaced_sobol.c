@@ -3,7 +3,7 @@
  * interlaced-sobol: a higher-order digital sequence. Each coordinate interlaces the binary digits of `order`
  * coordinates of the Sobol' sequence.
  *
- *     digit order (l - 1) + r of x_k is digit l of y_(order (k - 1) + r),   r = 1 .. order, y the Sobol' points
+ *     digit number d (l - 1) + r of x_k is digit l of y_(d (k - 1) + r),   d = order, r = 1 .. d, y the Sobol' points
  *
  * For integrands with square-integrable mixed derivatives up to `order` the error falls as n^-order in place of n^-1,
  * up to powers of log n: for exp in one dimension from 2^5 points on, for products in three dimensions from about

@@ -436,7 +436,7 @@ static koksma_status check_count(const koksma__number_lines *lines, const matric
 {
     uint64_t points = 1;
     for (int c = 0; c < m->columns && points < m->end; c++) {
-        points *= m->base; /* a number up to 2^51 times the base */
+        points *= m->base; /* no overflow: at most 2^51 times the base */
     }
     KOKSMA__FAIL_IF(points < m->end, KOKSMA_N, "%s: it has %llu points, not %llu", lines->name,
                     (unsigned long long)points, (unsigned long long)m->end);

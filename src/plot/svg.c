@@ -48,7 +48,7 @@ static void put(svg *s, const char *text)
     put_bytes(s, text, strlen(text));
 }
 
-/* Writes before="value", rounded to a hundredth, without zeros at the end. */
+/* Writes the text `before`, the value rounded to a hundredth without zeros at the end, and the text `after`. */
 static void put_number(svg *s, const char *before, double value, const char *after)
 {
     char text[48];

@@ -8,8 +8,10 @@
  *     top = max j - w y_j,   bottom = max w y_i - (i - 1),
  *     excess = max j - i + 1 - w (y_j - y_i) over i <= j,   deficit = max w (y_j - y_i) - (j - i - 1) over i < j.
  *
- * A set of strips with s left and s right sides has at most 2 s points that are not in runs, so a pass over its list
- * takes O(s), not O(n). The list of a subset of the strips is made from the list of the set.
+ * A set of strips is stored as a list in order of y: the points that are not in runs, and between two of them the
+ * summary of a run. A set with s left and s right sides has at most 2 s points that are not in runs, so a pass over its
+ * list takes O(s), not O(n). The list of a subset of the strips is made from the list of the whole set, not from all
+ * points.
  *
  * Each function is a maximum of lines, thus convex: the chord between its values at the narrowest and at the widest
  * strip is an upper bound, and only the chord is stored. Both the range of w and the number of runs are about 2 s, so

@@ -22,8 +22,9 @@
 
 static koksma_status fill_net(uint64_t seed, const koksma_run *run, int m, uint32_t *v, koksma_points *out)
 {
-    static const uint32_t partners[32] = {0}; /* partners of van der Corput's sequence, whose matrix is the identity
-                                                 */
+    /* The partner of a point is the earlier point in its stratum (shared/grow.h). The matrix of van der Corput's
+       sequence is the identity, which makes all partners 0: point 2^l + i joins point i. */
+    static const uint32_t partners[32] = {0};
     const koksma_status status = koksma__grow_column(seed, KOKSMA__PURPOSE_POINT, partners, run, out->n, v);
     for (size_t i = 0; i < out->n && !status; i++) {
         const uint32_t mirrored = m ? koksma_mirror((uint32_t)i) >> (32 - m) : 0;

@@ -52,8 +52,9 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
                                 koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
                                 size_t *n);
 
-/* koksma__plan_metrics reads the members "metric" and "metrics", after the images; koksma__plan_set_metrics lists the
-   metrics of all image blocks, after the questions (plan_metrics.c). */
+/* koksma__plan_metrics reads the members "metric" and "metrics" of the plan; call it when the image blocks have been
+   read. koksma__plan_set_metrics lists the metrics of all image blocks; call it when the questions have been read, too
+   (plan_metrics.c). */
 koksma_status koksma__plan_metrics(const koksma__json_node *root, koksma__plan *plan);
 koksma_status koksma__plan_set_metrics(const koksma__json_node *root, koksma__plan *plan);
 

@@ -106,7 +106,7 @@ static void say_predictors(koksma__document *d, const koksma__rho_means *s, cons
     }
 }
 
-/* Writes the measures that measure a is significantly better than. */
+/* Writes the names of the measures that are significantly worse than measure number `a`. */
 static void say_worse(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j, size_t a,
                       const char **before)
 {

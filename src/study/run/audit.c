@@ -2,9 +2,9 @@
 /*
  * The audit of a study: rows of the store are drawn at random, computed again from their keys, and compared bit for
  * bit. For the series whose results this program can compute again (audit_series.c says which), blocks of a plan are
- * made. The jobs run as those of a study do, on threads or MPI ranks, but their results go to a sink that compares
- * them instead of to the store. Rows are drawn without replacement, in the order of their ids, by selection sampling (Knuth, TAOCP 2,
- * 3.4.2, algorithm S).
+ * made. The jobs run as those of a study do, on threads or MPI ranks, but their results are
+ * compared and not stored. Rows are drawn without replacement, in the order of their ids, by selection sampling
+ * (Knuth, TAOCP 2, 3.4.2, algorithm S).
  *
  * If k of n drawn rows are wrong, the proportion of wrong rows in the store is below the Clopper & Pearson limit
  * with 95 % confidence: the p for which k or fewer wrong rows among n have the probability 5 % by the binomial

@@ -25,7 +25,8 @@ static const koksma_param params[] = {
     {"threshold", "largest standard error divided by (mean + floor); 0: no threshold, only a budget", 0, 0, 1e6, NULL,
      false},
     {"floor", "luminance below which errors count as absolute", 0.01, 1e-9, 1e9, NULL, false},
-    {"prior", "weight of the mean error of the image, in degrees of freedom", 1, 0, 1e6, NULL, false},
+    {"prior", "weight of the image's mean squared error in a pixel's estimate, in degrees of freedom", 1, 0, 1e6,
+     NULL, false},
     {0},
 };
 

@@ -202,8 +202,8 @@ static koksma_status add_bands(koksma_study *study, koksma__document *d, const s
     return status;
 }
 
-/* Writes whether the first pattern's error is in visible bands in the last column, and which is the best pattern
-   without bands. */
+/* Writes whether the error of the best pattern, at the largest number of samples, is in visible bands. If it is, names
+   the best pattern without bands. */
 static koksma_status say_bands(koksma_study *study, koksma__document *d, const subject *c, const standing *s)
 {
     koksma_status status = KOKSMA_OK;
