@@ -134,8 +134,10 @@ static koksma_status draw(const layout *a, double height, koksma_plot_format for
         y += a->lines[i].texts + a->lines[i].flexible;
     }
     const koksma_status closed = koksma__canvas_close(canvas, bytes, n);
-    if (status && !closed) {
+    if (status && !closed) { /* the caller may free *bytes after an error, too */
         free(*bytes);
+        *bytes = NULL;
+        *n = 0;
     }
     return status ? status : closed;
 }
