@@ -59,7 +59,8 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
     """A pattern's points, drawn a few at a time.
 
     pattern: a spec such as "sobol:scramble=owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
-    generate(p, n, d, s)), a numpy SeedSequence, Generator or RandomState, or None; rng is another name of it. optimization:
+    generate(p, n, d, s)), a numpy SeedSequence, Generator or RandomState, or None; rng is another name of it, and may also be
+    whatever numpy.random.default_rng takes. optimization:
     "random-cd" and "lloyd" are scipy's; any other is a measure such as "l2-centered" or "min-distance", for which each set is
     improved by `optimise` with keep="latin": along each axis the coordinates stay, so that Latin hypercubes stay Latin.
 
@@ -82,8 +83,11 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
                  rng: Any = None) -> None:
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names of one argument: give one of them")
+        if rng is not None and not isinstance(rng, (int, np.integer, np.random.Generator, np.random.RandomState)):
+            seed = np.random.default_rng(rng)  # as SPEC 7 has it: also a BitGenerator or several ints
+        elif isinstance(seed, np.random.SeedSequence):
+            seed = np.random.default_rng(seed)  # scipy takes none
         seed = rng if seed is None else seed
-        seed = np.random.default_rng(seed) if isinstance(seed, np.random.SeedSequence) else seed  # scipy takes none
         if optimization is not None:
             text(optimization, "optimization")
         scipys = optimization is None or optimization.lower() in _SCIPYS

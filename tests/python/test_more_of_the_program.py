@@ -250,7 +250,7 @@ class Images(unittest.TestCase):
                                      (lambda: koksma.study_images(os.path.join(folder, "x_{trial}.pfm"), reference), koksma.MissingError, "x_"),
                                      (lambda: koksma.study_images(places, reference, metric="q"), koksma.ArgumentError, r"koksma\.metrics"),
                                      (lambda: koksma.study_images("i_{trial.pfm", reference), koksma.ArgumentError, "i_"),
-                                     (lambda: koksma.study_images(3, reference), TypeError, "int")):
+                                     (lambda: koksma.study_images(3, reference), TypeError, "places must be a str")):
                 with self.subTest(said=said), self.assertRaisesRegex(kind, said):
                     call()
 
