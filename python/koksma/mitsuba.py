@@ -38,8 +38,8 @@ from ._rank import Asked, Ranking
 from ._rank import rank as _rank
 
 try:
-    import drjit
-    import mitsuba
+    import drjit  # type: ignore[import-not-found, import-untyped, unused-ignore]
+    import mitsuba  # type: ignore[import-not-found, import-untyped, unused-ignore]
 except ModuleNotFoundError:
     raise ImportError("koksma.mitsuba needs Mitsuba 3: pip install mitsuba") from None
 

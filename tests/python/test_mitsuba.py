@@ -115,7 +115,7 @@ class Samplers(unittest.TestCase):
         self.assertTrue((a != c).any())
 
     def test_refusals(self):
-        for wrong, reason in (({"pattern": "nothing"}, "nothing"), ({"sets": 0}, "sets 0")):
+        for wrong, reason in (({"pattern": "nothing"}, "nothing"), ({"sets": 0}, "sets must be 1 to")):
             with self.assertRaisesRegex(Exception, reason):
                 mi.load_dict({"type": "koksma", "sample_count": 4, **wrong})
 
