@@ -125,7 +125,7 @@ class Samplers(unittest.TestCase):
         scene["integrator"]["samples_per_pass"] = 4
         with self.assertRaises(RuntimeError) as caught:
             mi.render(mi.load_dict(scene), spp=16)
-        self.assertIn("several passes", str(caught.exception.__cause__.__cause__ or caught.exception.__cause__))
+        self.assertIn("samples_per_pass is not supported", str(caught.exception.__cause__.__cause__ or caught.exception.__cause__))
 
 
 class Rankings(unittest.TestCase):
