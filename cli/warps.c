@@ -23,14 +23,10 @@ const koksma_warp *cli_find_warp(const cli_arguments *arguments, const char *nam
 koksma_status cli_map_points(const koksma_warp *warp, koksma_points *points)
 {
     koksma_points mapped;
-    const koksma_status status = koksma_points_init(&mapped, points->n, warp->dim);
-    if (status) {
-        return status;
+    const koksma_status status = koksma_warp_points(warp, points, &mapped);
+    if (!status) {
+        koksma_points_fini(points);
+        *points = mapped;
     }
-    for (size_t i = 0; i < points->n; i++) {
-        warp->map(points->xs + i * (size_t)points->dim, mapped.xs + i * (size_t)warp->dim);
-    }
-    koksma_points_fini(points);
-    *points = mapped;
-    return KOKSMA_OK;
+    return status;
 }

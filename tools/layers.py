@@ -45,7 +45,7 @@ MAY_USE = {
     "study/plan": "core json patterns measures warps integrands image scene render api",
     "study/store": "core study/plan",
     "study/run": "core modules stats patterns measures warps integrands image scene render study/plan study/store api",
-    "study/ranking": "core stats image scene render study/plan study/run api",
+    "study/ranking": "core stats optimise patterns measures image scene render study/plan study/run api",
     "study/images": "core stats image study/plan study/run study/report",
     "study/report": "core stats patterns measures warps integrands image plot render study/plan study/store study/run "
                     "api",

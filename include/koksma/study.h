@@ -409,6 +409,70 @@ typedef struct koksma_ranking {
 KOKSMA_API koksma_status koksma_rank_patterns(const koksma_rank_options *options, const koksma_run *run,
                                               koksma_rank_row *rows, koksma_ranking *out);
 
+/* ---- A point set for a scene ------------------------------------------------------------------------------- */
+
+enum { KOKSMA_MAX_AGAINST = 64, KOKSMA_MAX_HELD_OUT = 16 };
+
+/* How a set of koksma_optimise_scene compares with the listed patterns in one scene. Errors are mean absolute errors
+   in luminance. The texts are those of the options, or of the library. */
+typedef struct koksma_scene_gain {
+    const char *scene;
+    int width, height;
+    double error;            /* error of the set */
+    const char *best_listed; /* the listed pattern with the least error */
+    double listed_error;
+    double gain, low, high; /* 1 - error / listed_error, and its 95 % interval */
+    long long trials;       /* number of images of the set */
+    bool settled;           /* true: it is decided which leaves the least error, the set or a listed pattern */
+    bool coherent;          /* true: the error of the set has bands or another pattern (koksma_coherence_values) */
+} koksma_scene_gain;
+
+/* The result of koksma_optimise_scene. */
+typedef struct koksma_scene_optimum {
+    koksma_points points; /* the set */
+    bool chosen;          /* false: the images have not yet chosen among the candidates; points are the first */
+    const char *measure;  /* the L2 discrepancy that the set was made for */
+    size_t phase;         /* number of its shift on the torus, from 0 */
+    size_t candidates, eliminated; /* number of candidates, shifts included; number that have a larger error */
+    double shares[3];              /* shares of a pixel's variance along x, along y, and of their interaction */
+    koksma_scene_gain gains[1 + KOKSMA_MAX_HELD_OUT]; /* gains[0] in the scene itself, then in the held-out scenes */
+    size_t n_gains;         /* number of gains that are known: fewer after an interruption */
+    double gain, low, high; /* means over the held-out scenes; NaN: there are none */
+} koksma_scene_optimum;
+
+/* Options of koksma_optimise_scene. */
+typedef struct koksma_scene_search {
+    const char *scene;    /* as for koksma_scene_open */
+    int spp;              /* number of points of the set, 1 to 4096: samples of a pixel */
+    int width, height;    /* size of the images; 0: that of the scene, halved until it has at most 1,200 pixels */
+    uint64_t seed;        /* below 2^32 */
+    size_t candidates;    /* number of candidate sets, at most 1000; 0: 8 */
+    size_t phases;        /* number of shifts of each candidate on the torus, at most 1000; 0: 4 */
+    long long max_trials; /* images of each candidate and pattern, 8 to KOKSMA_MAX_RANK_TRIALS; 0: 32 */
+    const char *const *held_out; /* other scenes, in which the set is tested (NULL: six of the library) */
+    size_t n_held_out;           /* at most KOKSMA_MAX_HELD_OUT */
+    const char *const
+        *against;     /* patterns to compare the set with, as koksma_render_patterns takes them (NULL: 17) */
+    size_t n_against; /* 1 to KOKSMA_MAX_AGAINST */
+    /* Called on the calling thread with the first candidate and with the chosen one. May be NULL; an error ends the
+       search. */
+    koksma_status (*found)(void *context, const koksma_scene_optimum *so_far);
+    void *context;
+} koksma_scene_search;
+
+/* Searches for a point set that gives the image of one scene a small error if every pixel uses it, and compares it
+   with other patterns, there and in scenes that took no part in the search. The candidates are sets of low L2
+   discrepancy and their shifts; the weights of the projections on x, on y and on the plane come from the scene.
+   Equal options give equal results on any number of threads. A time limit of run has no effect.
+     out  receives the result, which koksma_scene_optimum_fini frees, also after INTERRUPTED
+   Errors: ARGUMENT, UNKNOWN, MISSING, MALFORMED, MEMORY, INTERRUPTED (out then has what was found), and those of
+   options->found. */
+KOKSMA_API koksma_status koksma_optimise_scene(const koksma_scene_search *options, const koksma_run *run,
+                                               koksma_scene_optimum *out);
+
+/* Frees the points and zeroes the struct. best may be NULL, or zeroed. */
+KOKSMA_API void koksma_scene_optimum_fini(koksma_scene_optimum *best);
+
 #ifdef __cplusplus
 }
 #endif

@@ -36,6 +36,10 @@ typedef struct koksma_warp {
 KOKSMA_API const koksma_warp *koksma_warp_at(size_t i);
 KOKSMA_API const koksma_warp *koksma_warp_find(const char *name);
 
+/* Maps 2D points by a warp. Allocates out: as many points, of warp->dim coordinates, which koksma_points_fini frees.
+   Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, MEMORY. */
+KOKSMA_API koksma_status koksma_warp_points(const koksma_warp *warp, const koksma_points *points, koksma_points *out);
+
 /* Maps 2D points by a warp and evaluates a measure of the mapped points on the warp's domain. Accepted measures:
      edge          half-planes (disk and triangle)
      l2-edge       half-planes; on the uniform hemisphere, half-spaces through its centre (law=isotropic)

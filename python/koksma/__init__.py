@@ -19,15 +19,18 @@ from ._compare import Comparison, MetricValue, compare, metrics
 from ._datasheet import Datasheet, datasheet
 from ._display import load_ipython_extension, unload_ipython_extension
 from ._engine import Engine
+from ._images import ImageGroup, study_images
 from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
 from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError, allow_exec, refuse_unknown)
-from ._optimise import Optimum, optimise, radial_power
-from ._points import (Finding, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, measure, measures, modifiers,
-                      patterns, read, verify, warps, write)
+from ._optimise import Optimum, Record, optimise, radial_power, records
+from ._optimise_scene import SceneGain, SceneOptimum, optimise_scene
+from ._points import (Finding, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, local_discrepancy, measure, measures,
+                      modifiers, patterns, read, verify, warp_points, warps, write)
 from ._plot import Picture, plot, plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, rank
-from ._render import Layers, adaptive, filters, integrators, read_image, render, scenes, version, write_image
+from ._render import (Layers, SceneCheck, ScenePart, adaptive, check_scene, filters, integrators, read_image, render, scenes,
+                      version, write_image)
 from ._series import Convergence, Trials, convergence, trials
 from ._spectrum import PairCorrelation, Spectrum, pair_correlation, spectrum
 from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
@@ -35,12 +38,14 @@ from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
-    "ForbiddenError", "Integrand", "Integration", "Layers", "MalformedError", "Member", "MetricValue", "MissingError",
-    "Modifier", "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking",
-    "Sensitivity", "Share", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError",
-    "Value", "Witness", "adaptive", "allow_exec", "audit", "canonical", "compare", "convergence", "datasheet",
-    "filters", "generate", "has_ranges", "integrand", "integrands", "integrate", "integrators", "measure", "measures",
-    "metrics", "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare",
-    "plot_convergence", "radial_power", "rank", "read", "read_image", "refuse_unknown", "render", "scenes", "sensitivity", "spectrum", "trials",
-    "verify", "version", "warps", "write", "write_image",
+    "ForbiddenError", "ImageGroup", "Integrand", "Integration", "Layers", "MalformedError", "Member", "MetricValue",
+    "MissingError", "Modifier", "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked",
+    "Ranking", "Record", "SceneCheck", "SceneGain", "SceneOptimum", "ScenePart", "Sensitivity", "Share", "SizeCheck",
+    "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "adaptive",
+    "allow_exec", "audit", "canonical", "check_scene", "compare", "convergence", "datasheet", "filters", "generate",
+    "has_ranges", "integrand", "integrands", "integrate", "integrators", "local_discrepancy", "measure", "measures",
+    "metrics", "modifiers", "optimise", "optimise_scene", "pair_correlation", "patterns", "plans", "plot",
+    "plot_compare", "plot_convergence", "radial_power", "rank", "read", "read_image", "records", "refuse_unknown",
+    "render", "scenes", "sensitivity", "spectrum", "study_images", "trials", "verify", "version", "warp_points",
+    "warps", "write", "write_image",
 ]

@@ -70,7 +70,7 @@ class Comparison:
 def _metric(name: str) -> Tuple[s.MetricSpec, str]:
     """A metric by its text, and the canonical text."""
     spec, canonical = s.MetricSpec(), create_string_buffer(s.MAX_SPEC)
-    check(lab().koksma_metric_parse(text(name), byref(spec)))
+    check(lab().koksma_metric_parse(text(name, "metric"), byref(spec)))
     lab().koksma_metric_text(byref(spec), canonical)
     return spec, canonical.value.decode()
 
@@ -92,15 +92,21 @@ def metrics() -> List[Named]:
 
 
 def as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
-    given = np.asanyarray(image)
+    try:
+        given = np.asanyarray(image)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"an image must be an array of real numbers, not {image!r:.60}") from None
     if given.dtype.kind not in "buifO":
-        raise ArgumentError(f"pixels are real numbers, not {given.dtype}")
+        raise ArgumentError(f"pixels must be real numbers, not {given.dtype}")
     if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
-        raise ArgumentError("an image has no masked pixels")
-    array = np.require(given, np.float32, ["C", "A"])
+        raise ArgumentError("an image must not have masked pixels")
+    try:
+        array = np.require(given, np.float32, ["C", "A"])
+    except (TypeError, ValueError):
+        raise ArgumentError(f"pixels must be real numbers, not {given!r:.60}") from None
     array = array[:, :, np.newaxis] if array.ndim == 2 else array
     if array.ndim != 3 or 0 in array.shape or array.shape[2] not in (1, 3) or max(array.shape) > s.MAX_IMAGE_SIDE:
-        raise ArgumentError("an image is an array of shape (height, width), (height, width, 1) or (height, width, 3), "
+        raise ArgumentError("an image must be an array of shape (height, width), (height, width, 1) or (height, width, 3), "
                             f"not {given.shape}")
     return array
 
@@ -144,7 +150,12 @@ def compare(images: Union[npt.ArrayLike, Iterable[npt.ArrayLike]], reference: np
     if hasattr(images, "__array__"):
         several = [images] if np.ndim(several) < 4 else several
     elif isinstance(images, (list, tuple)):
-        several = [images] if images and np.ndim(images[0]) < 2 else images
+        try:
+            several = [images] if images and np.ndim(images[0]) < 2 else images
+        except ValueError:
+            several = [images]
+    elif not hasattr(images, "__iter__"):
+        raise TypeError(f"images must be an array, or several of them, not {images!r:.60}")
     target = as_image(reference)
     c_target, raw, error, values = view_image(target), s.Coherence(), s.ImageError(), s.CoherenceValues()
     errors: List[List[float]] = []

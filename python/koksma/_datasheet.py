@@ -9,7 +9,7 @@ from ctypes import byref, c_char_p, c_void_p
 from typing import Any, Callable, Dict, Optional, Sequence, SupportsIndex, Union
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, lab, text, texts
+from ._library import ArgumentError, call, check, flag, lab, text, texts
 from ._plot import _free
 
 
@@ -37,9 +37,9 @@ class Datasheet:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes a .html page, or the data as .json; whole or not at all."""
-        name = os.fspath(path)
+        name = os.fsdecode(text(path, "path"))
         if not name.endswith((".html", ".json")):
-            raise ArgumentError(f"{name}: a datasheet is saved as .html or .json")
+            raise ArgumentError(f"{name}: the name of a datasheet must end in .html or .json")
         data = (self.html if name.endswith(".html") else self._json).encode()
         check(lab().koksma_plot_write(text(name), data, len(data)))
 
@@ -92,14 +92,14 @@ def datasheet(sampler: Union[str, "os.PathLike[str]"], beside: Optional[Sequence
     >>> sheet.table("measures")[0]["best of the others"]
     'jittered'
     """
-    options = s.DatasheetOptions(sampler=text(os.fspath(sampler)), metric=text(metric), quick=quick)
+    options = s.DatasheetOptions(sampler=text(sampler, "sampler"), metric=text(metric, "metric"), quick=flag("quick", quick))
     if beside is not None:
         beside = texts("beside", beside)
-        options.beside = (c_char_p * max(len(beside), 1))(*[text(name) for name in beside])
+        options.beside = (c_char_p * max(len(beside), 1))(*[text(name, "beside") for name in beside])
         options.n_beside = len(beside)
     if scenes is not None:
         scenes = texts("scenes", scenes)
-        options.scenes = (c_char_p * max(len(scenes), 1))(*[text(name) for name in scenes])
+        options.scenes = (c_char_p * max(len(scenes), 1))(*[text(name, "scenes") for name in scenes])
         options.n_scenes = len(scenes)
     found = c_void_p()
     call(lab().koksma_datasheet, byref(options), byref(found), threads=threads, run_at=1, progress=progress)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, OutOfMemoryError, spec, whole
+from ._library import ArgumentError, OutOfMemoryError, spec, text, whole
 from ._optimise import optimise
 from ._points import PointArray, generate, has_ranges, is_sequence, measures
 
@@ -28,7 +28,7 @@ except ImportError:
             if not np.issubdtype(type(d), np.integer) or d < 0:
                 raise ValueError("d must be a non-negative integer value")
             if optimization is not None:
-                raise ValueError("optimization takes scipy, which is not installed")
+                raise ValueError("optimization needs scipy, which is not installed")
             self.d, self.rng_seed, self.num_generated, self.optimization_method = d, copy.deepcopy(seed), 0, None
             self.rng = seed if isinstance(seed, np.random.RandomState) else np.random.default_rng(seed)
 
@@ -59,7 +59,8 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
     """A pattern's points, drawn a few at a time.
 
     pattern: a spec such as "sobol:scramble=owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
-    generate(p, n, d, s)), a numpy SeedSequence, Generator or RandomState, or None; rng is another name of it. optimization:
+    generate(p, n, d, s)), a numpy SeedSequence, Generator or RandomState, or None; rng is another name of it, and may also be
+    whatever numpy.random.default_rng takes. optimization:
     "random-cd" and "lloyd" are scipy's; any other is a measure such as "l2-centered" or "min-distance", for which each set is
     improved by `optimise` with keep="latin": along each axis the coordinates stay, so that Latin hypercubes stay Latin.
 
@@ -81,19 +82,24 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
     def __init__(self, pattern: str, d: SupportsIndex = 2, *, optimization: Optional[str] = None, seed: Any = None,
                  rng: Any = None) -> None:
         if seed is not None and rng is not None:
-            raise TypeError("seed and rng are two names of one argument: it takes one of them")
+            raise TypeError("seed and rng are two names of one argument: give one of them")
+        if rng is not None and not isinstance(rng, (int, np.integer, np.random.Generator, np.random.RandomState)):
+            seed = np.random.default_rng(rng)  # as SPEC 7 has it: also a BitGenerator or several ints
+        elif isinstance(seed, np.random.SeedSequence):
+            seed = np.random.default_rng(seed)  # scipy takes none
         seed = rng if seed is None else seed
-        seed = np.random.default_rng(seed) if isinstance(seed, np.random.SeedSequence) else seed  # scipy takes none
+        if optimization is not None:
+            text(optimization, "optimization")
         scipys = optimization is None or optimization.lower() in _SCIPYS
         super().__init__(d=d, optimization=optimization if scipys else None, seed=seed)
         self.d: int = int(d)
         if not scipys:
             self._measure: str = str(optimization)
             if self._measure.partition(":")[0] not in {m.name for m in measures()}:
-                raise ArgumentError(f"{optimization!r} is not a valid optimization method: it takes a measure, "
-                                    f"{' or '.join(_SCIPYS)}")
+                raise ArgumentError(f"{optimization!r} is not a valid optimization method: give {', '.join(_SCIPYS)} or a measure "
+                                    "(koksma.measures() names them)")
             if spec("measure", self._measure).measure.contents.answer != 0:
-                raise ArgumentError(f"optimization {optimization!r}: it takes a measure with exact values, such as star or l2-star")
+                raise ArgumentError(f"optimization {optimization!r}: the measure must have exact values, as star and l2-star have")
             self.optimization_method: Any = self._optimised
         self._init_quad: Dict[str, Any] = {"pattern": pattern, "d": d, "optimization": optimization}  # for qmc_quad
         self.pattern = pattern
@@ -113,17 +119,18 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
         """The next n points, or another set of n. workers: threads to use, -1 for all."""
         workers = whole("workers", workers, -1, s.MAX_INT)
         if workers == 0:
-            raise ArgumentError("workers 0: it takes a number of threads, or -1 for all")
+            raise ArgumentError("workers must be a number of threads, or -1 for all, not 0")
         self._threads = 0 if workers == -1 else int(workers)
         drawn: PointArray = super().random(whole("n", n, 0, s.MAX_COORDINATES), workers=workers)
         return drawn
 
     def random_base2(self, m: SupportsIndex) -> PointArray:
         """The next 2^m points; of a sequence only where all drawn are then a power of two, as scipy's Sobol asks."""
-        n = 1 << whole("m", m, 0, 28)
+        m = whole("m", m, 0, 28)
+        n = 1 << m
         total = self.num_generated + n
         if self._sequence and total & (total - 1):
-            raise ValueError(f"with 2^{m} more there are {total} points, not a power of two; reset() begins again")
+            raise ValueError(f"with 2^{m} more there would be {total} points, not a power of two; reset() begins again")
         return self.random(n)
 
     def __repr__(self) -> str:
@@ -200,5 +207,5 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
 
     def fast_forward(self, n: SupportsIndex) -> "Engine":
         """As if n points had been drawn; of a pattern with ranges nothing is generated before the next draw."""
-        self.num_generated += whole("fast_forward", n, 0, _FAR)
+        self.num_generated += whole("n", n, 0, _FAR)
         return self

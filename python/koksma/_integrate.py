@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, spec, text, whole
+from ._library import ArgumentError, call, check, core, real, several, spec, text, whole
 from ._points import Member, PointArray, canonical, generate, table
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
@@ -124,7 +124,9 @@ def _opened(function: Function, dim: int, raised: List[BaseException]) -> Iterat
     """A koksma_integral. What a function of the caller raises is kept, since no exception passes through C."""
     handle, one = c_void_p(), None
     if isinstance(function, str):
-        check(core().koksma_integral_open(text(function), dim, byref(handle)))
+        check(core().koksma_integral_open(text(function, "function"), dim, byref(handle)))
+    elif not callable(function):
+        raise TypeError(f"function must be a str or callable, not {function!r:.60}")
     else:
         def at(x: Any, _dim: int, _context: object) -> float:
             try:
@@ -173,6 +175,8 @@ def integrand(name: str, dim: SupportsIndex = 2) -> Integrand:
     >>> known.lowest < known.value < known.highest
     True
     """
+    if not isinstance(name, str):
+        raise TypeError(f"name must be a str, not {name!r:.60}")
     with _opened(name, whole("dim", dim, 1, s.MAX_DIM), []) as handle:
         return _facts(handle)
 
@@ -187,16 +191,15 @@ def _estimates(function: Callable[[PointArray], npt.ArrayLike], pattern: str, si
         for i, n in enumerate(sizes):
             values = np.asarray(function(generate(pattern, n, dim, seed + t, threads=threads)), dtype=np.float64)
             if values.shape != (n,):
-                raise ArgumentError(f"{_name_of(function)}: of points of shape ({n}, {dim}) it gives the shape {values.shape}, "
+                raise ArgumentError(f"{_name_of(function)}: for points of shape ({n}, {dim}) it returned the shape {values.shape}, "
                                     f"not ({n},)")
             estimates[t, i] = math.fsum(values) / n
     return estimates
 
 
-def _each(numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> Sequence[SupportsIndex]:
+def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> Sequence[SupportsIndex]:
     """One number or several, as several."""
-    several: Any = numbers
-    return several if np.ndim(several) else [several]
+    return [numbers] if hasattr(numbers, "__index__") and not np.ndim(numbers) else several(name, numbers)  # type: ignore[arg-type]
 
 
 def integrate(function: Function, pattern: str, n: Union[SupportsIndex, Sequence[SupportsIndex]],
@@ -231,11 +234,11 @@ def integrate(function: Function, pattern: str, n: Union[SupportsIndex, Sequence
     >>> found.slope < -1  # of random points -1/2
     True
     """
-    sizes = [whole("n", k, 1, s.MAX_COORDINATES) for k in _each(n)]
+    sizes = [whole("n", k, 1, s.MAX_COORDINATES) for k in _each("n", n)]
     dim, trials = whole("dim", dim, 1, s.MAX_DIM), whole("trials", trials, 1, 1000000)
     seed = whole("seed", seed, 0, s.MAX_SEED - trials)
     if not 1 <= len(sizes) <= s.MAX_SIZES:
-        raise ArgumentError(f"n: it takes 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")
+        raise ArgumentError(f"n must be 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")
     options = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials)
     result, parsed = s.Integration(), spec("pattern", pattern)
     if isinstance(function, str):
@@ -244,10 +247,12 @@ def integrate(function: Function, pattern: str, n: Union[SupportsIndex, Sequence
             call(core().koksma_integration_errors, handle, byref(parsed), byref(options), byref(result), threads=threads,
                  run_at=3)
         name, integral, variance = facts.spec, facts.value, facts.variance
+    elif not callable(function):
+        raise TypeError(f"function must be a str or callable, not {function!r:.60}")
     else:
         estimates = _estimates(function, pattern, sizes, dim, trials, seed, threads)
         options.trials, name = len(estimates), _name_of(function)
-        check(core().koksma_integration_summary(integral, variance, byref(options),
+        check(core().koksma_integration_summary(real("integral", integral, nan_too=True), real("variance", variance, nan_too=True), byref(options),
                                                 estimates.ctypes.data_as(POINTER(c_double)), byref(result)))
     rows = result.rows[:len(sizes)]
     columns = {key: np.array([getattr(row, key) for row in rows]) for key in ("rmse", "low", "high", "mean", "sd", "gain")}
@@ -285,7 +290,7 @@ def sensitivity(function: Function, axes: Union[SupportsIndex, Sequence[Supports
     True
     """
     dim = whole("dim", dim, 1, s.MAX_DIM)
-    chosen: Tuple[int, ...] = tuple(whole("axes", a, 0, dim - 1) for a in _each(axes))
+    chosen: Tuple[int, ...] = tuple(whole("axes", a, 0, dim - 1) for a in _each("axes", axes))
     result = s.Sensitivity()
     raised: List[BaseException] = []
     with _opened(function, dim, raised) as handle:

@@ -8,10 +8,11 @@ import re
 from contextlib import contextmanager
 from ctypes import POINTER, addressof, byref, c_bool, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache
+from math import inf
 from operator import index
 from pathlib import Path
 from time import perf_counter
-from typing import Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Set, SupportsIndex, Tuple
+from typing import Any, Callable, Dict, Hashable, Iterable, Iterator, List, Optional, Sequence, Set, SupportsIndex, Tuple
 
 from . import _structs as s
 from ._signals import Signals
@@ -129,6 +130,9 @@ def core() -> ctypes.CDLL:
     _declare(library, c_void_p, "koksma_warp_find", c_char_p)
     _declare(library, POINTER(s.Named), "koksma_warp_at", c_size_t)
     _declare(library, c_int, "koksma_warp_evaluate", c_void_p, spec, points, run, POINTER(s.Value))
+    _declare(library, c_int, "koksma_warp_points", c_void_p, points, points)
+    _declare(library, c_int, "koksma_local_discrepancy", points, POINTER(c_double), POINTER(c_double))
+    _declare(library, POINTER(s.Record), "koksma_record_at", c_size_t)
     _declare(library, c_int, "koksma_verify", points, run, POINTER(s.Findings))
     _declare(library, None, "koksma_findings_fini", POINTER(s.Findings))
     _declare(library, c_int, "koksma_optimise", spec, POINTER(s.OptimiseOptions), run, POINTER(s.Optimum))
@@ -188,6 +192,14 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_datasheet_page", c_char_p, POINTER(c_void_p))
     _declare(library, c_int, "koksma_rank_patterns", POINTER(s.RankOptions), POINTER(s.Run), POINTER(s.RankRow),
              POINTER(s.Ranking))
+    _declare(library, c_int, "koksma_optimise_scene", POINTER(s.SceneSearch), POINTER(s.Run), POINTER(s.SceneOptimum))
+    _declare(library, None, "koksma_scene_optimum_fini", POINTER(s.SceneOptimum))
+    _declare(library, s.SceneCounts, "koksma_scene_count", c_void_p)
+    _declare(library, c_bool, "koksma_scene_part_at", c_void_p, c_size_t, POINTER(s.ScenePart))
+    for name in ("warning", "unknown"):
+        _declare(library, c_bool, f"koksma_scene_{name}", c_void_p, c_size_t, c_char_p, c_size_t)
+    _declare(library, c_int, "koksma_study_images", c_char_p, c_char_p, POINTER(s.MetricSpec), c_char_p, POINTER(s.Run),
+             POINTER(POINTER(s.ImagesRow)), POINTER(c_size_t))
     _declare(library, c_char_p, "koksma_plan_name_at", c_size_t)
     _declare(library, c_int, "koksma_study_open", POINTER(s.StudyOptions), POINTER(c_void_p))
     _declare(library, c_int, "koksma_study_close", c_void_p)
@@ -238,9 +250,9 @@ def allow_exec(seconds: float = 60.0) -> Iterator[None]:
     >>> with koksma.allow_exec():  # doctest: +SKIP
     ...     ranking = koksma.rank("ball", ["exec:./mysampler", "sobol"])
     """
-    if not seconds > 0:
-        raise ArgumentError(f"seconds {seconds}: it takes a number above 0")
-    before = core().koksma_allow_exec(seconds)
+    if seconds is None:
+        raise TypeError("seconds must be a number, not None")
+    before = core().koksma_allow_exec(seconds_of("seconds", seconds))
     try:
         yield
     finally:
@@ -270,7 +282,7 @@ _OF_PYTHON = (  # what the library says of the program and of C, as this package
     (r"'koksma list (\w+)'", r"koksma.\1()"),
     (r"--allow-exec allows that \(koksma_allow_exec in C, koksma.allow_exec in Python\)", "koksma.allow_exec() allows that"),
     (r"^koksma_\w+: ", ""),
-    (r"^n_beside: ", "beside: "),
+    (r"^n_(beside|against|held_out)\b", r"\1"),
     (r"^([a-z].*): the number of points is missing$", r"\1: n, the number of points, is missing"),
 )
 
@@ -307,8 +319,9 @@ def call(function: Callable[..., int], *arguments: object, threads: SupportsInde
     stops it, and comes out: KeyboardInterrupt after Ctrl-C. A short call is over before anybody could want to stop it, and
     does without what that costs: Python runs handlers when it has returned. same: calls with equal ones take about the same
     time, so that one is short if another was."""
-    if time_limit is not None and not time_limit > 0:
-        raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
+    time_limit = seconds_of("time_limit", time_limit)
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be callable, not {progress!r:.60}")
     threads = whole("threads", threads, 0, s.MAX_INT)
     if (short or same in quick) and time_limit is None and progress is None:
         check(function(*arguments[:run_at], byref(s.Run(threads)), *arguments[run_at:]))
@@ -356,17 +369,41 @@ def kept_spec(kind: str, name: str) -> Optional[s.Spec]:
 
 def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     """A whole number within its range, so that it is itself in C: ctypes takes any, modulo 2^32 or 2^64."""
-    number = index(value)
+    try:
+        number = index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be an int, not {value!r:.60}") from None
     if not low <= number <= high:
-        raise ArgumentError(f"{name} {number}: it takes {low} to {high}")
+        raise ArgumentError(f"{name} must be {low} to {high}, not {number}")
     return number
+
+
+def seconds_of(name: str, value: Any) -> Optional[float]:
+    """A limit of time, or None."""
+    if value is None:
+        return None
+    if not real(name, value, 0) > 0:
+        raise ArgumentError(f"{name} must be more than 0 seconds, not {value!r}")
+    return float(value)
+
+
+def several(name: str, values: Any) -> List[Any]:
+    """The items of a sequence."""
+    try:
+        return list(values)
+    except TypeError:
+        raise TypeError(f"{name} must be a sequence, not {values!r:.60}") from None
 
 
 def texts(name: str, values: Iterable[str]) -> List[str]:
     """Several texts. One alone would pass as the list of its letters."""
     if isinstance(values, str):
-        raise ArgumentError(f"{name} {values!r}: it takes a list of texts")
-    return list(values)
+        raise ArgumentError(f"{name} must be a list of texts, not {values!r}")
+    found = several(name, values)
+    for value in found:
+        if not isinstance(value, (str, bytes, os.PathLike)):
+            raise TypeError(f"{name} must be a list of texts, not {values!r:.60}")
+    return found
 
 
 def pair(name: str, values: Tuple[SupportsIndex, SupportsIndex]) -> Tuple[SupportsIndex, SupportsIndex]:
@@ -374,21 +411,51 @@ def pair(name: str, values: Tuple[SupportsIndex, SupportsIndex]) -> Tuple[Suppor
     try:
         width, height = values
     except (TypeError, ValueError):
-        raise ArgumentError(f"{name} {values!r}: it takes (width, height)") from None
+        raise ArgumentError(f"{name} must be (width, height), not {values!r}") from None
     return width, height
 
 
-def text(value: str) -> bytes:
-    """A name or path as the library takes it."""
+def real(name: str, value: Any, least: float = -inf, most: float = inf, nan_too: bool = False) -> float:
+    """A number from `least` to `most`; NaN only where that means that it is not known."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"{name} must be a number, not {value!r}") from None
+    if not (least <= number <= most or (nan_too and number != number)):
+        bounds = f"at least {least:g}" if most == inf else f"{least:g} to {most:g}"
+        raise ArgumentError(f"{name} must be {bounds}, not {value!r}")
+    return number
+
+
+def text(value: Any, name: str = "a name or path") -> bytes:
+    """A name or path as the library takes it. name: of the argument, for messages."""
     if not isinstance(value, (str, bytes, os.PathLike)):
-        raise TypeError(f"a name or path is a text, not {value!r}")
-    return without_zero("a name or path", os.fsencode(value))
+        raise TypeError(f"{name} must be a str, not {value!r}")
+    try:
+        return without_zero(name, os.fsencode(value))
+    except UnicodeEncodeError:
+        raise ArgumentError(f"{name} must be a text that can be encoded, not {value!r}") from None
+
+
+def choice(name: str, value: Any, values: Sequence[str]) -> int:
+    """The place of an argument among the words that it may be."""
+    if not isinstance(value, str) or value not in values:
+        raise ArgumentError(f"{name} must be one of {', '.join(values)}, not {value!r:.60}")
+    return values.index(value)
+
+
+def flag(name: str, value: Any) -> bool:
+    """Whether an argument is true; arrays of several numbers are neither."""
+    try:
+        return bool(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be True or False, not {value!r}") from None
 
 
 def without_zero(what: str, raw: bytes) -> bytes:
     """A text that C, where a zero ends it, sees whole."""
     if b"\0" in raw:
-        raise ArgumentError(f"{what} can't hold a zero character")
+        raise ArgumentError(f"{what} must not contain a zero character")
     return raw
 
 
@@ -398,7 +465,7 @@ def spec(kind: str, name: str) -> s.Spec:
     if kept is not None:
         return kept
     result = s.Spec()
-    check(getattr(core(), f"koksma_{kind}_spec")(text(name), byref(result)))
+    check(getattr(core(), f"koksma_{kind}_spec")(text(name, kind), byref(result)))
     if type(name) is str and not (kind == "pattern" and result.pattern.contents.operand):
         if len(_SPECS) > 512:
             _SPECS.clear()

@@ -17,8 +17,8 @@ def axes(given: Any) -> Any:
     try:
         from matplotlib import pyplot  # type: ignore[import-not-found, unused-ignore]
     except ModuleNotFoundError:
-        raise UnsupportedError("axes of its own take matplotlib: pip install matplotlib; `plot_compare` and the other functions "
-                               "of koksma draw without it") from None
+        raise UnsupportedError("drawing on new axes needs matplotlib (pip install matplotlib); koksma.plot, plot_compare and "
+                               "plot_convergence draw without it") from None
     return pyplot.subplots()[1]
 
 

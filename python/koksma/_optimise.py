@@ -12,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, core, spec, whole
-from ._points import PointArray, as_points, shown, view
+from ._library import ArgumentError, call, choice, core, spec, text, whole
+from ._points import PointArray, as_points, numbers, shown, view
 
 _KEEP = ("none", "latin", "net", "sequence")
 
@@ -34,6 +34,45 @@ class Optimum:
         from ._plot import plot
 
         return plot(self.points).svg
+
+
+@dataclass(frozen=True)
+class Record:
+    """The best known set of n points by a measure, which the pattern "record" has. published: the best published value, from
+    `source`; None: none is known. optimise(measure, n, dim, seed=seed, steps=steps) makes the set; seed and steps None: no call
+    does."""
+
+    measure: str
+    n: int
+    dim: int
+    value: float
+    published: Optional[float]
+    source: str
+    seed: Optional[int]
+    steps: Optional[int]
+
+
+def records() -> List[Record]:
+    """The best known sets, sorted by measure and n.
+
+    Returns
+    -------
+    list of Record
+
+    Examples
+    --------
+    >>> import koksma
+    >>> best = next(r for r in koksma.records() if (r.measure, r.n, r.dim) == ("star", 8, 2))
+    >>> abs(best.value - koksma.measure(koksma.generate("record", 8), "star").value) < 1e-12
+    True
+    """
+    found: List[Record] = []
+    at = core().koksma_record_at
+    while at(len(found)):
+        r = at(len(found)).contents
+        found.append(Record(r.measure.decode(), r.n, r.dim, r.value, r.published or None, r.source.decode(),
+                            r.seed if r.steps else None, r.steps or None))
+    return found
 
 
 def _optimum(best: s.Optimum) -> Optimum:
@@ -71,14 +110,14 @@ def radial_power(target: str, n: SupportsIndex, rings: Optional[SupportsIndex] =
     n = whole("n", n, 1, s.MAX_COORDINATES // 2)
     rings = min(ceil(2 * sqrt(n)), s.MAX_HALF) if rings is None else whole("rings", rings, 1, s.MAX_HALF)
     power = np.empty(rings)
-    call(core().koksma_radial_power, target.encode(), n, rings, power.ctypes.data_as(ctypes.POINTER(c_double)),
+    call(core().koksma_radial_power, text(target, "target"), n, rings, power.ctypes.data_as(ctypes.POINTER(c_double)),
          threads=threads, run_at=3)
     return power
 
 
 def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, *,
              start: Optional[npt.ArrayLike] = None, keep: str = "none",
-             projections: Sequence[Sequence[SupportsIndex]] = (),
+             projections: Union[str, Sequence[Sequence[SupportsIndex]]] = (),
              weights: Optional[Sequence[float]] = None, power: Union[str, npt.ArrayLike, None] = None,
              seed: SupportsIndex = 0, steps: SupportsIndex = 0, time_limit: Optional[float] = None, threads: SupportsIndex = 0,
              progress: Optional[Callable[[Optimum], object]] = None) -> Optimum:
@@ -95,11 +134,11 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
         "latin" changes only which coordinates go together; "net" leaves each in its interval of length 1/n; "sequence"
         changes the generator matrices of a digital sequence in base 2, and the value is the geometric mean of the measure over
         its first 2, 4, .., n points.
-    projections : sequence of sequences of int
-        The coordinates in which points are measured, as [(0, 1), (0, 2)]; empty: all together. The value is the root of the
-        mean of the squares.
+    projections : sequence of sequences of int, or "pairs"
+        The coordinates in which points are measured, as [(0, 1), (0, 2)]; "pairs": every two; empty: all together. The value
+        is the root of the mean of the squares.
     weights : sequence of float, optional
-        Of that mean, one of each projection.
+        The weights of the projections in that mean, one for each.
     power : str or array_like, optional
         With measure None, a target for the mean power at the frequencies 1, 2, .. in the plane, or what radial_power takes,
         such as "step"; the value is the root mean square difference, in which ring r counts r times.
@@ -125,8 +164,9 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     >>> koksma.optimise(None, 16, power="step", steps=1).value < 1e-3
     True
     """
-    if keep not in _KEEP:
-        raise ArgumentError(f"keep {keep!r}: it takes 'none', 'latin', 'net' or 'sequence'")
+    kept = choice("keep", keep, _KEEP)
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be callable, not {progress!r:.60}")
     first = None if start is None else as_points(start)
     if n is not None:
         n = whole("n", n, 1, s.MAX_COORDINATES)
@@ -137,14 +177,23 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     dim = whole("dim", dim, 1, s.MAX_DIM) if first is None else first.shape[1]
     steps = whole("steps", steps, 0, s.MAX_SEED)
     if not steps and time_limit is None and progress is None:
-        raise ArgumentError("the search has no end: it takes steps, time_limit or progress")
-    if weights is not None and len(weights) != len(projections):
-        raise ArgumentError(f"{len(weights)} weights: it takes one of each of {len(projections)} projections")
+        raise ArgumentError("the search would never end: give steps, time_limit or progress")
+    if isinstance(projections, str):
+        if projections != "pairs":
+            raise ArgumentError(f"projections must be groups of coordinates, such as [(0, 1), (0, 2)], or 'pairs', not {projections!r}")
+        projections = [(k, j) for k in range(min(dim, 64)) for j in range(k)]
+    try:
+        groups = [{whole("projections", k, 0, 63) for k in u} for u in projections]
+    except TypeError:
+        raise TypeError(f"projections must be groups of coordinates, such as [(0, 1), (0, 2)], not {projections!r:.60}") from None
+    heavy = None if weights is None else numbers("weights", weights)
+    if heavy is not None and heavy.shape != (len(groups),):
+        raise ArgumentError(f"weights must be one for each of the {len(groups)} projections, not the shape {heavy.shape}")
     if (measure is None) == (power is None):
-        raise ArgumentError("it takes a measure or a target power, and not both")
-    target = radial_power(power, n, threads=threads) if isinstance(power, str) else None if power is None else np.array(power, float)
+        raise ArgumentError("give a measure or a target power, not both")
+    target = radial_power(power, n, threads=threads) if isinstance(power, str) else None if power is None else numbers("power", power)
     if target is not None and target.ndim != 1:
-        raise ArgumentError(f"power has the shape {target.shape}: it takes a number for each of the frequencies 1, 2, ..")
+        raise ArgumentError(f"power must have a number for each of the frequencies 1, 2, .., not the shape {target.shape}")
     raised: List[BaseException] = []
 
     def tell(_context: object, best: Any) -> bool:
@@ -154,12 +203,12 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
             raised.append(error)
             return False
 
-    bits = [sum(1 << k for k in {whole("projections", k, 0, 63) for k in u}) for u in projections]
+    bits = [sum(1 << k for k in u) for u in groups]
     parsed, best = None if measure is None else byref(spec("measure", measure)), s.Optimum()
     c_first = None if first is None else ctypes.pointer(view(first))
-    options = s.OptimiseOptions(n, dim, c_first, _KEEP.index(keep), whole("seed", seed, 0, s.MAX_SEED), steps,
+    options = s.OptimiseOptions(n, dim, c_first, kept, whole("seed", seed, 0, s.MAX_SEED), steps,
                                 s.OptimiseProgress(tell), None, (c_uint64 * len(bits))(*bits),
-                                None if weights is None else (c_double * len(weights))(*weights), len(bits), None,
+                                None if heavy is None else (c_double * len(heavy))(*heavy), len(bits), None,
                                 None if target is None else (c_double * target.size)(*target),
                                 0 if target is None else target.size)
     try:

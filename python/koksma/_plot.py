@@ -12,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, check, core, lab, spec, text, whole, without_zero
-from ._points import as_points, generate, view
+from ._library import ArgumentError, check, choice, core, flag, lab, real, spec, text, texts, whole
+from ._points import as_points, find_warp, generate, view
 from ._series import Convergence, convergence
 from ._spectrum import spectrum
 
@@ -30,10 +30,8 @@ class Picture:
 
     def bytes(self, format: str = "svg") -> bytes:
         """The file of a format: "svg", "pdf" or "png". Equal pictures have equal bytes."""
-        if format not in _FORMATS:
-            raise ArgumentError(f"format '{format}': it takes {', '.join(_FORMATS)}")
         data, size = POINTER(c_ubyte)(), c_size_t()
-        check(self._draw(_FORMATS.index(format), byref(data), byref(size)))
+        check(self._draw(choice("format", format, _FORMATS), byref(data), byref(size)))
         try:
             return ctypes.string_at(data, size.value)
         finally:
@@ -47,7 +45,7 @@ class Picture:
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes a .svg, .pdf or .png file, whole or not at all."""
         format = c_int()
-        name = text(os.fspath(path))
+        name = text(path, "path")
         check(lab().koksma_plot_format_of(name, byref(format)))
         data = self.bytes(_FORMATS[format.value])
         check(lab().koksma_plot_write(name, data, len(data)))
@@ -59,17 +57,15 @@ class Picture:
 def _figure(rows: "Sequence[Sequence[Union[s.Panel, s.Chart]]]", title: Optional[str], width: float, theme: str,
             kept: Any) -> Picture:
     """A figure of rows of cells; what they point to lives as long as the picture."""
-    if theme not in ("light", "dark"):
-        raise ArgumentError(f"theme '{theme}': it takes light or dark")
-    if width and not 16 <= width <= 32767:
-        raise ArgumentError(f"size {width}: it takes 16 to 32767; 0: as the picture needs")
+    if real("size", width) and not 16 <= width <= 32767:
+        raise ArgumentError(f"size must be 16 to 32767, or 0 for the size that the picture needs, not {width}")
     flat = [(cell, row) for row, cells in enumerate(rows) for cell in cells]
     cells = (s.Cell * len(flat))()
     for i, (cell, row) in enumerate(flat):
         setattr(cells[i], "chart" if isinstance(cell, s.Chart) else "panel", ctypes.pointer(cell))
         cells[i].row = row
-    figure = s.Figure(without_zero("title", title.encode()) if title is not None else None, cells, len(flat), width, 0, True,
-                      theme == "dark")
+    figure = s.Figure(text(title, "title") if title is not None else None, cells, len(flat), width, 0, True,
+                      choice("theme", theme, ("light", "dark")) == 1)
 
     def draw(format: int, data: Any, n: Any, _kept: Any = (cells, kept)) -> int:
         return int(lab().koksma_plot_figure(byref(figure), format, data, n))
@@ -79,7 +75,8 @@ def _figure(rows: "Sequence[Sequence[Union[s.Panel, s.Chart]]]", title: Optional
 
 def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsIndex = 0, rows: SupportsIndex = 0,
          captions: Optional[Sequence[str]] = None, size: float = 0, local_discrepancy: bool = False,
-         title: Optional[str] = None, titles: Optional[Sequence[str]] = None, theme: str = "light") -> Picture:
+         title: Optional[str] = None, titles: Optional[Sequence[str]] = None, theme: str = "light",
+         warp: Optional[str] = None) -> Picture:
     """Draws sets of points side by side: points of the plane, or the projections on all pairs of their first 8 axes.
 
     Parameters
@@ -99,6 +96,8 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
     title : str, optional
         The heading of the picture.
     theme : {"light", "dark"}
+    warp : str, optional
+        Draws points and guide lines mapped by it; warps() has them all.
 
     Returns
     -------
@@ -111,10 +110,11 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
     >>> picture.save("points.svg")
     """
     if not 1 <= len(sets) <= 64:
-        raise ArgumentError(f"{len(sets)} sets: it takes 1 to 64")
+        raise ArgumentError(f"{len(sets)} sets: give 1 to 64")
     for name, lines in (("captions", captions), ("titles", titles)):
-        if lines is not None and len(lines) != len(sets):
-            raise ArgumentError(f"{len(lines)} {name} for {len(sets)} sets")
+        if lines is not None and len(texts(name, lines)) != len(sets):
+            raise ArgumentError(f"{len(lines)} {name} for {len(sets)} sets: give one for each")
+    mapped = None if warp is None else find_warp(warp)
     arrays = [as_points(points) for points in sets]
     panels = [s.Panel() for _ in arrays]
     kept: List[Any] = []
@@ -123,20 +123,22 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
         panel.points = ctypes.pointer(c_points)
         panel.scatter.columns = whole("columns", columns, 0, 65536)
         panel.scatter.rows = whole("rows", rows, 0, 65536)
-        panel.scatter.local_discrepancy = local_discrepancy
+        panel.scatter.local_discrepancy = flag("local_discrepancy", local_discrepancy)
+        panel.scatter.warp = mapped
         caption = captions[i] if captions is not None else ""
         if witness is not None:
+            text(witness, "witness")
             value, parsed = s.Value(), spec("measure", witness)
             check(core().koksma_evaluate(byref(parsed), byref(c_points), None, byref(value)))
             if not value.witness.kind:
-                raise ArgumentError(f"{witness} has no region where it is reached; star, extreme, edge and disk have")
+                raise ArgumentError(f"{witness} has no witness, a region where it reaches its supremum; star, extreme, edge and disk have one")
             panel.scatter.witness = ctypes.pointer(value.witness)
             caption = f"{caption}{', ' if caption else ''}{witness} = {value.value:.4g}"
             kept.append(value)
         if caption:
-            panel.caption = without_zero("a caption", caption.encode())
+            panel.caption = text(caption, "captions")
         if titles is not None:
-            panel.title = without_zero("a title", titles[i].encode())
+            panel.title = text(titles[i], "titles")
         kept.append((c_points, array))
     return _figure([panels], title, size, theme, kept)
 
@@ -144,7 +146,7 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
 def _colours(patterns: Sequence[str]) -> List[int]:
     """The numbers of the colours that patterns have in all pictures."""
     numbers = (c_size_t * len(patterns))()
-    check(lab().koksma_plot_colours((c_char_p * len(patterns))(*(p.encode() for p in patterns)), len(patterns), numbers))
+    check(lab().koksma_plot_colours((c_char_p * len(patterns))(*(text(p, "pattern") for p in patterns)), len(patterns), numbers))
     return list(numbers)
 
 
@@ -186,8 +188,10 @@ def plot_convergence(*results: Convergence, size: float = 0, title: Optional[str
     >>> koksma.plot_convergence(*curves).svg.count("slope")
     2
     """
+    if not all(isinstance(r, Convergence) for r in results):
+        raise TypeError("results must be what koksma.convergence returns")
     if not results:
-        raise ArgumentError("it takes at least one Convergence")
+        raise ArgumentError("plot_convergence takes at least one Convergence")
     kept: "list[Any]" = []
     chart = _convergence_chart(results, kept)
     measures = {r.measure for r in results}
@@ -228,7 +232,7 @@ def plot_compare(*patterns: str, n: SupportsIndex = 256, measure: str = "l2-star
     2
     """
     if not 1 <= len(patterns) <= 16:
-        raise ArgumentError(f"{len(patterns)} patterns: it takes 1 to 16")
+        raise ArgumentError(f"{len(patterns)} patterns: give 1 to 16")
     count, n_sets, first = whole("n", n, 1, s.MAX_COORDINATES), whole("trials", trials, 1, 10**9), whole("seed", seed, 0, s.MAX_SEED)
     half = min(math.ceil(2 * math.sqrt(count)), s.MAX_HALF)
     points: List[s.Panel] = []
@@ -241,7 +245,7 @@ def plot_compare(*patterns: str, n: SupportsIndex = 256, measure: str = "l2-star
         mean = spectrum((generate(pattern, count, seed=first + t) for t in range(n_sets)), half)
         power, rings = np.ascontiguousarray(mean.power[half:]), np.zeros(half + 1)
         raw = s.Spectrum(half, mean.sets, count, power.ctypes.data_as(POINTER(c_double)), rings.ctypes.data)
-        name = without_zero("a pattern", f"{pattern}, n = {count}".encode())
+        name = text(f"{pattern}, n = {count}", "pattern")
         points.append(s.Panel(points=ctypes.pointer(c_points), title=name, swatch=1 + colour))
         spectra.append(s.Panel(spectrum=ctypes.pointer(raw), title=name, swatch=1 + colour))
         xs, ys, errors = ((c_double * half)(*column)

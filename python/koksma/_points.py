@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, allow_exec as allowing_exec, call, check, core, kept_spec, lab, quick, spec, text, whole, without_zero
+from ._library import ArgumentError, allow_exec as allowing_exec, call, check, choice, core, kept_spec, lab, quick, spec, text, texts, whole
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE, STRATIFIED, LATIN = 1 << 1, 1 << 3, 1 << 4  # KOKSMA_CLAIM_SEQUENCE and so on
@@ -265,16 +265,28 @@ def as_points(points: npt.ArrayLike) -> PointArray:
     """
     if type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.flags.carray and points.size:
         return points
-    given = np.asanyarray(points)
-    if given.dtype.kind not in "buifO":
-        raise ArgumentError(f"points are real numbers, not {given.dtype}")
-    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
-        raise ArgumentError("points have no masked coordinates")
-    array = np.ascontiguousarray(given, dtype=np.float64)
+    try:
+        given = np.asanyarray(points)
+        kind, masked = given.dtype.kind, isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given)
+        array = np.ascontiguousarray(given, dtype=np.float64) if kind in "buifO" else given
+    except (TypeError, ValueError):
+        raise ArgumentError(f"points must be an array of real numbers, not {points!r:.60}") from None
+    if kind not in "buifO":
+        raise ArgumentError(f"points must be real numbers, not {given.dtype}")
+    if masked:
+        raise ArgumentError("points must not have masked coordinates")
     array = array if array.flags.aligned else array.copy()
     if array.ndim != 2 or 0 in array.shape:
-        raise ArgumentError(f"points are an array of shape (n, dim), not {array.shape}")
+        raise ArgumentError(f"points must be an array of shape (n, dim), not {array.shape}")
     return array
+
+
+def numbers(name: str, values: npt.ArrayLike) -> PointArray:
+    """An argument as a C-contiguous array of doubles."""
+    try:
+        return np.ascontiguousarray(values, dtype=np.float64) if np.ndim(values) else np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be numbers, not {values!r:.60}") from None
 
 
 class _Memory:
@@ -307,7 +319,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
              seed: SupportsIndex = 0, *, first: SupportsIndex = 0, threads: SupportsIndex = 0,
              out: Optional[PointArray] = None, allow_exec: bool = False,
              density: Optional[Union[npt.ArrayLike, str, "os.PathLike[str]"]] = None,
-             on: Optional[Union[str, "os.PathLike[str]"]] = None) -> PointArray:
+             on: Optional[Union[str, "os.PathLike[str]"]] = None, warp: Optional[str] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     Parameters
@@ -334,10 +346,12 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     on : path, optional
         A model (.obj, .ply, .ply.gz, .off, .gltf, .glb, .serialized) whose surface the points lie on, in its coordinates.
         dim 3: x y z; 6: also the normals; 7: also the numbers of the triangles.
+    warp : str, optional
+        Maps the points of the square to a disk, triangle or hemisphere, as `warp_points` does; warps() has them all.
 
     Returns
     -------
-    ndarray of shape (n, dim)
+    ndarray of shape (n, dim); with warp (n, 2) or (n, 3)
 
     Raises
     ------
@@ -363,27 +377,32 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     """
     shape: Any = (n, 2 if dim is None else dim) if out is None else out.shape if type(out) is np.ndarray and n is dim is None else None
     if (type(seed) is int and type(threads) is int and 0 <= seed <= s.MAX_SEED and 0 <= threads <= s.MAX_INT and type(pattern) is str
-            and density is on is None and type(first) is int and first == 0 and set(map(type, shape or ())) == {int}
+            and density is on is warp is None and type(first) is int and first == 0 and set(map(type, shape or ())) == {int}
             and (pattern, shape) in quick):
         quickly = _quick_points(pattern, shape, seed, threads, out)
         if quickly is not None:
             return quickly
     if allow_exec:
         with allowing_exec():
-            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on)
+            return generate(pattern, n, dim, seed, first=first, threads=threads, out=out, density=density, on=on, warp=warp)
+    if warp is not None:
+        if out is not None or density is not None or on is not None:
+            raise ArgumentError("warp excludes out, density and on: its points lie in another domain")
+        found = find_warp(warp)
+        return _warped(found, generate(pattern, n, 2 if dim is None else dim, seed, first=first, threads=threads))
     if density is not None or on is not None:
         if n is None or first or out is not None or (density is not None and on is not None):
-            raise ArgumentError("density and on exclude each other, and take n, neither first nor out")
+            raise ArgumentError("density and on need n, and exclude each other, first and out")
         return _generate_in(pattern, n, dim, seed, density, on, threads)
     parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
     first = whole("first", first, 0, s.MAX_INDEX)
     dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
     if first and not (is_sequence(pattern) and has_ranges(pattern)):
-        raise ArgumentError(f"{pattern}: first is for sequences that have ranges (koksma.has_ranges)")
+        raise ArgumentError(f"{pattern}: first needs a sequence that has ranges (koksma.has_ranges)")
     if n is None and out is None:
         if first:
-            raise ArgumentError("first takes n, the number of points")
+            raise ArgumentError("first needs n, the number of points")
         points = s.Points()
         known = dim or (0 if parsed.pattern.contents.operand else 2)
         try:
@@ -396,10 +415,10 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
         dim = dim or 2
         assert n is not None  # else the pattern has said it, above
         if n * dim > s.MAX_COORDINATES:
-            raise ArgumentError(f"{n} points in {dim} dimensions: n times dim is at most {s.MAX_COORDINATES}")
+            raise ArgumentError(f"{n} points in {dim} dimensions: n times dim must be at most {s.MAX_COORDINATES}")
         out = np.zeros((n, dim))
     elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 2 and out.flags.carray and out.size):
-        raise ArgumentError("out is a writable, aligned, C-contiguous array of doubles, of shape (n, dim)")
+        raise ArgumentError("out must be a writable, aligned, C-contiguous array of doubles, of shape (n, dim)")
     elif out.shape != (n or out.shape[0], dim or out.shape[1]):
         raise ArgumentError(f"out has the shape {out.shape}, not ({n or out.shape[0]}, {dim or out.shape[1]})")
     points, member = view(out), parsed.pattern.contents
@@ -424,12 +443,76 @@ def _generate_in(pattern: str, n: SupportsIndex, dim: Optional[SupportsIndex], s
     out = np.zeros((whole("n", n, 1, s.MAX_COORDINATES // axes), axes))
     points = view(out)
     if on is not None:
-        call(lab().koksma_generate_on, byref(parsed), seed, text(os.fspath(on)), byref(points), threads=threads, run_at=3)
+        call(lab().koksma_generate_on, byref(parsed), seed, text(on, "on"), byref(points), threads=threads, run_at=3)
     elif density is not None:
         array = read_image(density) if isinstance(density, (str, os.PathLike)) else as_image(density)
         call(lab().koksma_generate_density, byref(parsed), seed, byref(view_image(array)), byref(points), threads=threads,
              run_at=3)
     return out
+
+
+def find_warp(name: str) -> Any:
+    """A warp of the library."""
+    found = core().koksma_warp_find(text(name, "warp"))
+    if not found:
+        raise ArgumentError(f"no warp '{name}'; koksma.warps() names them")
+    return found
+
+
+def _warped(warp: Any, points: PointArray) -> PointArray:
+    c_points, mapped = view(points), s.Points()
+    check(core().koksma_warp_points(warp, byref(c_points), byref(mapped)))
+    return adopt(mapped)
+
+
+def warp_points(points: npt.ArrayLike, warp: str) -> PointArray:
+    """Maps points of the unit square to another domain, with areas in proportion.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, 2)
+    warp : str
+        Such as "concentric-disk" or "cosine-hemisphere"; warps() has them all.
+
+    Returns
+    -------
+    ndarray of shape (n, 2), on a hemisphere (n, 3)
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.warp_points([[0.5, 0.5], [1, 0.5]], "concentric-disk")
+    array([[0., 0.],
+           [1., 0.]])
+    """
+    return _warped(find_warp(warp), as_points(points))
+
+
+def local_discrepancy(points: npt.ArrayLike, corner: npt.ArrayLike) -> float:
+    """The fraction of the points in the box from the origin to a corner, minus the volume of the box.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, dim)
+    corner : array_like of shape (dim,)
+        In [0,1]. Points on its faces are not counted.
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.local_discrepancy([[0.25, 0.25], [0.75, 0.75]], [0.5, 0.5])
+    0.25
+    """
+    array, at = as_points(points), numbers("corner", corner)
+    if at.shape != (array.shape[1],):
+        raise ArgumentError(f"corner must have {array.shape[1]} coordinates, as the points have, not the shape {at.shape}")
+    c_points, value = view(array), ctypes.c_double()
+    check(core().koksma_local_discrepancy(byref(c_points), at.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), byref(value)))
+    return value.value
 
 
 @overload
@@ -479,8 +562,8 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
             if value is not None:
                 return value
         return value_of(points, measure, warp=warp, threads=threads, time_limit=time_limit)
-    array = as_points(points)
-    return {name: value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in measure}
+    names, array = texts("measure", measure), as_points(points)
+    return {name: value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in names}
 
 
 def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None, threads: SupportsIndex = 0,
@@ -494,10 +577,7 @@ def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None,
              time_limit=time_limit, run_at=2, short=exact and ":" not in measure and array.size <= _SHORT_SET,
              same=(measure, array.shape) if exact else None)
     else:
-        found = core().koksma_warp_find(text(warp))
-        if not found:
-            raise ArgumentError(f"no warp '{warp}'; koksma.warps() names them")
-        call(core().koksma_warp_evaluate, found, byref(parsed), byref(c_points), byref(value), threads=threads,
+        call(core().koksma_warp_evaluate, find_warp(warp), byref(parsed), byref(c_points), byref(value), threads=threads,
              time_limit=time_limit, run_at=3)
     return _value_of(value)
 
@@ -602,7 +682,7 @@ def read(path: Union[str, "os.PathLike[str]"]) -> PointArray:
            [0.5 , 0.  ]])
     """
     points = s.Points()
-    check(core().koksma_points_read(text(os.fspath(path)), byref(points)))
+    check(core().koksma_points_read(text(path, "path"), byref(points)))
     return adopt(points)
 
 
@@ -624,8 +704,8 @@ def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: 
     """
     array = as_points(points)
     c_points = view(array)
-    raw = None if comment is None else without_zero("a comment", comment.encode())
-    call(core().koksma_points_write, text(os.fspath(path)), byref(c_points), raw, run_at=3)
+    raw = None if comment is None else text(comment, "comment")
+    call(core().koksma_points_write, text(path, "path"), byref(c_points), raw, run_at=3)
 
 
 def is_sequence(pattern: str) -> bool:
@@ -671,8 +751,7 @@ def canonical(text_of_spec: str, kind: str = "pattern") -> str:
     >>> koksma.canonical("poisson-disk:d=0.20")
     'poisson-disk:d=0.2'
     """
-    if kind not in ("pattern", "measure"):
-        raise ArgumentError(f"kind {kind!r}: it takes 'pattern' or 'measure'")
+    choice("kind", kind, ("pattern", "measure"))
     parsed, room = spec(kind, text_of_spec), ctypes.create_string_buffer(s.MAX_SPEC)
     core().koksma_spec_text(byref(parsed), room)
     return os.fsdecode(room.value)  # it may have a path

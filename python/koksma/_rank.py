@@ -12,9 +12,9 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._compare import as_image, _metric
-from ._library import ArgumentError, call, in_python, lab, pair, text, texts, whole
+from ._library import ArgumentError, call, flag, in_python, lab, pair, seconds_of, text, texts, whole
 from ._points import canonical
-from ._render import _found
+from ._render import _found, _scene_name
 
 THESIS = ("n-rooks", "jittered", "half-jittered", "poisson-disk:d=0.2", "poisson-disk:d=0.1", "regular", "random")
 
@@ -191,17 +191,17 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     'jittered'
     """
     if renderer is None and reference is not None:
-        raise ArgumentError("reference takes renderer: Koksma's own references are jittered")
-    if time_limit is not None and not time_limit > 0:
-        raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
+        raise ArgumentError("reference has an effect only with renderer: Koksma's own references are jittered")
+    time_limit = seconds_of("time_limit", time_limit)
+    if renderer is not None and not callable(renderer):
+        raise TypeError(f"renderer must be callable, not {renderer!r:.60}")
     other = _Renderer(renderer) if renderer is not None else None
     names = [canonical(pattern) if other is None else pattern for pattern in texts("patterns", patterns)]
     if not names or len(set(names)) < len(names):
-        raise ArgumentError("patterns: it takes one or more, each once")
+        raise ArgumentError("patterns must be one or more, each once")
     spec, metric = _metric(metric)
-    array = (c_char_p * len(names))(*[text(name) for name in names])
-    name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
-    options = s.RankOptions(scene=text(name), patterns=array, n_patterns=len(names), one_size=one_size,
+    array = (c_char_p * len(names))(*[text(name, "patterns") for name in names])
+    options = s.RankOptions(scene=text(_scene_name(scene), "scene"), patterns=array, n_patterns=len(names), one_size=flag("one_size", one_size),
                             time_limit_s=time_limit or 0.0, spp=whole("spp", spp, 1, s.MAX_SPP),
                             max_trials=whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS),
                             integrator=_found("integrator", integrator or "distribution"),
@@ -212,7 +212,7 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
     if other is not None:
         options.render, threads = other.callback, threads or 1
-        options.reference = None if reference is None else text(reference)
+        options.reference = None if reference is None else text(reference, "reference")
     rows, out = (s.RankRow * len(names))(), s.Ranking()
     try:
         call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from ctypes import byref, c_void_p, pointer
+from ctypes import byref, c_void_p, create_string_buffer, pointer
 from dataclasses import dataclass, field
 from typing import Any, Dict, List, Literal, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, lab, pair, text, texts, whole
+from ._library import ArgumentError, call, check, choice, core, flag, lab, pair, real, text, texts, whole
 from ._points import Named, free_with, named, shown
 
 
@@ -33,6 +33,87 @@ def scenes() -> List[str]:
     while lab().koksma_scene_name_at(len(names)):
         names.append(lab().koksma_scene_name_at(len(names)).decode())
     return names
+
+
+@dataclass(frozen=True)
+class ScenePart:
+    """A shape of a scene, or a placed mesh. low and high are the corners of its bounding box, infinite for a plane; frame is the
+    part of the image that the box covers at most (left, right, top, bottom, from 0 to 1), or None where the camera does not see it."""
+
+    name: str
+    low: Tuple[float, float, float]
+    high: Tuple[float, float, float]
+    frame: Optional[Tuple[float, float, float, float]]
+
+
+@dataclass(frozen=True)
+class SceneCheck:
+    """What a scene contains, and what looks odd in it. warnings: what can be rendered but looks like a mistake; unknown: those of
+    them for parts of pbrt's and Mitsuba's scenes that Koksma does not know, each with what replaces it. True without warnings."""
+
+    title: str
+    shapes: int
+    meshes: int
+    placements: int
+    triangles: int
+    materials: int
+    lights: int
+    warnings: Tuple[str, ...]
+    unknown: Tuple[str, ...]
+    parts: Tuple[ScenePart, ...]
+
+    def __bool__(self) -> bool:
+        return not self.warnings
+
+
+def check_scene(scene: Union[str, "os.PathLike[str]"]) -> SceneCheck:
+    """Reads a scene, and says what is in it and what looks odd, as `koksma scene check` does.
+
+    Parameters
+    ----------
+    scene : str or path
+        As of `render`.
+
+    Returns
+    -------
+    SceneCheck
+
+    Raises
+    ------
+    MissingError, MalformedError
+        The text names file, line, field and reason.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> found = koksma.check_scene("ball")
+    >>> bool(found), found.lights
+    (True, 2)
+    """
+    handle, line = c_void_p(), create_string_buffer(1024)
+
+    def lines(kind: str) -> Tuple[str, ...]:
+        found: List[str] = []
+        while getattr(lab(), f"koksma_scene_{kind}")(handle, len(found), line, len(line)):
+            found.append(line.value.decode(errors="replace"))
+        return tuple(found)
+
+    check(lab().koksma_scene_open(text(_scene_name(scene), "scene"), byref(handle)))
+    try:
+        counts, part = lab().koksma_scene_count(handle), s.ScenePart()
+        parts: List[ScenePart] = []
+        while lab().koksma_scene_part_at(handle, len(parts), byref(part)):
+            parts.append(ScenePart(part.name.decode(errors="replace"), tuple(part.low), tuple(part.high),
+                                   tuple(part.frame) if part.in_frame else None))
+        return SceneCheck(lab().koksma_scene_title(handle).decode(errors="replace"), counts.shapes, counts.meshes, counts.placements,
+                          counts.triangles, counts.materials, counts.lights, lines("warning"), lines("unknown"), tuple(parts))
+    finally:
+        lab().koksma_scene_close(handle)
+
+
+def _scene_name(scene: Union[str, "os.PathLike[str]"]) -> str:
+    """A path is a file, a text may be a name."""
+    return os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
 
 
 def integrators() -> List[Named]:
@@ -88,13 +169,11 @@ def _choice(argument: str, kind: str, word: str) -> int:
     name_of: Any = getattr(lab(), f"koksma_{kind}_name")
     while name_of(len(names)):
         names.append(name_of(len(names)).decode())
-    if word not in names:
-        raise ArgumentError(f"{argument} '{word}': it takes {', '.join(names)}")
-    return names.index(word)
+    return choice(argument, word, names)
 
 
 def _found(kind: str, name: str) -> int:
-    found: int = getattr(lab(), f"koksma_{kind}_find")(text(name))
+    found: int = getattr(lab(), f"koksma_{kind}_find")(text(name, kind))
     if not found:
         raise ArgumentError(f"no {kind} '{name}'; koksma.{kind}s() names them")
     return found
@@ -114,8 +193,8 @@ class Layers:
         Number of samples of a pixel, and the variance of its luminance as if they were independent.
     rays : int
         Rays cast.
-    rounds, splits : int
-        Of adaptive sampling: rounds after the first, and strata that were split.
+    rounds, splits, needless : int
+        Of adaptive sampling: rounds after the first, strata that were split, and splits that `probes` found not needed.
     aovs : dict of ndarray
         By name what `aov` asked for.
     """
@@ -129,6 +208,7 @@ class Layers:
     rays: int
     rounds: int
     splits: int
+    needless: int = 0
     aovs: Dict[str, npt.NDArray[np.float32]] = field(default_factory=dict)
 
     def __repr__(self) -> str:
@@ -140,24 +220,24 @@ class Layers:
 @overload
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
-           pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
+           pairing: str = "shuffled", scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           adaptive: Optional[str] = None, budget: float = 0, probes: SupportsIndex = 0, sky: Optional[float] = None,
            environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[False] = False,
            threads: SupportsIndex = 0) -> npt.NDArray[np.float32]: ...
 @overload
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
-           pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
+           pairing: str = "shuffled", scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           adaptive: Optional[str] = None, budget: float = 0, probes: SupportsIndex = 0, sky: Optional[float] = None,
            environment: Union[str, "os.PathLike[str]", None] = None, layers: Literal[True], aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Layers: ...
 def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
            size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
-           pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
+           pairing: str = "shuffled", scope: str = "pixel", lights: str = "auto", integrator: Optional[str] = None,
            depth: Optional[SupportsIndex] = None, filter: Optional[str] = None, splat: bool = False,
-           adaptive: Optional[str] = None, budget: float = 0, sky: Optional[float] = None,
+           adaptive: Optional[str] = None, budget: float = 0, probes: SupportsIndex = 0, sky: Optional[float] = None,
            environment: Union[str, "os.PathLike[str]", None] = None, layers: bool = False, aov: Sequence[str] = (),
            threads: SupportsIndex = 0) -> Union[npt.NDArray[np.float32], Layers]:
     """Renders a scene, with the bits of `koksma render`.
@@ -178,8 +258,9 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         How the point sets of a pixel's uses are combined.
     scope : {"pixel", "image"}
         What one point set covers.
-    lights : {"all", "one", "power", "uniform", "auto"}
-        Which lights a sample takes.
+    lights : {"auto", "all", "one", "power", "uniform"}
+        Which lights a sample takes: all, or one drawn by its estimated contribution, by its power or uniformly. auto: one for
+        the integrator path with more than 8 lights, else all.
     integrator, filter : str, optional
         koksma.integrators() and koksma.filters() name them.
     depth : int, optional
@@ -195,6 +276,8 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
         Light of this radiance from all directions, instead of the scene's sky or the default lights of a model.
     environment : path, optional
         An image in latitude and longitude that gives the light instead, times `sky`.
+    probes : int
+        With adaptive: further samples to test whether each split was needed; `needless` counts those that were not.
     layers : bool
         Return a `Layers`.
     aov : sequence of str
@@ -223,21 +306,20 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     further = s.Aovs()
     aov = texts("aov", aov)
     if aov and not layers:
-        raise ArgumentError("aov takes layers=True")
+        raise ArgumentError("aov needs layers=True")
     if aov:
-        check(lab().koksma_aovs_parse(text(",".join(aov)), byref(further)))
+        check(lab().koksma_aovs_parse(text(",".join(aov), "aov"), byref(further)))
     choices: Dict[str, int] = {"pairing": _choice("pairing", "pairing", pairing), "scope": _choice("scope", "scope", scope),
                                "lights": _choice("lights", "light_selection", lights)}
     spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
-    name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
-    check(lab().koksma_scene_open(text(name), byref(handle)))
+    check(lab().koksma_scene_open(text(_scene_name(scene), "scene"), byref(handle)))
     try:
         if sky is not None or environment is not None:
-            check(lab().koksma_scene_set_sky(handle, None if environment is None else text(os.fspath(environment)),
-                                             1.0 if sky is None else sky))
+            check(lab().koksma_scene_set_sky(handle, None if environment is None else text(environment, "environment"),
+                                             1.0 if sky is None else real("sky", sky)))
         lab().koksma_render_options_init(byref(options), handle)
         options.spp, options.seed = spp, seed
-        check(lab().koksma_render_patterns(text(pattern), byref(options)))
+        check(lab().koksma_render_patterns(text(pattern, "pattern"), byref(options)))
         for name, value in choices.items():
             setattr(options, name, value)
         if size is not None:
@@ -250,21 +332,22 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
             options.filter = _found("filter", filter)
         if depth is not None:
             options.depth = whole("depth", depth, 0, s.MAX_DEPTH)
-        options.splat = bool(splat)
+        options.splat = flag("splat", splat)
         if adaptive is not None:
             method = s.AdaptiveOptions()
-            check(lab().koksma_adaptive_parse(text(adaptive), byref(method)))
-            if not 0 <= budget < math.inf:
-                raise ArgumentError(f"budget {budget}: it takes samples a pixel; 0: no limit")
+            check(lab().koksma_adaptive_parse(text(adaptive, "adaptive"), byref(method)))
+            if not 0 <= real("budget", budget) < math.inf:
+                raise ArgumentError(f"budget must be samples a pixel, or 0 for no limit, not {budget!r}")
             if method.method.contents.own_samples and pattern != "n-rooks":
                 raise ArgumentError(f"pattern '{pattern}': the adaptive method {adaptive} places its own samples")
-            method.budget = budget
+            method.budget, method.probes = budget, whole("probes", probes, 0, s.MAX_INT)
             if aov:
                 method.aovs = pointer(further)
             call(lab().koksma_render_adaptive, handle, byref(options), byref(method), byref(every), byref(report),
                  threads=threads, run_at=3)
-        elif budget:
-            raise ArgumentError(f"budget {budget}: it takes a method of adaptive sampling; koksma.adaptive() names them")
+        elif budget or probes:
+            given = f"budget {budget}" if budget else f"probes {probes}"
+            raise ArgumentError(f"{given}: give a method of adaptive sampling, too; koksma.adaptive() names them")
         elif aov:
             call(lab().koksma_render_aovs, handle, byref(options), byref(further), byref(every), threads=threads, run_at=2)
         elif layers:
@@ -285,7 +368,7 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
     if not layers:
         return parts["image"]
     aovs = {further.names[i].value.decode(): adopt_image(s.Image.from_buffer_copy(further.images[i])) for i in range(further.n)}
-    return Layers(**parts, rays=every.rays, rounds=report.rounds, splits=report.splits, aovs=aovs)
+    return Layers(**parts, rays=every.rays, rounds=report.rounds, splits=report.splits, needless=report.needless, aovs=aovs)
 
 
 def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
@@ -318,7 +401,7 @@ def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
     (1, 3, 1)
     """
     image = s.Image()
-    check(lab().koksma_image_read(text(os.fspath(path)), byref(image)))
+    check(lab().koksma_image_read(text(path, "path"), byref(image)))
     return adopt_image(image)
 
 
@@ -340,7 +423,7 @@ def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> N
     from ._compare import as_image, view_image
 
     array = as_image(image)
-    check(lab().koksma_image_write(text(os.fspath(path)), byref(view_image(array)), None))
+    check(lab().koksma_image_write(text(path, "path"), byref(view_image(array)), None))
 
 
 def version() -> str:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, core, spec, whole
+from ._library import ArgumentError, call, core, flag, several, spec, whole
 from ._matplotlib import curve
 from ._points import as_points, canonical, generate, is_sequence, value_of, view
 
@@ -67,7 +67,7 @@ class Trials:
             return NotImplemented
         ours, theirs = ((t.measure, t.seed, len(t.values)) for t in (self, other))
         if ours != theirs:
-            raise ArgumentError(f"differences of {ours} and {theirs}: both take the same measure, first seed and number of sets")
+            raise ArgumentError(f"differences of {ours} and {theirs}: both must have the same measure, first seed and number of sets")
         pattern = self.pattern if self.pattern == other.pattern else f"{self.pattern} - {other.pattern}"
         return Trials(pattern, self.measure, self.n, self.dim, self.seed, self.values - other.values, min(self.exact, other.exact))
 
@@ -136,7 +136,8 @@ class Convergence:
 
 
 def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: SupportsIndex = 2, trials: SupportsIndex = 100,
-           seed: SupportsIndex = 0, warp: Optional[str] = None, threads: SupportsIndex = 0) -> Trials:
+           seed: SupportsIndex = 0, warp: Optional[str] = None, time_limit: Optional[float] = None,
+           threads: SupportsIndex = 0) -> Trials:
     """Measures many sets of a pattern.
 
     Parameters
@@ -149,6 +150,8 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
         Sets with the seeds seed .. seed + trials - 1.
     warp : str, optional
         Measures the points mapped by it, as `measure` does.
+    time_limit : float, optional
+        In seconds, for each value, as for `measure`: one that is cut short is a bound, and not counted in `exact`.
     threads : int
         0: one for each processor. The values do not depend on it.
 
@@ -176,7 +179,8 @@ def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: Suppor
     True
     """
     count, seed = whole("trials", trials, 1, 1 << 24), whole("seed", seed, 0, s.MAX_SEED)
-    found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, warp=warp, threads=threads) for t in range(count)]
+    found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, warp=warp, threads=threads,
+                      time_limit=time_limit) for t in range(count)]
     return Trials(canonical(pattern), canonical_measure(measure), whole("n", n, 1, s.MAX_COORDINATES),
                   whole("dim", dim, 1, s.MAX_DIM), seed, np.array([v.value for v in found]), sum(v.exact for v in found))
 
@@ -188,7 +192,7 @@ def canonical_measure(measure: str) -> str:
 
 def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[SupportsIndex]] = None, *,
                 dim: SupportsIndex = 2, trials: SupportsIndex = 1, seed: SupportsIndex = 0,
-                prefixes: Optional[bool] = None, threads: SupportsIndex = 0) -> Convergence:
+                prefixes: Optional[bool] = None, warp: Optional[str] = None, threads: SupportsIndex = 0) -> Convergence:
     """A measure against the number of points, with the slope of its mean.
 
     Parameters
@@ -202,6 +206,8 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
     prefixes : bool, optional
         True: the first points of one set, which the pattern must be a sequence for. False: a set of each size. By default
         True for sequences.
+    warp : str, optional
+        Measures the points mapped by it, as `measure` does; `proven` and `best` are NaN then.
     threads : int
         0: one for each processor.
 
@@ -220,30 +226,33 @@ def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[Su
     >>> koksma.convergence("sobol", "l2-star", [16, 64, 256])
     Convergence('sobol', 'l2-star', n=16..256: slope -0.963 +- 0.0098)
     """
-    numbers = [whole("a size", k, 1, s.MAX_COORDINATES) for k in (sizes if sizes is not None else (16, 64, 256, 1024))]
+    numbers = [whole("sizes", k, 1, s.MAX_COORDINATES) for k in several("sizes", (16, 64, 256, 1024) if sizes is None else sizes)]
     count, seed = whole("trials", trials, 1, 1 << 24), whole("seed", seed, 0, s.MAX_SEED)
     if not numbers:
-        raise ArgumentError("sizes: it takes at least one number of points")
-    if prefixes and not is_sequence(pattern):
-        raise ArgumentError(f"{pattern} is no sequence: its first points are a part of the set; prefixes=False measures a set "
-                            "of each size")
-    nested = is_sequence(pattern) if prefixes is None else prefixes
+        raise ArgumentError("sizes must have at least one number of points")
+    if prefixes is not None and flag("prefixes", prefixes) and not is_sequence(pattern):
+        raise ArgumentError(f"{pattern} is no sequence: its first points need not fill the square evenly; prefixes=False "
+                            "measures a set of each size")
+    nested = is_sequence(pattern) if prefixes is None else flag("prefixes", prefixes)
     measured, values = spec("measure", measure), np.empty((count, len(numbers)))
     for t in range(count):
         if not nested:
-            values[t] = [value_of(generate(pattern, k, dim, seed + t, threads=threads), measure, threads=threads).value
+            values[t] = [value_of(generate(pattern, k, dim, seed + t, threads=threads), measure, warp=warp, threads=threads).value
                          for k in numbers]
             continue
         points = as_points(generate(pattern, max(numbers), dim, seed + t, threads=threads))
+        if warp is not None:
+            values[t] = [value_of(points[:k], measure, warp=warp, threads=threads).value for k in numbers]
+            continue
         raw, c_points = (s.Value * len(numbers))(), view(points)
         call(core().koksma_evaluate_prefixes, byref(measured), byref(c_points), (c_size_t * len(numbers))(*numbers),
              len(numbers), raw, threads=threads, run_at=4)
         values[t] = [v.value for v in raw]
     slope, error = _slope(np.array(numbers, dtype=float), values)
-    parsed = spec("pattern", pattern)
-    return Convergence(canonical(pattern), canonical_measure(measure), whole("dim", dim, 1, s.MAX_DIM), np.array(numbers),
-                       values, slope, error, -core().koksma_rate(byref(parsed), measured.measure, whole("dim", dim, 1, s.MAX_DIM)),
-                       -core().koksma_best_rate(measured.measure, whole("dim", dim, 1, s.MAX_DIM)))
+    parsed, axes = spec("pattern", pattern), whole("dim", dim, 1, s.MAX_DIM)
+    proven, best = (-core().koksma_rate(byref(parsed), measured.measure, axes), -core().koksma_best_rate(measured.measure, axes)
+                    ) if warp is None else (math.nan, math.nan)
+    return Convergence(canonical(pattern), canonical_measure(measure), axes, np.array(numbers), values, slope, error, proven, best)
 
 
 def _slope(sizes: npt.NDArray[np.float64], values: npt.NDArray[np.float64]) -> tuple[float, float]:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, whole
+from ._library import ArgumentError, call, check, core, flag, real, whole
 from ._matplotlib import curve
 from ._points import as_points, shown, view
 
@@ -65,7 +65,11 @@ def _each(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]") -> "Iterable[npt.Arra
     rows: Any = np.asanyarray(sets) if hasattr(sets, "__array__") else sets
     if isinstance(rows, np.ndarray):
         return [rows] if rows.ndim == 2 else rows
-    return [rows] if isinstance(rows, Sequence) and rows and np.ndim(rows[0]) == 1 else rows
+    try:
+        single = isinstance(rows, Sequence) and len(rows) > 0 and np.ndim(rows[0]) == 1
+        return [rows] if single else iter(rows)
+    except (TypeError, ValueError):
+        raise TypeError(f"sets must be an array of points, or several of them, not {rows!r:.60}") from None
 
 
 def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsIndex = 64, *,
@@ -97,7 +101,7 @@ def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsInde
     try:
         for points in _each(sets):
             c_points = view(array := as_points(points))
-            call(core().koksma_spectrum_add, byref(raw), byref(c_points), 0 if exact else 1, threads=threads, run_at=3)
+            call(core().koksma_spectrum_add, byref(raw), byref(c_points), 0 if flag("exact", exact) else 1, threads=threads, run_at=3)
             del array
         if not raw.sets:
             raise ArgumentError("a spectrum takes at least one set of points")
@@ -131,17 +135,17 @@ def pair_correlation(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", r_max: flo
     >>> bool(koksma.pair_correlation(koksma.generate("poisson-disk:d=0.1,torus=1", 50), 0.08, 8).density.max() == 0)
     True
     """
-    width = whole("bins", bins, 1, 1 << 24)
+    width, reach = whole("bins", bins, 1, 1 << 24), real("r_max", r_max)
     total, count, values = np.zeros(width), 0, (c_double * width)()
     for points in _each(sets):
         c_points = view(array := as_points(points))
-        call(core().koksma_pair_correlation, byref(c_points), r_max, width, values, threads=threads, run_at=3)
+        call(core().koksma_pair_correlation, byref(c_points), reach, width, values, threads=threads, run_at=3)
         del array
         total += np.array(values)
         count += 1
     if not count:
         raise ArgumentError("a pair correlation takes at least one set of points")
-    return PairCorrelation((np.arange(width) + 0.5) * r_max / width, total / count, count)
+    return PairCorrelation((np.arange(width) + 0.5) * reach / width, total / count, count)
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, MalformedError, call, check, lab, text, whole
+from ._library import ArgumentError, MalformedError, call, check, flag, lab, several, text, whole
 
 Plan = Union[str, "os.PathLike[str]", Dict[str, Any]]
 
@@ -128,20 +128,20 @@ class Study:
     def __init__(self, plan: Union[Plan, Sequence[Plan]] = (), folder: Union[str, "os.PathLike[str]", None] = None, *,
                  trials: Optional[SupportsIndex] = None, quick: bool = False) -> None:
         self._handle = c_void_p()
-        self.folder: Optional[Path] = None if folder is None else Path(folder)
-        plans = [plan] if isinstance(plan, (str, os.PathLike, dict)) else list(plan)
+        self.folder: Optional[Path] = None if folder is None else Path(os.fsdecode(text(folder, "folder")))
+        plans = [plan] if isinstance(plan, (str, os.PathLike, dict)) else several("plan", plan)
         with tempfile.TemporaryDirectory(prefix="koksma-plan-") as room:
             names = []
             for i, one in enumerate(plans):
                 if isinstance(one, dict):
                     path = Path(room) / f"plan-{i}.json"
                     path.write_text(json.dumps(one, indent=1, allow_nan=False), encoding="utf-8")
-                    names.append(text(os.fspath(path)))
+                    names.append(text(path))
                 else:  # a path is a file, a text may be a name
-                    names.append(text(os.path.join(os.curdir, one) if isinstance(one, os.PathLike) else one))
+                    names.append(text(os.path.join(os.curdir, one) if isinstance(one, os.PathLike) else one, "plan"))
             options = s.StudyOptions((c_char_p * len(names))(*names), len(names),
-                                     None if folder is None else text(os.fspath(folder)),
-                                     0 if trials is None else whole("trials", trials, 1, 100000000), quick)
+                                     None if folder is None else text(folder, "folder"),
+                                     0 if trials is None else whole("trials", trials, 1, 100000000), flag("quick", quick))
             try:
                 check(lab().koksma_study_open(byref(options), byref(self._handle)))
             except MalformedError as error:  # of a dict: the file of its lines is gone
@@ -212,7 +212,7 @@ class Study:
         rows: List[TableRow] = []
         raw, found = s.StudyRow(), c_bool()
         while True:
-            check(lab().koksma_study_table_row(self._open(), text(id), len(rows), byref(raw), byref(found)))
+            check(lab().koksma_study_table_row(self._open(), text(id, "id"), len(rows), byref(raw), byref(found)))
             if not found.value:
                 return rows
             rows.append(TableRow(raw.pattern.decode(), raw.label.decode(), raw.n, tuple(raw.published), raw.mean,
@@ -276,7 +276,7 @@ def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] 
     """
     lines: List[str] = []
     differs = s.Differs(lambda _context, line: lines.append(line.decode(errors="replace")))
-    options = s.AuditOptions(text(os.fspath(folder)), 0 if rows is None else whole("rows", rows, 1, (1 << 63) - 1),
+    options = s.AuditOptions(text(folder, "folder"), 0 if rows is None else whole("rows", rows, 1, (1 << 63) - 1),
                              whole("seed", seed, 0, s.MAX_SEED), differs, None)
     raw = s.Audit()
     call(lab().koksma_study_audit, byref(options), byref(raw), threads=threads, run_at=1, progress=progress)

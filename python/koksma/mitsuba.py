@@ -38,8 +38,8 @@ from ._rank import Asked, Ranking
 from ._rank import rank as _rank
 
 try:
-    import drjit
-    import mitsuba
+    import drjit  # type: ignore[import-not-found, import-untyped, unused-ignore]
+    import mitsuba  # type: ignore[import-not-found, import-untyped, unused-ignore]
 except ModuleNotFoundError:
     raise ImportError("koksma.mitsuba needs Mitsuba 3: pip install mitsuba") from None
 
@@ -153,7 +153,7 @@ def _sampler_class(variant: str) -> Any:
 
         def _take(self, pattern: str, base_seed: int, sets: int) -> None:
             if not 1 <= sets <= 1 << 20:
-                raise ArgumentError(f"sets {sets}: it takes 1 to {1 << 20}")
+                raise ArgumentError(f"sets must be 1 to {1 << 20}, not {sets}")
             self.pattern, self.base_seed, self.sets = canonical(pattern), base_seed, sets
             self._key: Optional[Tuple[int, int]] = None
 
@@ -204,8 +204,8 @@ def _sampler_class(variant: str) -> Any:
 
         def advance(self) -> None:
             if jit:
-                raise UnsupportedError("koksma: several passes over one wavefront (samples_per_pass): the sampler takes "
-                                       "all samples of a pixel in one; render several seeds and average them")
+                raise UnsupportedError("koksma: samples_per_pass is not supported: the sampler takes all samples of a pixel in "
+                                       "one pass; render several seeds and average them")
             self.index += 1
             self.use = 0
 
@@ -275,7 +275,7 @@ class Renderer:
 
     def __init__(self, scene: Union[str, "os.PathLike[str]", Dict[str, Any]]) -> None:
         if not hasattr(mi, "parser"):
-            raise UnsupportedError(f"Mitsuba {mi.__version__}: it takes 3.7 or later, whose parser lets samplers be replaced")
+            raise UnsupportedError(f"Mitsuba {mi.__version__}: koksma.mitsuba needs 3.7 or later, whose parser lets samplers be replaced")
         register()
         self.scene: Union[str, Dict[str, Any]] = scene if isinstance(scene, dict) else os.fspath(scene)
         self._loaded: Dict[Any, Any] = {}

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Evaluates measures of points that a warp has mapped to another domain. Half-planes are treated as in
+/* Maps points by a warp, and evaluates measures of the mapped points on the domain of the warp. Half-planes are treated as in
    measures/edge.c and measures/l2_edge.c, but within the domain of the warp. Disks of one radius and spherical caps
    have closed forms (measures/shared/warp_l2_disk.h, warp_caps.h). Sampled disks are those that meet the unit disk: the
    radius follows the disk law, and centres are uniform within 1 + radius of the unit disk's centre. */
@@ -11,6 +11,7 @@
 
 #include "api/evaluate.h"
 #include "core/parallel.h"
+#include "core/points.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "core/sum.h"
@@ -140,6 +141,19 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
                         warp->name, taken[warp->domain]);
 }
 
+koksma_status koksma_warp_points(const koksma_warp *warp, const koksma_points *points, koksma_points *out)
+{
+    KOKSMA__REQUIRE(warp, points, out);
+    KOKSMA__TRY(koksma__points_check(points));
+    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "%s: a warp maps points of 2 dimensions, not %d", warp->name,
+                    points->dim);
+    KOKSMA__TRY(koksma_points_init(out, points->n, warp->dim));
+    for (size_t i = 0; i < points->n; i++) {
+        warp->map(points->xs + 2 * i, out->xs + i * (size_t)warp->dim);
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *measure, const koksma_points *points,
                                    const koksma_run *run, koksma_value *out)
 {
@@ -150,20 +164,15 @@ koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *m
     if (checked) {
         return checked;
     }
-    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "%s: a warp maps points of 2 dimensions, not %d", warp->name,
-                    points->dim);
-    double *mapped = malloc(points->n * 3 * sizeof *mapped);
-    KOKSMA__REQUIRE_MEMORY(mapped, points->n * 3 * sizeof *mapped);
-    for (size_t i = 0; i < points->n; i++) {
-        warp->map(points->xs + 2 * i, mapped + i * (size_t)warp->dim);
-    }
-    const koksma_status status = evaluate(warp, measure, points->n, mapped, run, &value);
+    koksma_points mapped;
+    KOKSMA__TRY(koksma_warp_points(warp, points, &mapped));
+    const koksma_status status = evaluate(warp, measure, mapped.n, mapped.xs, run, &value);
     if (!status) {
         *out = value;
     }
     if (!status && out->exact) {
         out->lower = out->upper = out->value;
     }
-    free(mapped);
+    koksma_points_fini(&mapped);
     return status;
 }

@@ -38,8 +38,15 @@ int koksma__threads(const koksma_run *run)
     if (run && run->threads > 0) {
         return run->threads < MAX_THREADS ? run->threads : MAX_THREADS;
     }
-    const long online = sysconf(_SC_NPROCESSORS_ONLN);
-    return online < 1 ? 1 : online < MAX_THREADS ? (int)online : MAX_THREADS;
+    /* asked once: the C library reads a file of /sys for it, which takes longer than a measure of 16 points */
+    static atomic_int known;
+    int processors = atomic_load_explicit(&known, memory_order_relaxed);
+    if (!processors) {
+        const long online = sysconf(_SC_NPROCESSORS_ONLN);
+        processors = online < 1 ? 1 : online < MAX_THREADS ? (int)online : MAX_THREADS;
+        atomic_store_explicit(&known, processors, memory_order_relaxed);
+    }
+    return processors;
 }
 
 bool koksma__keep_going(const koksma_run *run, double fraction_done)

@@ -68,7 +68,7 @@ VALID = {
     "koksma_spectrum_power.kx": "1", "koksma_spectrum_power.ky": "1", "koksma_pair_correlation.bins": "16",
     "koksma_generate_density.spec": "a_pattern(\"sample-elimination\")", "koksma_generate_on.spec": "a_pattern(\"sample-elimination\")",
     "koksma_generate_on.path": "work_path(\"in.off\")", "koksma_generate_on.out": "points_in_space()",
-    "koksma_warp_find.name": "\"triangle\"", "koksma_warp_evaluate.measure": "a_measure(\"edge\")",
+    "koksma_warp_find.name": "\"triangle\"", "koksma_warp_points.out": "a_buffer(sizeof(koksma_points))", "koksma_warp_evaluate.measure": "a_measure(\"edge\")",
     "koksma_plot_format_of.path": "\"a.svg\"", "koksma_plot_panels.n": "2", "koksma_plot_panels.size": "64", "koksma_plot_strata.n": "1",
     "koksma_plot_strata.size": "64", "koksma_plot_write.size": "16",
     "koksma_image_init.image": "a_buffer(sizeof(koksma_image))", "koksma_image_init.width": "4", "koksma_image_init.height": "4",
@@ -108,7 +108,8 @@ VALID = {
     "koksma_integral_of_function.dim": "2", "koksma_integral_sensitivity.n_axes": "2", "koksma_integral_component.n_axes": "2", "koksma_integral_sensitivity.samples": "16",
     "koksma_integration_errors.pattern": "a_pattern(\"gaussian-jittered:sigma=0.2\")",
     "koksma_audit_options *": "audit_options()", "koksma_audit *": "a_buffer(sizeof(koksma_audit))",
-    "koksma_rank_picture *": "a_rank_picture()",
+    "koksma_rank_picture *": "a_rank_picture()", "koksma_scene_search *": "scene_search()",
+    "koksma_scene_optimum *": "a_buffer(sizeof(koksma_scene_optimum))", "koksma_scene_optimum_fini.best": "a_zero(sizeof(koksma_scene_optimum))",
     "koksma_rank_by_command.context": "a_copy(\"printf 'Pf\\n1 1\\n-1\\nabcd' >{out.pfm}\", 35)",
     "koksma_rank_by_command.image": "a_buffer(sizeof(koksma_image))",
     # Inline functions.
@@ -171,6 +172,7 @@ ALLOWED = [
     r"koksma_optimise options->(projections = NULL|n_projections = 0|weights = NULL|processes = NULL|power = NULL|rings = 0) .*",
     r"koksma_rank_by_command picture->(scene|pattern) = (\"|long_text).*", r"koksma_rank_by_command picture->(spp|width|height|seed) = .*",  # its affair
     r"koksma_rank_patterns options->(render|render_context|reference) = .*",
+    r"koksma_optimise_scene options->(candidates|phases|n_held_out|held_out|against) = (0|NULL) .*",
     r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0|metric = NULL) .*",
     r"koksma_study_images metric = NULL .*",
     r"\w+ path = .(%s%n|nothing:of).*",  # names of files like others

@@ -403,6 +403,22 @@ static void *rank_options(void)
                                       .one_size = true});
 }
 
+static void *scene_search(void)
+{
+    const char *const against[] = {"random"}, *const held_out[] = {"checker"};
+    return COPY(koksma_scene_search, {.scene = "ball",
+                                      .spp = 1,
+                                      .width = 2,
+                                      .height = 2,
+                                      .candidates = 1,
+                                      .phases = 1,
+                                      .max_trials = 8,
+                                      .held_out = a_copy(held_out, sizeof held_out),
+                                      .n_held_out = 1,
+                                      .against = a_copy(against, sizeof against),
+                                      .n_against = 1});
+}
+
 /* A set of more points than a pixel has samples: no scene is rendered. */
 static void *datasheet_options(void)
 {

@@ -181,11 +181,11 @@ class Engines(unittest.TestCase):
         for spec in ("sobol", "n-rooks"):
             engine = Engine(spec, 2, seed=1)
             engine.random(8)
-            for call, line in ((lambda: engine.fast_forward(-5), "fast_forward -5: it takes 0 to"),
-                               (lambda: engine.random(-3), "n -3: it takes 0 to"),
-                               (lambda: engine.random(3, workers=0), "workers 0: it takes a number of threads"),
-                               (lambda: engine.random(3, workers=-2), "workers -2: it takes -1 to"),
-                               (lambda: engine.random(0, workers=(1 << 32) + 1), "workers 4294967297: it takes -1 to")):
+            for call, line in ((lambda: engine.fast_forward(-5), "n must be 0 to"),
+                               (lambda: engine.random(-3), "n must be 0 to"),
+                               (lambda: engine.random(3, workers=0), "workers must be a number of threads"),
+                               (lambda: engine.random(3, workers=-2), "workers must be -1 to"),
+                               (lambda: engine.random(0, workers=(1 << 32) + 1), "workers must be -1 to")):
                 with self.subTest(line), self.assertRaisesRegex(koksma.ArgumentError, "^" + line):
                     call()
             for call in (engine.fast_forward, engine.random):
@@ -280,6 +280,25 @@ class Engines(unittest.TestCase):
             self.assertGreater(result.standard_error, 0)  # the estimates are independent
             self.assertLess(abs(result.integral - 0.25), 6 * result.standard_error)
 
+    def test_sobol_indices_of_scipys(self):
+        """scipy draws the points of sobol_indices itself, by its own Sobol'; with points of ours it takes the function's values
+        at A, B and A with a column of B. Exact indices of Ishigami's function: Homma & Saltelli 1996."""
+        try:
+            from scipy.stats import sobol_indices
+        except ImportError:
+            self.skipTest("scipy is not installed, or older than 1.11")
+
+        def ishigami(x):
+            return np.sin(x[0]) + 7 * np.sin(x[1])**2 + 0.1 * x[2]**4 * np.sin(x[0])
+
+        for spec in ("sobol:scramble=owen", "halton:scramble=owen"):
+            a, b = np.split(2 * np.pi * Engine(spec, 6, rng=1).random(4096).T - np.pi, 2)
+            mixed = [np.where(np.arange(3)[:, None] == k, b, a) for k in range(3)]
+            values = {"f_A": ishigami(a)[None], "f_B": ishigami(b)[None], "f_AB": np.stack([ishigami(m)[None] for m in mixed])}
+            found = sobol_indices(func=values, n=4096)
+            np.testing.assert_allclose(found.first_order, [0.3139, 0.4424, 0], atol=0.02)
+            np.testing.assert_allclose(found.total_order, [0.5576, 0.4424, 0.2437], atol=0.02)
+
     def test_is_scipys(self):
         try:
             from scipy.stats import qmc
@@ -309,6 +328,14 @@ class ByScipysNames(unittest.TestCase):
             np.testing.assert_array_equal(one.random(8), other.random(8))
         same = Engine("random", 2, rng=np.random.default_rng(np.random.SeedSequence(4)))
         np.testing.assert_array_equal(same.random(8), one.reset().random(8))
+
+    def test_what_default_rng_takes(self):
+        for make in (lambda: np.random.PCG64(3), lambda: [1, 2, 3], lambda: np.array([7, 8]), lambda: (4,)):
+            ours, numpys = Engine("random", 2, rng=make()), np.random.default_rng(make())
+            np.testing.assert_array_equal(ours.random(4), Engine("random", 2, rng=numpys).random(4))
+        for wrong in ("seven", 2.5, {}):
+            with self.assertRaises((TypeError, ValueError)):
+                Engine("random", 2, rng=wrong)
 
     def test_random_base2(self):
         engine = Engine("sobol", 2)

@@ -303,7 +303,7 @@ class Ranges(unittest.TestCase):
 
     def test_refused(self):
         for spec in ("n-rooks", "hammersley", "best-candidate", "halton:scramble=owen", "file:x"):
-            with self.assertRaisesRegex(koksma.ArgumentError, "^" + spec + ": first is for sequences that have ranges"):
+            with self.assertRaisesRegex(koksma.ArgumentError, "^" + spec + ": first needs a sequence that has ranges"):
                 generate(spec, 3, 2, first=1)
 
     def test_engine(self):

@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Warps, searches for scenes, checks of scenes, images in files and records: against the program KOKSMA (in the environment), closed
+forms and NumPy."""
+import json
+import os
+import subprocess
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import koksma
+
+
+def program(*arguments, code=0):
+    done = subprocess.run([os.environ["KOKSMA"], *arguments], capture_output=True, text=True)
+    assert done.returncode == code, done.stderr
+    return done.stdout
+
+
+class Warps(unittest.TestCase):
+    def test_same_bits_as_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "p.npy")
+            for warp in koksma.warps():
+                program("generate", "sobol:scramble=owen", "-n", "100", "-s", "3", "--warp", warp.name, "-o", path)
+                ours = koksma.generate("sobol:scramble=owen", 100, seed=3, warp=warp.name)
+                np.testing.assert_array_equal(ours, np.load(path), warp.name)
+                np.testing.assert_array_equal(ours, koksma.warp_points(koksma.generate("sobol:scramble=owen", 100, seed=3), warp.name))
+
+    def test_domains(self):
+        """Shirley & Chiu 1997: the disk's centre and rim; the hemispheres are of unit length and upwards; means are those of the
+        densities: 1/3 for each coordinate of a triangle, 1/2 and 2/3 for z with uniform and with cosine density."""
+        np.testing.assert_allclose(koksma.warp_points([[1, 1], [0.5, 0.5], [0, 0.5]], "concentric-disk"),
+                                   [[0.5**0.5, 0.5**0.5], [0, 0], [-1, 0]], atol=1e-15)
+        means = {"hemisphere": 1 / 2, "concentric-hemisphere": 1 / 2, "cosine-hemisphere": 2 / 3}
+        for warp in koksma.warps():
+            points = koksma.generate("sobol:scramble=owen", 4096, warp=warp.name)
+            if points.shape[1] == 3:
+                np.testing.assert_allclose((points**2).sum(axis=1), 1, rtol=1e-12)
+                self.assertTrue((points[:, 2] >= 0).all())
+                self.assertAlmostEqual(points[:, 2].mean(), means[warp.name], 3)
+            elif "triangle" in warp.name:
+                self.assertTrue((points >= 0).all() and (points.sum(axis=1) <= 1 + 1e-12).all())
+                np.testing.assert_allclose(points.mean(axis=0), 1 / 3, atol=1e-3)
+            else:
+                squares = (points**2).sum(axis=1)
+                self.assertTrue((squares <= 1 + 1e-12).all())
+                self.assertAlmostEqual(squares.mean(), 0.5, 3)
+
+    def test_ranges_and_files(self):
+        far = koksma.generate("sobol", 8, first=1 << 33, warp="polar-disk")
+        np.testing.assert_array_equal(far, koksma.warp_points(koksma.generate("sobol", 8, first=1 << 33), "polar-disk"))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "p.npy")
+            koksma.write(path, [[0.25, 0.5]])
+            self.assertEqual(koksma.generate("file:" + path, warp="triangle").shape, (1, 2))
+
+    def test_refusals(self):
+        for call, said in ((lambda: koksma.generate("random", 4, warp="disc"), r"koksma\.warps\(\)"),
+                           (lambda: koksma.generate("random", 4, 3, warp="triangle"), "2 dimensions, not 3"),
+                           (lambda: koksma.generate("random", out=np.zeros((4, 2)), warp="triangle"), "warp excludes out"),
+                           (lambda: koksma.generate("random", 4, on="m.obj", warp="triangle"), "warp excludes out"),
+                           (lambda: koksma.warp_points([[0.5, 1.5]], "triangle"), r"outside \[0,1\]"),
+                           (lambda: koksma.warp_points([0.5], "triangle"), r"shape \(n, dim\)")):
+            with self.subTest(said=said), self.assertRaisesRegex(koksma.ArgumentError, said):
+                call()
+
+    def test_series(self):
+        """Trials and convergence through a warp are the measures of the sets that generate makes."""
+        ours = koksma.convergence("sobol", "edge", [16, 64], warp="concentric-disk")
+        rows = [json.loads(line) for line in program("measure", "--prefixes", "16,64", "--warp", "concentric-disk", "-m", "edge",
+                                                     "pattern:sobol@64", "--json").splitlines()]
+        self.assertEqual(list(ours.mean), [row["value"] for row in rows[:2]])
+        self.assertTrue(np.isnan([ours.proven, ours.best]).all())
+        sets = koksma.convergence("jittered", "edge", [16, 64], warp="concentric-disk", trials=2)
+        for t in range(2):
+            for i, n in enumerate((16, 64)):
+                value = koksma.measure(koksma.generate("jittered", n, seed=t), "edge", warp="concentric-disk").value
+                self.assertEqual(sets.values[t, i], value)
+
+
+class Values(unittest.TestCase):
+    def test_local_discrepancy(self):
+        points = koksma.generate("random", 50, 3, seed=4)
+        for corner in ([0.5, 0.25, 0.75], [1, 1, 1], points[7], (0, 0.3, 0.9)):
+            inside = (points < np.array(corner)).all(axis=1).mean()
+            self.assertAlmostEqual(koksma.local_discrepancy(points, corner), inside - np.prod(corner), 15)
+        row = json.loads(program("measure", "--at", "0.3,0.7", "pattern:jittered@16", "--json"))
+        self.assertIn(koksma.local_discrepancy(koksma.generate("jittered", 16), [0.3, 0.7]), row.values())
+        for corner, said in (([0.5, 0.5], "corner must have 3 coordinates"), (0.5, "corner must have 3"), ([0, 0, 2], "outside|corner"),
+                             ([0, 0, float("nan")], "outside|corner")):
+            with self.subTest(corner=corner), self.assertRaisesRegex(koksma.ArgumentError, said):
+                koksma.local_discrepancy(points, corner)
+
+    def test_time_limit_of_trials(self):
+        cut = koksma.trials("random", 100, "extreme", dim=3, trials=2, time_limit=1e-9)
+        self.assertEqual(cut.exact, 0)
+        self.assertEqual(koksma.trials("random", 8, "extreme", trials=2, time_limit=600).exact, 2)
+
+    def test_pairs(self):
+        every = koksma.optimise("l2-star", 8, 3, projections="pairs", steps=1)
+        np.testing.assert_array_equal(every.points, koksma.optimise("l2-star", 8, 3, projections=[(0, 1), (0, 2), (1, 2)], steps=1).points)
+        with self.assertRaisesRegex(koksma.ArgumentError, "projections must be .* not 'triples'"):
+            koksma.optimise("l2-star", 8, 3, projections="triples", steps=1)
+
+    def test_records(self):
+        rows = [json.loads(line) for line in program("list", "records", "--json").splitlines()]
+        self.assertEqual([(r.measure, r.n, r.dim, r.value, r.seed) for r in koksma.records()],
+                         [(r["measure"], r["n"], r["dim"], r["value"], r["seed"]) for r in rows])
+        for record in koksma.records()[::40]:
+            points = koksma.generate(f"record:measure={record.measure}", record.n, record.dim)
+            self.assertAlmostEqual(float(koksma.measure(points, record.measure)), record.value, 12)
+
+
+class Scenes(unittest.TestCase):
+    ASKED = dict(held_out=["checker"], against=["jittered", "fibonacci"], candidates=2, phases=2, size=(12, 9), max_trials=8)
+
+    def test_same_set_as_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "o.npy")
+            done = subprocess.run([os.environ["KOKSMA"], "optimise", "--scene", "ball", "-n", "16", "--candidates", "2", "--phases", "2",
+                                   "--size", "12x9", "--held-out", "checker", "--against", "jittered,fibonacci", "--max-trials", "8",
+                                   "-s", "5", "-o", path, "-q", "--json"], capture_output=True, text=True)
+            self.assertIn(done.returncode, (0, 1))
+            rows = [json.loads(line) for line in done.stdout.splitlines()]
+            done_by = []
+            ours = koksma.optimise_scene("ball", 16, seed=5, progress=done_by.append, **self.ASKED)
+            np.testing.assert_array_equal(ours.points, np.load(path))
+        self.assertEqual(done_by, sorted(done_by))
+        for gain, row in zip(ours.gains, rows):
+            self.assertEqual((gain.scene, gain.error, gain.best_listed, gain.listed_error, gain.gain, *gain.interval, gain.size),
+                             (row["scene"], row["error"], row["best_listed"], row["listed_error"], row["gain"], row["gain_low"],
+                              row["gain_high"], (row["width"], row["height"])))
+        self.assertEqual((ours.gain, ours.candidates, ours.eliminated, ours.measure, ours.phase),
+                         (rows[-1]["gain"], rows[0]["candidates"], rows[0]["eliminated"], rows[0]["measure"], rows[0]["phase"]))
+        self.assertIn("ball", repr(ours))
+        self.assertIn("<table>", ours._repr_html_())
+
+    def test_two_at_once(self):
+        """Searches in two threads do not see each other's sets."""
+        alone = [koksma.optimise_scene("ball", 4, seed=seed, **self.ASKED) for seed in (1, 2)]
+        found = [None, None]
+
+        def search(i):
+            found[i] = koksma.optimise_scene("ball", 4, seed=i + 1, threads=1, **self.ASKED)
+
+        threads = [threading.Thread(target=search, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for one, two in zip(alone, found):
+            np.testing.assert_array_equal(one.points, two.points)
+            self.assertEqual(one.gains, two.gains)
+
+    def test_no_held_out(self):
+        found = koksma.optimise_scene("ball", 4, **{**self.ASKED, "held_out": []})
+        self.assertEqual(len(found.gains), 1)
+        self.assertTrue(np.isnan([found.gain, *found.interval]).all())
+        self.assertIn("none", found._repr_html_())
+
+    def test_refusals(self):
+        for arguments, said in ((dict(spp=0), "spp must be 1 to 4096"), (dict(held_out=["ball"]), "held_out: 'ball' is the scene"),
+                                (dict(held_out="checker"), "held_out must be a list"), (dict(against=["sobl"]), "sobl"),
+                                (dict(against=[]), "n_against|against"), (dict(candidates=1001), "candidates must be"), (dict(seed=-1), "seed must be"),
+                                (dict(scene="bal"), r"koksma\.scenes\(\)"), (dict(max_trials=7), "max_trials must be 8"),
+                                (dict(held_out=["x"] * 17), "held_out"), (dict(against=["random"] * 65), "against")):
+            asked = {"scene": "ball", "spp": 4, **self.ASKED, **arguments}
+            with self.subTest(arguments=arguments), self.assertRaisesRegex(koksma.Error, said) as caught:
+                koksma.optimise_scene(asked.pop("scene"), asked.pop("spp"), **asked)
+            self.assertNotRegex(str(caught.exception), "n_against|n_held_out|--")
+        with self.assertRaises(ZeroDivisionError):
+            koksma.optimise_scene("ball", 4, progress=lambda done: 1 / 0, **self.ASKED)
+
+    def test_check(self):
+        for name in ("ball", "cornell", "many-lights"):
+            rows = [json.loads(line) for line in program("scene", "check", name, "--json").splitlines()]
+            found = koksma.check_scene(name)
+            for kind in ("shapes", "meshes", "placements", "triangles", "materials", "lights"):
+                self.assertEqual(getattr(found, kind), rows[0][kind])
+            self.assertEqual([p.name for p in found.parts], [row["part"] for row in rows[1:]])
+            self.assertEqual(found.warnings, ())
+            for part, row in zip(found.parts, rows[1:]):
+                if row["x"] is not None:
+                    self.assertEqual([part.low[0], part.high[0]], row["x"])
+                self.assertEqual(None if part.frame is None else list(part.frame[:2]), row["across"])
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "odd.pbrt")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write('LookAt 0 0 -4 0 0 0 0 1 0\nCamera "perspective"\nWorldBegin\nLightSource "point"\n'
+                           'Material "hair"\nShape "sphere"\n')
+            found = koksma.check_scene(path)
+            self.assertFalse(found)
+            self.assertTrue(any("hair" in line for line in found.unknown))
+            self.assertTrue(set(found.unknown) <= set(found.warnings))
+            with koksma.refuse_unknown(), self.assertRaisesRegex(koksma.MalformedError, "hair"):
+                koksma.check_scene(path)
+        with self.assertRaises(koksma.Error):
+            koksma.check_scene("no-such-scene")
+
+    def test_lights(self):
+        """The program's default is ours: a scene with more than 8 lights."""
+        self.assertGreater(koksma.check_scene("many-lights").lights, 8)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "image.pfm")
+            program("render", "many-lights", "--integrator", "path", "--size", "24x18", "-n", "2", "-q", "-o", path)
+            image = koksma.render("many-lights", spp=2, size=(24, 18), integrator="path")
+            np.testing.assert_array_equal(image, koksma.read_image(path))
+            self.assertFalse(np.array_equal(image, koksma.render("many-lights", spp=2, size=(24, 18), integrator="path", lights="all")))
+
+    def test_probes(self):
+        layers = koksma.render("checker", spp=4, size=(24, 18), adaptive="hierarchical", probes=4, layers=True)
+        with tempfile.TemporaryDirectory() as folder:
+            row = json.loads(program("render", "checker", "-n", "4", "--size", "24x18", "--adaptive", "hierarchical", "--probe", "4",
+                                     "-q", "--json", "-o", os.path.join(folder, "i.pfm")).splitlines()[0])
+        self.assertGreater(layers.splits, 0)
+        self.assertEqual((layers.splits, layers.needless / layers.splits), (row["splits"], row["needless"]))
+        with self.assertRaisesRegex(koksma.ArgumentError, "probes 3"):
+            koksma.render("ball", spp=1, size=(4, 4), probes=3)
+
+
+class Images(unittest.TestCase):
+    def test_groups(self):
+        """The program's rows; the error of a group is the mean absolute error of its images."""
+        truth = koksma.render("ball", "jittered", 256, size=(16, 12))
+        with tempfile.TemporaryDirectory() as folder:
+            reference, places = os.path.join(folder, "truth.pfm"), os.path.join(folder, "i_{p}_{spp}_{trial}.pfm")
+            koksma.write_image(reference, truth)
+            errors = {}
+            for pattern in ("random", "jittered"):
+                for spp in (4, 16, 64):
+                    for trial in range(3):
+                        image = koksma.render("ball", pattern, spp, size=(16, 12), seed=trial)
+                        koksma.write_image(os.path.join(folder, f"i_{pattern}_{spp}_{trial}.pfm"), image)
+                        errors.setdefault((f"p={pattern}", spp), []).append(koksma.compare(image, truth).mean)
+            rows = [json.loads(line) for line in program("study", "images", places, "--reference", reference, "--json").splitlines()]
+            found = koksma.study_images(places, reference, folder=os.path.join(folder, "out"))
+            self.assertTrue(os.path.exists(os.path.join(folder, "out", "report.html")))
+            self.assertEqual(len(found), len(rows))
+            for group, row in zip(found, rows):
+                self.assertAlmostEqual(group.error, np.mean(errors[group.group, group.spp]), 12)
+                self.assertIn(group.error, row.values())
+                self.assertEqual(group.trials, 3)
+                self.assertEqual(group.position == 1, np.isnan(group.behind) or group.behind == 0)
+            self.assertEqual({g.position for g in found}, {1, 2})
+            for call, kind, said in ((lambda: koksma.study_images(places, os.path.join(folder, "none.pfm")), koksma.MissingError, "none.pfm"),
+                                     (lambda: koksma.study_images(os.path.join(folder, "x_{trial}.pfm"), reference), koksma.MissingError, "x_"),
+                                     (lambda: koksma.study_images(places, reference, metric="q"), koksma.ArgumentError, r"koksma\.metrics"),
+                                     (lambda: koksma.study_images("i_{trial.pfm", reference), koksma.ArgumentError, "i_"),
+                                     (lambda: koksma.study_images(3, reference), TypeError, "places must be a str")):
+                with self.subTest(said=said), self.assertRaisesRegex(kind, said):
+                    call()
+
+
+class Drawings(unittest.TestCase):
+    def test_warp(self):
+        points = koksma.generate("jittered", 16)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "p.svg")
+            program("plot", "pattern:jittered@16", "--warp", "polar-disk", "--grid", "4", "-o", path)
+            with open(path, encoding="utf-8") as file:
+                theirs = file.read()
+        ours = koksma.plot(points, warp="polar-disk", columns=4, rows=4).svg
+        self.assertEqual(ours.count("<circle"), theirs.count("<circle"))
+        self.assertNotEqual(ours, koksma.plot(points, columns=4, rows=4).svg)
+        with self.assertRaisesRegex(koksma.ArgumentError, r"koksma\.warps\(\)"):
+            koksma.plot(points, warp="disc")
+
+
+if __name__ == "__main__":
+    unittest.main()

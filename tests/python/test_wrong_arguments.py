@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every parameter of every public function, wrong in turn: what comes is koksma's, Python's TypeError or ValueError, in words of
+Python, and a TypeError names the parameter. Nothing crashes: that would end this process."""
+import ctypes
+import inspect
+import os
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+
+import koksma
+
+
+class Odd:
+    pass
+
+
+WRONG = [None, -1, 2.5, float("nan"), float("inf"), 1 << 70, "", "q\0q", "nothing:of=this", b"bytes", "x" * 3000, [], [None], ["q"], {},
+         (1, 2, 3), Odd(), 1j, np.zeros((0, 2)), np.full((3, 2), np.nan), np.zeros((2, 2, 2, 2, 2)), "\ud800", np.array(["a"]), [[1, [2]]],
+         [2.5], [-1], ["random\0"], lambda *_: Odd()]
+# Other words for a parameter: of scipy's and numpy's own checks, and of what a parameter consists of.
+SYNONYMS = {"text_of_spec": "pattern", "patterns": "patterns?", "size": "width|size", "function": "function|integrand|argument|float",
+            "axes": "axes|axis", "seed": "seed|SeedSequence|integer", "rng": "seed|SeedSequence|integer", "d": "d|int|integer", "image": "image|pixels",
+            "images": "images?|pixels", "reference": "image|pixels|reference", "plan": "plan|JSON|dict"}
+NEVER = r"ctypes|koksma_[a-z]|(?<!\w)--[a-z]|koksma list"
+
+
+class WrongArguments(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls._before, cls._folder = os.getcwd(), tempfile.TemporaryDirectory()
+        os.chdir(cls._folder.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        os.chdir(cls._before)
+        cls._folder.cleanup()
+
+    def calls(self):
+        points, image, small = koksma.generate("jittered", 16), np.ones((4, 4), np.float32), (4, 3)
+        plan = {"name": "m", "title": "M", "discrepancies": [{"id": "d", "patterns": ["random"], "measures": ["star"], "n": [4], "trials": 2}]}
+        koksma.write("p.npy", points)
+        koksma.write_image("i.pfm", image)
+        koksma.write_image("i_1.pfm", image)
+        with koksma.Study(plan, "done") as study:
+            study.run()
+        curve, engine = koksma.convergence("sobol", "l2-star", [4, 8]), koksma.Engine("sobol")
+        for function, given in (
+                (koksma.generate, dict(pattern="sobol", n=16)), (koksma.measure, dict(points=points)), (koksma.read, dict(path="p.npy")),
+                (koksma.write, dict(path="q.npy", points=points)), (koksma.verify, dict(points=points)),
+                (koksma.spectrum, dict(sets=points, half=4)), (koksma.pair_correlation, dict(sets=points)),
+                (koksma.trials, dict(pattern="jittered", n=4, trials=2)), (koksma.convergence, dict(pattern="sobol", sizes=[4, 8])),
+                (koksma.canonical, dict(text_of_spec="sobol")), (koksma.has_ranges, dict(pattern="sobol")),
+                (koksma.integrand, dict(name="genz-gaussian")), (koksma.integrate, dict(function="genz-gaussian", pattern="sobol", n=4)),
+                (koksma.sensitivity, dict(function="genz-gaussian", axes=1)), (koksma.optimise, dict(measure="l2-star", n=4, steps=1)),
+                (koksma.radial_power, dict(target="step", n=4)), (koksma.render, dict(scene="ball", spp=1, size=small)),
+                (koksma.rank, dict(scene="ball", patterns=["random"], spp=1, size=small, one_size=True, max_trials=8)),
+                (koksma.compare, dict(images=image, reference=image)), (koksma.read_image, dict(path="i.pfm")),
+                (koksma.write_image, dict(path="j.pfm", image=image)), (koksma.plot, dict(sets=points)),
+                (koksma.plot_compare, dict(patterns="random", n=4, trials=2, sizes=[4, 8])), (koksma.plot_convergence, dict(results=curve)),
+                (koksma.audit, dict(folder="done")), (koksma.Study, dict(plan=plan)), (koksma.Engine, dict(pattern="sobol")),
+                (engine.random, {}), (engine.random_base2, dict(m=0)), (engine.fast_forward, dict(n=1)),
+                (koksma.warp_points, dict(points=points, warp="polar-disk")),
+                (koksma.local_discrepancy, dict(points=points, corner=[0.5, 0.5])), (koksma.check_scene, dict(scene="ball")),
+                (koksma.optimise_scene, dict(scene="ball", spp=1, held_out=[], against=["random"], candidates=1, phases=1, size=small, max_trials=8)),
+                (koksma.study_images, dict(places="i_{trial}.pfm", reference="i.pfm"))):
+            yield function, given
+        yield lambda seconds=1: koksma.allow_exec(seconds).__enter__(), {}
+
+    def call(self, function, given):
+        several = [p.name for p in inspect.signature(function).parameters.values() if p.kind is p.VAR_POSITIONAL]
+        return function(*[given[name] for name in several if name in given], **{k: v for k, v in given.items() if k not in several})
+
+    def test_all(self):
+        warnings.simplefilter("ignore")
+        for function, given in self.calls():
+            for name in inspect.signature(function).parameters:
+                for wrong in WRONG:
+                    if isinstance(wrong, np.ndarray) and name in ("layers", "first", "n", "dim", "quick"):
+                        continue  # NumPy's own word for arrays that are taken for a truth value
+                    with self.subTest(function=getattr(function, "__qualname__", function), parameter=name, wrong=f"{wrong!r:.40}"):
+                        try:
+                            self.call(function, {**given, name: wrong})
+                        except (koksma.Error, TypeError, ValueError) as error:
+                            self.assertNotIsInstance(error, ctypes.ArgumentError)
+                            self.assertNotRegex(str(error), NEVER)
+                            if type(error) is TypeError and not callable(wrong):
+                                self.assertRegex(str(error), rf"\b({SYNONYMS.get(name, name)})\b")
+        koksma._library.core().koksma_allow_exec(0.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
