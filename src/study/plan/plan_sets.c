@@ -132,6 +132,7 @@ static koksma_status check(const tried *t, koksma__left_out *out)
         status = refuse_first(t);
     }
     koksma__plan_sort(t->n);
+    out->skip = skip;
     if (status || !skip) {
         return status;
     }

@@ -471,21 +471,25 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
     return status;
 }
 
-/* Puts the job's name, such as "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417: ", before the error
-   text. */
-static koksma_status fail_job(const koksma_study *study, const koksma__task *t, long long trial, koksma_status status)
+void koksma__task_name(const koksma_study *study, const koksma__task *t, long long trial, char name[KOKSMA__JOB_NAME])
 {
-    char name[KOKSMA_MAX_SPEC + KOKSMA__VARIANT_TEXT + 128];
     const koksma__plan *plan = &study->plan;
     if (t->image) {
-        snprintf(name, sizeof name, "images[%td], %.64s%s%s, %s, %lld samples a pixel, trial %lld",
+        snprintf(name, KOKSMA__JOB_NAME, "images[%td], %.64s%s%s, %s, %lld samples a pixel, trial %lld",
                  t->image - plan->images, t->scene->name, t->variant[0] ? ", " : "", t->variant, t->pattern, t->n,
                  trial);
     } else {
-        snprintf(name, sizeof name, "discrepancies[%td], %s%s%s, n = %lld, trial %lld",
+        snprintf(name, KOKSMA__JOB_NAME, "discrepancies[%td], %s%s%s, n = %lld, trial %lld",
                  t->discrepancy - plan->discrepancies, t->pattern, t->variant[0] ? " through " : "", t->variant, t->n,
                  trial);
     }
+}
+
+/* Puts the job's name before the error text. */
+static koksma_status fail_job(const koksma_study *study, const koksma__task *t, long long trial, koksma_status status)
+{
+    char name[KOKSMA__JOB_NAME];
+    koksma__task_name(study, t, trial, name);
     return koksma__fail_in(status, name);
 }
 

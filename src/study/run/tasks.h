@@ -8,6 +8,7 @@
 #ifndef KOKSMA_STUDY_RUN_TASKS_H
 #define KOKSMA_STUDY_RUN_TASKS_H
 
+#include "study/plan/variants.h"
 #include "study/run/study.h"
 
 typedef struct koksma__task {
@@ -66,6 +67,11 @@ koksma__series koksma__task_series(const koksma__task *task, size_t k, char name
 
 /* The seed of a job. */
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
+
+/* Writes the name of a job, such as "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417". */
+enum { KOKSMA__JOB_NAME = KOKSMA_MAX_SPEC + KOKSMA__VARIANT_TEXT + 128 };
+void koksma__task_name(const koksma_study *study, const koksma__task *task, long long trial,
+                       char name[KOKSMA__JOB_NAME]);
 
 /* Does one job, which gives n_series results. The pixels of the references must be loaded. Errors: INTERRUPTED, if
    `run` stops the job; MEMORY; those of generating, measuring and rendering, whose text begins with the job's block,
