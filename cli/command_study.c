@@ -396,6 +396,21 @@ static int audit(const cli_arguments *arguments)
 
 /* ---- images -------------------------------------------------------------------------------------------- */
 
+/* Warns that a template has no {trial}, and names a place that may be a misspelling of it. */
+static void say_no_trial(const char *places)
+{
+    char name[32], meant[96];
+    for (const char *at = strchr(places, '{'); at; at = strchr(at + 1, '{')) {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at + 1, "}"), at + 1);
+        if (*cli_meant_of(name, "trial", meant)) {
+            cli_say("study", "'%s' has no {trial} (is it {%s}?), so each group has one image and no interval", places,
+                    name);
+            return;
+        }
+    }
+    cli_say("study", "'%s' has no {trial}, so each group has one image and no interval", places);
+}
+
 static void put_image_rows(cli_rows *out, const koksma_metric_spec *metric, const koksma_images_row *rows, size_t n)
 {
     char name[KOKSMA_MAX_SPEC];
@@ -450,7 +465,7 @@ static int images(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     if (n > 1 && !strstr(arguments->operands[1], "{trial}")) {
-        cli_say("study", "'%s' has no {trial}, so each group has one image and no interval", arguments->operands[1]);
+        say_no_trial(arguments->operands[1]);
     }
     cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
     put_image_rows(out, metric.specs, rows, n);

@@ -254,16 +254,16 @@ static const char *left_out_at(const void *context, size_t i)
     return koksma_study_left_out_at(context, i);
 }
 
-/* Whether one of the run's lines is of the same task as the line: equal up to the second tab. */
-static bool is_replaced(const koksma__failures *run, const char *line)
+/* Whether the lines have one of the same task with at least as many failed trials. A trial that failed fails again, so that
+   of two runs the one that tried more of them knows more. */
+static bool have_more(const koksma__texts *lines, const char *line)
 {
-    const char *tab = strchr(line, '\t'), *end = tab ? strchr(tab + 1, '\t') : NULL;
-    for (size_t i = 0; end && i < run->lines.n; i++) {
-        if (!strncmp(run->lines.at[i], line, (size_t)(end + 1 - line))) {
-            return true;
-        }
+    fields a, b;
+    bool more = !read_line(line, &a);
+    for (size_t i = 0; !more && i < lines->n; i++) {
+        more = read_line(lines->at[i], &b) && same_label(&a, &b) && a.n == b.n && b.failed >= a.failed;
     }
-    return !end;
+    return more;
 }
 
 koksma_status koksma__failures_record(koksma_study *study, const koksma__failures *run, bool all)
@@ -271,10 +271,10 @@ koksma_status koksma__failures_record(koksma_study *study, const koksma__failure
     koksma__texts before = {0}, lines = {0};
     koksma_status status = all ? KOKSMA_OK : recall(study, &before);
     for (size_t i = 0; !status && i < before.n; i++) {
-        status = is_replaced(run, before.at[i]) ? KOKSMA_OK : add_text(&lines, before.at[i]);
+        status = have_more(&run->lines, before.at[i]) ? KOKSMA_OK : add_text(&lines, before.at[i]);
     }
     for (size_t i = 0; !status && i < run->lines.n; i++) {
-        status = add_text(&lines, run->lines.at[i]);
+        status = have_more(&lines, run->lines.at[i]) ? KOKSMA_OK : add_text(&lines, run->lines.at[i]);
     }
     status = status ? status : show_all(&lines, &study->failed);
     status = status ? status : set_lines(study, failed_key, text_at, &lines);

@@ -37,7 +37,7 @@ koksma_status koksma__failures_count(const koksma__tasks *tasks, size_t job, con
 koksma_status koksma__failures_add(koksma__failures *run, const koksma__failures *phase, const koksma__tasks *tasks);
 
 /* Writes the list of the run, and all lines that koksma_study_left_out_at returns, into the store. all: whether the run
-   tried every job; otherwise tasks that this run did not find failing keep the lines of the runs before. Errors: those
+   tried every job; otherwise the lines of the runs before stay where this run knows no more. Errors: those
    of the store, MEMORY. */
 koksma_status koksma__failures_record(koksma_study *study, const koksma__failures *run, bool all);
 

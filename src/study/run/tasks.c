@@ -20,6 +20,7 @@
 #include "core/status.h"
 #include "image/coherence.h"
 #include "image/metrics/metrics.h"
+#include "patterns/shared/file_names.h"
 #include "study/run/references.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
@@ -44,6 +45,9 @@ static uint64_t key_of(const koksma__task *t)
 uint64_t koksma__task_seed(const koksma__task *t, long long trial)
 {
     char digits[KOKSMA__CSV_NUMBER];
+    if (t->seeds && trial < t->trials) {
+        return t->seeds[trial];
+    }
     return koksma__hash_end(koksma__hash_more(t->key, digits, koksma__csv_whole((uint64_t)trial, digits)));
 }
 
@@ -69,6 +73,34 @@ bool koksma__has_one_set(const char *pattern)
     return !koksma_pattern_spec(pattern, &spec) && koksma__spec_is_deterministic(&spec);
 }
 
+/* A family of files, such as file:my_{n}_{seed}.npy, has one set for each file: trial t has the file with the t-th smallest
+   seed, and there are as many trials as files, at most those of the block. */
+static koksma_status find_seeds(koksma__task *t)
+{
+    koksma_spec spec;
+    koksma__file_set *sets = NULL;
+    size_t count = 0, n = 0;
+    if (koksma_pattern_spec(t->pattern, &spec) || !koksma__reads_points(spec.pattern) ||
+        !koksma__file_has(spec.path, "{seed}")) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = koksma__file_sets(spec.path, &sets, &count);
+    t->seeds = status ? NULL : calloc(count + 1, sizeof *t->seeds);
+    status = status || t->seeds ? status : koksma__fail_memory(count * sizeof *t->seeds);
+    for (size_t i = 0; !status && i < count && (long long)n < t->trials; i++) {
+        if (!sets[i].n || sets[i].n == (size_t)t->n) {
+            t->seeds[n++] = sets[i].seed;
+        }
+    }
+    free(sets);
+    if (!n) { /* the error of the first trial names the file that is missing */
+        free(t->seeds);
+        t->seeds = NULL;
+    }
+    t->trials = n ? (long long)n : 1;
+    return status;
+}
+
 static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discrepancy_block *b)
 {
     const size_t warps = b->warps.n ? b->warps.n : 1;
@@ -77,14 +109,19 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
         if (koksma__is_left_out(&b->left_out, i / (b->n.n * warps), b->n.n, i / warps % b->n.n)) {
             continue;
         }
-        const koksma__task task = {.discrepancy = b,
+        koksma__task task = {.discrepancy = b,
                                    .pattern = b->patterns.at[i / (b->n.n * warps)],
                                    .n = b->n.at[i / warps % b->n.n],
                                    .variant = b->warps.n ? b->warps.at[i % warps] : "",
                                    .trials =
                                        koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials,
                                    .n_series = b->measures.n};
-        status = add_task(tasks, &task);
+        const size_t before = tasks->n;
+        status = find_seeds(&task);
+        status = status ? status : add_task(tasks, &task);
+        if (tasks->n == before) { /* the list does not own them */
+            free(task.seeds);
+        }
     }
     return status;
 }
@@ -174,7 +211,7 @@ koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks
 void koksma__tasks_close(koksma__tasks *tasks)
 {
     for (size_t i = 0; i < tasks->n; i++) {
-        KOKSMA__FREE(tasks->at[i].series, tasks->at[i].references, tasks->at[i].done);
+        KOKSMA__FREE(tasks->at[i].series, tasks->at[i].references, tasks->at[i].done, tasks->at[i].seeds);
     }
     free(tasks->at);
     free(tasks->rounds);

@@ -25,6 +25,7 @@ typedef struct koksma__task {
     /* Number of results of a job: one per measure; or, for an image, its error against each reference, then the
        coherence of its error against the last reference, then that error by each metric. */
     size_t n_series;
+    uint64_t *seeds;       /* of a family of files (file_names.h): the seed in the name of each trial's file; else NULL */
     size_t *references;    /* for an image: indices into study->references, one per result */
     long long *series;     /* ids of the series in the store, set by koksma__tasks_look_up */
     unsigned char *done;   /* one bit per trial, which tells whether the trial was done before this run */
@@ -65,7 +66,7 @@ bool koksma__task_is_done(const koksma__task *task, long long trial);
 /* The key of result k of a task's jobs; `name` holds a text that the key points to. */
 koksma__series koksma__task_series(const koksma__task *task, size_t k, char name[KOKSMA__REFERENCE_NAME]);
 
-/* The seed of a job. */
+/* The seed of a job: a hash of its key, or the number in the name of the job's file. */
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
 
 /* Writes the name of a job, such as "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417". */
