@@ -258,6 +258,14 @@ async function byKeyboard(page) {
     if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}.png`, fullPage: true });
     if (colorScheme === "light") { // printed, nothing is folded, and nothing is cut off at the side of a page
       await page.emulateMedia({ media: "print" });
+      const wide = await page.evaluate(() => { // a window's chart on paper would have letters of half their size
+        const most = () => Math.max(0, ...[...document.querySelectorAll(".chart")].map(chart => chart.viewBox.baseVal.width)), before = most();
+        dispatchEvent(new Event("beforeprint"));
+        const printed = most();
+        dispatchEvent(new Event("afterprint"));
+        return [before, printed, most(), [...document.querySelectorAll(".commands button")].filter(b => b.checkVisibility()).length];
+      });
+      check(wide[1] <= 700 && wide[0] === wide[2] && !wide[3], `charts are ${wide[1]} wide on paper, ${wide[0]} before and ${wide[2]} after; ${wide[3]} buttons`);
       await page.setViewportSize({ width: 718, height: 1000 }); // A4 without its margins
       const cut = await page.evaluate(() => {
         dispatchEvent(new Event("beforeprint"));

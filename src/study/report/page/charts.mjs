@@ -5,11 +5,11 @@
 import { chart, shape } from "../../../../explorer/page/chart.mjs";
 import { element, short, svg } from "../../../../explorer/page/dom.mjs";
 
-const lines = 8, near = 40; // as many lines as the palette has colours
+const lines = 8, near = 40, widest = 1400; // as many lines as the palette has colours
 const drawn = []; // the functions that draw the charts, called again when the width of the window changes
 
-export function redraw() {
-  drawn.forEach(draw => draw());
+export function redraw(most = widest) {
+  drawn.forEach(draw => draw(most));
 }
 
 // As long as one period of every dash pattern, and with the mark of the chart.
@@ -85,13 +85,13 @@ export function chartFigure(block) {
   [...leads, ...first.filter(label => !leads.includes(label))].forEach(take);
   const classOf = look => `c${look % lines} d${Math.floor(look / lines) % 4}`, markOf = look => look + Math.floor(look / lines);
   let points = [];
-  const draw = () => {
+  const draw = (most = widest) => {
     const series = block.series.filter(s => s.style === "theory" || looks.has(s.label)).map(({ label, style, points: values }) => {
       const theory = style === "theory", hollow = style === "hollow", look = looks.get(label);
       return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}${classOf(look)}`,
         line: style === "line" || theory, marks: theory ? undefined : markOf(look) };
     });
-    points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most: 1400 });
+    points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most });
     legend.replaceChildren(...series.filter(s => !s.hollow).map(s => element("li", {}, swatch(s.className, s.marks, s.line), s.label)));
     count.textContent = `Choose lines: ${looks.size} of ${labels.length} are shown, ${lines} at most${block.y.better && labels.length > lines ? "; the best at the right end to begin with" : ""}`;
     boxes.forEach((box, label) => { box.disabled = !looks.has(label) && looks.size >= lines; });
