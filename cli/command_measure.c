@@ -48,8 +48,8 @@ static void put_witness(cli_rows *rows, const koksma_witness *w)
     put_corner(json, sizeof json, w->hi, hi_dim);
     strcat(json, "}");
     const bool space = w->kind == KOKSMA_WITNESS_HALF_PLANE && w->dim == 3;
-    int used = snprintf(text, sizeof text, "%zu point%s in the %s %s", w->count, w->count == 1 ? "" : "s", w->closed ? "closed" : "open",
-                        space ? "half-space" : kinds[w->kind]);
+    int used = snprintf(text, sizeof text, "%zu point%s in the %s %s", w->count, w->count == 1 ? "" : "s",
+                        w->closed ? "closed" : "open", space ? "half-space" : kinds[w->kind]);
     char a[CLI_NUMBER], b[CLI_NUMBER], c[CLI_NUMBER];
     if (w->kind == KOKSMA_WITNESS_BOX) {
         for (int k = 0; k < w->dim && used < (int)sizeof text; k++) {
@@ -335,7 +335,8 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'m', "measures", "MEASURE,..|all", "measures (default: those of star,l2-star,extreme that accept the points; with --warp those for its domain)"},
+    {'m', "measures", "MEASURE,..|all",
+     "measures (default: those of star,l2-star,extreme that accept the points; with --warp those for its domain)"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {'t', "trials", "T",

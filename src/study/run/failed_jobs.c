@@ -137,7 +137,8 @@ static bool read_line(const char *line, fields *out)
     out->label = line;
     out->label_length = (int)strcspn(line, "\t");
     const char *numbers = line + out->label_length;
-    if (sscanf(numbers, "\t%lld\t%lld\t%lld%n", &out->n, &out->failed, &out->trials, &at) != 3 || numbers[at] != '\t') {
+    if (sscanf(numbers, "\t%lld\t%lld\t%lld%n", &out->n, &out->failed, &out->trials, &at) != 3 ||
+        numbers[at] != '\t') {
         return false;
     }
     out->reason = numbers + at + 1;

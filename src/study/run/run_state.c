@@ -120,10 +120,9 @@ void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksm
 void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char *text)
 {
     pthread_mutex_lock(&state->lock);
-    const koksma_status status =
-        koksma__work_queue_put(&state->jobs, job)
-            ? koksma__failures_count(state->phase->tasks, job, text, &state->phase->failures)
-            : KOKSMA_OK;
+    const koksma_status status = koksma__work_queue_put(&state->jobs, job)
+                                     ? koksma__failures_count(state->phase->tasks, job, text, &state->phase->failures)
+                                     : KOKSMA_OK;
     pthread_mutex_unlock(&state->lock);
     if (status) {
         koksma__run_state_stop(state, status, koksma_error_text());

@@ -110,12 +110,11 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
             continue;
         }
         koksma__task task = {.discrepancy = b,
-                                   .pattern = b->patterns.at[i / (b->n.n * warps)],
-                                   .n = b->n.at[i / warps % b->n.n],
-                                   .variant = b->warps.n ? b->warps.at[i % warps] : "",
-                                   .trials =
-                                       koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials,
-                                   .n_series = b->measures.n};
+                             .pattern = b->patterns.at[i / (b->n.n * warps)],
+                             .n = b->n.at[i / warps % b->n.n],
+                             .variant = b->warps.n ? b->warps.at[i % warps] : "",
+                             .trials = koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials,
+                             .n_series = b->measures.n};
         const size_t before = tasks->n;
         status = find_seeds(&task);
         status = status ? status : add_task(tasks, &task);

@@ -25,7 +25,7 @@ typedef struct koksma__task {
     /* Number of results of a job: one per measure; or, for an image, its error against each reference, then the
        coherence of its error against the last reference, then that error by each metric. */
     size_t n_series;
-    uint64_t *seeds;       /* of a family of files (file_names.h): the seed in the name of each trial's file; else NULL */
+    uint64_t *seeds; /* of a family of files (file_names.h): the seed in the name of each trial's file; else NULL */
     size_t *references;    /* for an image: indices into study->references, one per result */
     long long *series;     /* ids of the series in the store, set by koksma__tasks_look_up */
     unsigned char *done;   /* one bit per trial, which tells whether the trial was done before this run */

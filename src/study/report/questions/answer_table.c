@@ -237,7 +237,8 @@ static koksma_status say_bands(koksma_study *study, koksma__document *d, const s
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
 /* *gaps: whether a cell has no mean. */
-static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *c, const standing *s, bool *gaps)
+static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *c, const standing *s,
+                              bool *gaps)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < c->patterns->n; i++) {
@@ -397,7 +398,8 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const c
         status = status ? status : add_rows(study, d, c, &s, &gaps);
         koksma__doc_table_end(d);
         if (gaps && koksma_study_left_out_at(study, 0)) {
-            koksma__doc_paragraph(d, "A cell without a number has no results: the section *Left out* gives the reasons.");
+            koksma__doc_paragraph(
+                d, "A cell without a number has no results: the section *Left out* gives the reasons.");
         }
         status = !status && c->image ? add_metrics(study, d, id, number, c, &s) : status;
         koksma__doc_end(d);
