@@ -8,6 +8,7 @@
 #define KOKSMA_CLI_CLI_H
 
 #include <koksma/koksma.h>
+#include <koksma/study.h>
 
 enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2, CLI_DIGITS = 5, CLI_NUMBER = 32 };
 
@@ -154,6 +155,11 @@ const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* Returns `tex
 /* Prints that the interrupted study in `folder` can continue. folder is NULL in the MPI ranks above 0, which print
    nothing. Returns the exit code. */
 int cli_study_interrupted(const cli_arguments *arguments, const char *folder);
+
+/* Print what a study has no results for, a line each, unless --quiet: all lines of an open study, in MPI rank 0 alone; one
+   line. */
+void cli_study_left_out(const cli_arguments *arguments, const koksma_study *study);
+void cli_say_left_out(const char *line, size_t length);
 
 /* ---- Rows: aligned text, or a JSON object a line ------------------------------------------------------- */
 

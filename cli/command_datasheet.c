@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <koksma/datasheet.h>
 #include <koksma/plot.h>
@@ -32,6 +33,20 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
         snprintf(out->texts[out->n], sizeof *out->texts, "%s", item);
         out->at[out->n] = out->texts[out->n];
         out->n++;
+    }
+    return true;
+}
+
+/* Takes pattern:SPEC as SPEC, as all commands do. Returns false, after an error, for SPEC@N: a sheet has many n. */
+static bool take_sampler(const cli_arguments *arguments, const char **text)
+{
+    static const char prefix[] = "pattern:";
+    *text += strncmp(*text, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    const char *at = strchr(*text, '@');
+    if (at && at[1] && !at[1 + strspn(at + 1, "0123456789@")] && access(*text, F_OK)) {
+        cli_usage_error(arguments, "%s: a datasheet chooses the numbers of points; it takes %.*s", *text,
+                        (int)(at - *text), *text);
+        return false;
     }
     return true;
 }
@@ -79,8 +94,16 @@ static int run(const cli_arguments *arguments)
         !cli_work_begin(arguments, "datasheet", &work)) {
         return CLI_USAGE;
     }
+    const char *sampler = arguments->operands[0];
+    bool good = take_sampler(arguments, &sampler);
+    for (size_t i = 0; good && i < beside.n; i++) {
+        good = take_sampler(arguments, &beside.at[i]);
+    }
+    if (!good) {
+        return CLI_USAGE;
+    }
     const koksma_datasheet_options options = {
-        .sampler = arguments->operands[0],
+        .sampler = sampler,
         .beside = cli_text(arguments, "beside", NULL) ? beside.at : NULL,
         .n_beside = beside.n,
         .scenes = cli_text(arguments, "scenes", NULL) ? scenes.at : NULL,

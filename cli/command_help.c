@@ -5,7 +5,7 @@
 
 #include "options.h"
 
-const char cli_overview_examples[] = "koksma rank ball --spp 16\n"
+const char cli_overview_examples[] = "koksma rank ball --spp 16 -p random,n-rooks,sobol:scramble=owen\n"
                                      "koksma measure points.txt -m star,l2-star,extreme\n"
                                      "koksma optimise star -n 64 --time-limit 60 -o o.txt\n"
                                      "koksma datasheet points.txt --quick -o sheet.html\n"

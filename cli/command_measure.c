@@ -48,8 +48,8 @@ static void put_witness(cli_rows *rows, const koksma_witness *w)
     put_corner(json, sizeof json, w->hi, hi_dim);
     strcat(json, "}");
     const bool space = w->kind == KOKSMA_WITNESS_HALF_PLANE && w->dim == 3;
-    int used = snprintf(text, sizeof text, "%zu points in the %s %s", w->count, w->closed ? "closed" : "open",
-                        space ? "half-space" : kinds[w->kind]);
+    int used = snprintf(text, sizeof text, "%zu point%s in the %s %s", w->count, w->count == 1 ? "" : "s",
+                        w->closed ? "closed" : "open", space ? "half-space" : kinds[w->kind]);
     char a[CLI_NUMBER], b[CLI_NUMBER], c[CLI_NUMBER];
     if (w->kind == KOKSMA_WITNESS_BOX) {
         for (int k = 0; k < w->dim && used < (int)sizeof text; k++) {
@@ -136,12 +136,20 @@ static void choose_columns(measuring *j)
     }
 }
 
-/* Returns `status`; but with -m all it returns KOKSMA_OK for a measure that does not accept a set, so that the
-   measure is left out. */
-koksma_status measuring_forgive(const measuring *j, koksma_status status)
+/* Returns `status`; but with -m all and without -m it returns KOKSMA_OK for a measure that does not accept a set, so that
+   the measure is left out. */
+koksma_status measuring_forgive(measuring *j, koksma_status status)
 {
-    return j->all && (status == KOKSMA_DIM || status == KOKSMA_N || status == KOKSMA_UNSUPPORTED) ? KOKSMA_OK
-                                                                                                  : status;
+    const bool unable = status == KOKSMA_DIM || status == KOKSMA_N || status == KOKSMA_UNSUPPORTED;
+    if (!unable || !(j->all || j->by_default)) {
+        return status;
+    }
+    if (j->by_default && !cli_flag(j->arguments, "quiet") && strcmp(j->note, koksma_error_text()) != 0) {
+        snprintf(j->note, sizeof j->note, "%s", koksma_error_text());
+        cli_work_end();
+        cli_say("measure", "left out: %s", j->note);
+    }
+    return KOKSMA_OK;
 }
 
 static int measure_source(measuring *j, const char *source)
@@ -306,6 +314,7 @@ static int run(const cli_arguments *arguments)
     if (!parse_options(&j) || !cli_work_begin(arguments, "measuring", &j.work)) {
         return CLI_USAGE;
     }
+    j.by_default = !cli_text(arguments, "measures", NULL);
     const koksma_status status = choose_measures(&j, cli_text(arguments, "measures", default_measures(&j)));
     if (status) {
         return cli_fail(arguments, status);
@@ -326,7 +335,8 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those for its domain)"},
+    {'m', "measures", "MEASURE,..|all",
+     "measures (default: those of star,l2-star,extreme that accept the points; with --warp those for its domain)"},
     CLI_SOURCE_OPTIONS,
     {'s', "seed", "S", "seed of patterns (default: 0)"},
     {'t', "trials", "T",

@@ -343,6 +343,10 @@ static int run(const cli_arguments *arguments)
     }
     cli_work_end();
     code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
+    if (!status && !cli_text(arguments, "patterns", NULL) && !cli_flag(arguments, "quiet")) {
+        fputs("these are the patterns of Shirley 1991; -p later ranks newer ones, too, such as sobol:scramble=owen\n",
+              stderr);
+    }
     const int rows_code = cli_rows_close(rows);
     return code > CLI_NO || !rows_code ? code : rows_code;
 }
@@ -426,7 +430,7 @@ const cli_command cli_command_rank = {
         "\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least\n"
         "one.\n",
-    .examples = "koksma rank ball --spp 16\n"
+    .examples = "koksma rank ball --spp 16 -p random,n-rooks,sobol:scramble=owen\n"
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"
                 "koksma rank cornell --integrator path --time-limit 300\n"
                 "koksma rank balls --spp 4 --size 32x24 --metric ldr-flip\n"

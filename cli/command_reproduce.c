@@ -64,6 +64,7 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     status = status ? status : koksma_study_run(study, &work->run, summary);
     *refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = *refused ? KOKSMA_OK : status;
+    cli_study_left_out(arguments, study);
     if (!status && options->folder) {
         work->begin = work->share;
         work->share = 1 - work->begin;

@@ -115,10 +115,7 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
         work->share = 1 - RUN_SHARE;
         status = koksma_study_report(study, &work->run);
     }
-    const char *line;
-    for (size_t i = 0; !cli_flag(arguments, "quiet") && (line = koksma_study_left_out_at(study, i)); i++) {
-        fprintf(stderr, "left out: %s\n", line);
-    }
+    cli_study_left_out(arguments, study);
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
     if (status == KOKSMA_INTERRUPTED) {
@@ -126,9 +123,6 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
     }
     if (status) {
         return cli_fail(arguments, status);
-    }
-    if (refused) {
-        return refused;
     }
     cli_work_end();
     if (options->folder && !cli_flag(arguments, "quiet")) {
@@ -139,7 +133,11 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
             summary.jobs, summary.done_before, summary.done_now, summary.seconds,
             percent(summary.idle_seconds, summary.workers * summary.seconds),
             percent(summary.store_seconds, summary.processor_seconds),
-            summary.complete ? "" : "; the time limit ended the run; the same command continues it", options->folder);
+            summary.complete || refused ? "" : "; the time limit ended the run; the same command continues it",
+            options->folder);
+    }
+    if (refused) {
+        return refused;
     }
     return !options->folder || summary.complete ? CLI_YES : CLI_NO;
 }
@@ -275,7 +273,15 @@ static int export_rows(const cli_arguments *arguments)
                                        "%s: the name of an export must end in .csv, .json, .npy or .sha256", path);
     }
     format = formats[format] ? format : 0;
-    const koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
+    koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
+    char *left_out = NULL;
+    if (!status && !cli_flag(arguments, "quiet")) { /* rows that are missing in the export */
+        status = koksma_study_left_out(arguments->operands[1], &left_out);
+    }
+    for (const char *line = left_out; line && *line; line += strcspn(line, "\n") + 1) {
+        cli_say_left_out(line, strcspn(line, "\n"));
+    }
+    free(left_out);
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
@@ -390,6 +396,21 @@ static int audit(const cli_arguments *arguments)
 
 /* ---- images -------------------------------------------------------------------------------------------- */
 
+/* Warns that a template has no {trial}, and names a place that may be a misspelling of it. */
+static void say_no_trial(const char *places)
+{
+    char name[32], meant[96];
+    for (const char *at = strchr(places, '{'); at; at = strchr(at + 1, '{')) {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at + 1, "}"), at + 1);
+        if (*cli_meant_of(name, "trial", meant)) {
+            cli_say("study", "'%s' has no {trial} (is it {%s}?), so each group has one image and no interval", places,
+                    name);
+            return;
+        }
+    }
+    cli_say("study", "'%s' has no {trial}, so each group has one image and no interval", places);
+}
+
 static void put_image_rows(cli_rows *out, const koksma_metric_spec *metric, const koksma_images_row *rows, size_t n)
 {
     char name[KOKSMA_MAX_SPEC];
@@ -444,7 +465,7 @@ static int images(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     if (n > 1 && !strstr(arguments->operands[1], "{trial}")) {
-        cli_say("study", "'%s' has no {trial}, so each group has one image and no interval", arguments->operands[1]);
+        say_no_trial(arguments->operands[1]);
     }
     cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
     put_image_rows(out, metric.specs, rows, n);
@@ -538,7 +559,9 @@ const cli_command cli_command_study = {
         "the plan's file.\n"
         "run: runs all jobs; each result is written to DIR/results.sqlite when it is finished. An interrupted run "
         "continues when it is\n"
-        "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
+        "started again. If a pattern fails for some trials, the summary, the report and 'export' list them with the "
+        "reason, and "
+        "all others are made. The exit code is then 2, or 0 if the block of the plan has \"skip\": true.\n"
         "quick: writes DIR/plan.json from the options and runs it. Numbers of points that a pattern does not accept "
         "are left out and listed. A pattern file:PATH is a file of points.\n"
         "Images are always compared by mae, rmse, relmse and smape; --metric names the one that ranks the patterns, "

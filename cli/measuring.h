@@ -15,7 +15,9 @@ typedef struct measuring {
     const cli_arguments *arguments;
     koksma_spec measures[MAX_MEASURES];
     size_t n_measures;
-    bool all; /* -m all: leave out measures that do not accept a set */
+    bool all;        /* -m all: leave out measures that do not accept a set */
+    bool by_default; /* no -m: the same, with a note on stderr */
+    char note[512];  /* the last such note, which is not repeated */
     uint64_t seed, trials;
     const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the warp that is being measured, or NULL */
     size_t n_warps;
@@ -49,7 +51,7 @@ bool measuring_open(measuring *j); /* allocates the statistics; false when memor
 void measuring_close(measuring *j);
 
 koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value);
-koksma_status measuring_forgive(const measuring *j, koksma_status status);
+koksma_status measuring_forgive(measuring *j, koksma_status status);
 
 /* Returns whether --prefixes or --sizes asks for values at several sizes, with a slope. */
 bool measuring_by_size(const measuring *j);

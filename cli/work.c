@@ -37,6 +37,23 @@ int cli_study_interrupted(const cli_arguments *arguments, const char *folder)
     return koksma_status_exit_code(KOKSMA_INTERRUPTED);
 }
 
+void cli_say_left_out(const char *line, size_t length)
+{
+    fprintf(stderr, "left out: %.*s\n", (int)length, line);
+}
+
+void cli_study_left_out(const cli_arguments *arguments, const koksma_study *study)
+{
+    const char *line;
+    if (cli_flag(arguments, "quiet") || koksma_study_mpi_rank() > 0) {
+        return;
+    }
+    cli_work_end();
+    for (size_t i = 0; (line = koksma_study_left_out_at(study, i)); i++) {
+        cli_say_left_out(line, strlen(line));
+    }
+}
+
 double cli_seconds(void)
 {
     struct timespec t;

@@ -4,7 +4,7 @@
 // at least three of them. Colours are the page's: a series is <g class="series CLASS"> with .line, .bar and .dots.
 import { svg, short } from "./dom.mjs";
 
-const left = 64, right = 14, top = 14, bottom = 42, legendWidth = 220, legendLine = 15, legendFits = 560, shapes = 3;
+const left = 64, right = 14, top = 14, bottom = 42, legendWidth = 220, legendLine = 15, legendFits = 560;
 
 // As wide as the place that it is for, so that its letters have their size.
 const widthOf = (place, most) => Math.min(Math.max(place.clientWidth, 280), most);
@@ -65,13 +65,17 @@ function ticks(axis) {
 
 const round = v => +v.toFixed(2);
 
-// A dot, a square or a triangle in turn: with as many colours no two of 24 series look alike, and without colours
-// neighbours don't.
+// The corners of marks, those of the program's plots (draw_mark in src/plot/chart.c); the first mark is a dot.
+const corners = [null, [-1, -1, 1, -1, 1, 1, -1, 1], [-1.2, 1, 1.2, 1, 0, -1.2], [0, -1.5, 1.5, 0, 0, 1.5, -1.5, 0], [-1.2, -1, 1.2, -1, 0, 1.2],
+  [-0.4, -1.5, 0.4, -1.5, 0.4, -0.4, 1.5, -0.4, 1.5, 0.4, 0.4, 0.4, 0.4, 1.5, -0.4, 1.5, -0.4, 0.4, -1.5, 0.4, -1.5, -0.4, -0.4, -0.4],
+  [0, -1.7, 0.42, -0.58, 1.62, -0.53, 0.68, 0.22, 1, 1.38, 0, 0.72, -1, 1.38, -0.68, 0.22, -1.62, -0.53, -0.42, -0.58],
+  [-0.78, -1.34, 0, -0.57, 0.78, -1.34, 1.34, -0.78, 0.57, 0, 1.34, 0.78, 0.78, 1.34, 0, 0.57, -0.78, 1.34, -1.34, 0.78, -0.57, 0, -1.34, -0.78]];
+
+// Mark number `index`; the numbers go on from the first mark.
 export function shape(index, x, y, large) {
-  const r = large ? 5 : 3, wide = r * 4 / 3;
-  if (index % shapes === 0) return svg("circle", { cx: round(x), cy: round(y), r });
-  if (index % shapes === 1) return svg("rect", { x: round(x - r), y: round(y - r), width: 2 * r, height: 2 * r });
-  return svg("polygon", { points: [[x - wide, y + r], [x + wide, y + r], [x, y - wide]].map(p => p.map(round).join()).join(" ") });
+  const r = large ? 5 : 3, at = corners[index % corners.length];
+  if (!at) return svg("circle", { cx: round(x), cy: round(y), r });
+  return svg("polygon", { points: at.map((v, i) => round((i % 2 ? y : x) + r * v) + (i % 2 ? " " : ",")).join("").trim() });
 }
 
 // A bar from the value to its end. One that goes on beyond the axis, as to 0 on a logarithmic one, ends in an arrowhead.

@@ -228,17 +228,20 @@ function refresh(name) {
     }
     soon(drawSets);
   });
-  showColour(name);
+  showColours();
   soon(drawSets);
   showStrataControls();
   showAxes();
   keepHash();
 }
 
-// A pattern has the colour that it has in all plots; of two of one colour the lines of set B are dashed.
-function showColour(name) {
-  const pattern = parseSpec(state[name].spec).name, colour = tables.palette.find(({ patterns }) => patterns.includes(pattern)) || tables.palette[0];
-  document.body.style.setProperty(`--${name}`, `light-dark(${colour.light}, ${colour.dark})`);
+// A pattern has the colour of its family, as in all plots. Beside a set A of the same colour, set B has the next of the palette.
+function showColours() {
+  const { palette } = tables, colourOf = ({ spec }) => Math.max(0, palette.findIndex(({ patterns }) => patterns.includes(parseSpec(spec).name)));
+  const a = colourOf(state.a), b = state.b ? colourOf(state.b) : a;
+  for (const [name, number] of [["a", a], ["b", b === a ? (b + 1) % palette.length : b]]) {
+    document.body.style.setProperty(`--${name}`, `light-dark(${palette[number].light}, ${palette[number].dark})`);
+  }
 }
 
 function moved(name, i, place) {

@@ -3,7 +3,8 @@
 // Escape leaves.
 import { byId, element } from "./dom.mjs";
 
-// hash: the state; at: what is pointed at; values: measures whose values the step shows.
+// hash: the state; at: what is pointed at; values: measures whose values the step shows. strata: the step is about the bar
+// that chooses strata: it stays at the top of the window, and the step says what each set has.
 const steps = [
   { title: "A pixel is a mean", hash: "a=random@16&a.seed=3&strata=none&witness=none", at: ".set-a .plane",
     text: "A renderer takes the mean of a few samples for each pixel, and each sample has a point of the unit square: a place in the pixel, or on a light. These sixteen are independent and random. They leave holes and form clumps: what lies in a hole counts too little, what lies in a clump too much." },
@@ -11,10 +12,10 @@ const steps = [
     text: "A box from the lower left corner should hold as large a share of the points as its area. The star discrepancy is the largest difference of the two, over all such boxes. The box that is drawn is the worst, and the line below the points counts it for you." },
   { title: "Move a point", hash: "a=random@16&a.seed=3&strata=none&witness=star", at: ".set-a .plane", values: ["star"],
     text: "Drag a point into a hole, or go to the square, choose one with n and move it with the arrow keys. The value is the exact one at every moment: only a move that changes the worst box can lower it, and then another box is the worst." },
-  { title: "Strata", hash: "a=jittered@16&a.seed=1&strata=grid:4x4&witness=star", at: ".set-a .strata-text", values: ["star"],
-    text: "Jittered sampling puts one random point into each cell of a grid. Within its cell a point lies anywhere: of sixteen narrow columns some have two points, and some none. Choose “rooks” under Strata to see them." },
-  { title: "All shapes of cell at once", hash: "a=random@16&a.seed=3&b=sobol:scramble%3Dowen@16&strata=elementary:2,1&witness=star", at: ".set-b .strata-text", values: ["star"],
-    text: "Set B is Sobol’s sequence with Owen’s scrambling. Move the slider “Split”: squares, columns, rows, each cell of 1/16 holds one point. Compare the star discrepancy of both sets." },
+  { title: "Strata", hash: "a=jittered@16&a.seed=1&strata=grid:4x4&witness=star", at: ".set-a .plane", values: ["star"], strata: true,
+    text: "Jittered sampling puts one random point into each cell of a grid. Within its cell a point lies anywhere: of sixteen narrow columns some have two points, and some none. Choose “rooks” under Strata, at the top, to see them." },
+  { title: "All shapes of cell at once", hash: "a=random@16&a.seed=3&b=sobol:scramble%3Dowen@16&strata=elementary:2,1&witness=star", at: ".set-b .plane", values: ["star"], strata: true,
+    text: "Set B is Sobol’s sequence with Owen’s scrambling. Move the slider “Split” at the top: squares, columns, rows, each cell of 1/16 holds one point. Compare the star discrepancy of both sets." },
   { title: "Koksma’s inequality", hash: "a=random@16&a.seed=3&b=sobol:scramble%3Dowen@16&strata=none&witness=star", at: "#inequality-section",
     text: "Why discrepancy matters: the error of a mean is at most V(f) D*, the variation of the function times the star discrepancy of the points. The table has functions with known integrals: each error stands beside its bound. Set B has the smaller bounds, and mostly the smaller errors." },
   { title: "Where the bound ends", hash: "a=random@64&a.seed=3&b=sobol:scramble%3Dowen@64&strata=none&witness=edge", at: "#pictures-section", values: ["star", "edge"],
@@ -34,6 +35,7 @@ export class Tour {
     this.title = element("h2", { id: "tour-title", tabindex: -1 });
     this.words = element("p", {});
     this.values = element("p", { class: "values" });
+    this.strata = element("p", { class: "values" });
     const button = (label, click) => {
       const node = element("button", { type: "button" }, label);
       node.onclick = click;
@@ -42,10 +44,11 @@ export class Tour {
     this.back = button("Back", () => this.show(this.step - 1));
     this.next = button("Next", () => this.step + 1 < steps.length ? this.show(this.step + 1) : this.leave());
     this.node = byId("tour");
-    this.node.append(this.title, this.words, this.values, element("div", { class: "buttons" }, this.back, this.next, button("Leave the tour", () => this.leave())));
+    this.node.append(this.title, this.words, this.values, this.strata, element("div", { class: "buttons" }, this.back, this.next, button("Leave the tour", () => this.leave())));
     byId("start-tour").onclick = () => this.show(0);
     // While answers come the page grows: what is pointed at is kept in sight, until the reader does something.
     for (const act of ["wheel", "touchmove", "pointerdown", "keydown"]) addEventListener(act, () => { this.settling = false; }, { capture: true, passive: true });
+    new MutationObserver(() => this.showValues()).observe(byId("sets"), { subtree: true, childList: true });
     new ResizeObserver(() => { if (this.pointed && this.settling) this.scroll(); }).observe(document.querySelector("main"));
     addEventListener("keydown", event => {
       if (event.key === "Escape" && this.step >= 0 && !event.target.closest?.(".plane")) this.leave();
@@ -53,11 +56,12 @@ export class Tour {
   }
 
   show(step) {
-    const { title, hash, at, text } = steps[step];
+    const { title, hash, at, text, strata } = steps[step];
     this.step = step;
     this.go(hash);
     this.node.hidden = false;
     document.body.classList.add("touring");
+    document.body.classList.toggle("with-strata", Boolean(strata));
     this.title.textContent = `${step + 1} of ${steps.length}: ${title}`;
     this.words.textContent = text;
     this.back.disabled = step === 0;
@@ -70,7 +74,9 @@ export class Tour {
 
   showValues() {
     if (this.step < 0) return;
-    const { values = [] } = steps[this.step];
+    const { values = [], strata } = steps[this.step];
+    const shown = strata ? [...document.querySelectorAll(".set:not([hidden]) .strata-text")].map(node => node.textContent) : [];
+    this.strata.textContent = shown.map((text, i) => shown.length > 1 ? `${"AB"[i]}: ${text}` : text).join("; ");
     this.values.textContent = values.map(measure => `${measure}: ` + ["a", "b"].map(set => this.text(measure, set)).filter(Boolean)
       .map((text, i, both) => both.length > 1 ? `${"AB"[i]} ${text}` : text).join(", ")).join("; ");
   }
@@ -92,7 +98,7 @@ export class Tour {
   leave() {
     this.step = -1;
     this.node.hidden = true;
-    document.body.classList.remove("touring");
+    document.body.classList.remove("touring", "with-strata");
     this.point(null);
     byId("start-tour").focus();
   }

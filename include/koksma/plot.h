@@ -113,8 +113,9 @@ typedef struct koksma_chart {
 KOKSMA_API koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format format,
                                            unsigned char **bytes, size_t *n_bytes);
 
-/* Finds colour numbers for n patterns of one picture. Each family of patterns has the same colour in all pictures;
-   members of one family in a picture differ in dashes and marks.
+/* Finds colour numbers for n patterns of one picture. Each family of patterns has its colour: the first pattern of a
+   family has it in all pictures, others of the family get colours that no pattern of the picture has. From the ninth
+   pattern on colours repeat with other dashes. Marks differ as colours and dashes do.
      specs    specs or names of patterns; other texts get the remaining colours
      numbers  receives n
    Errors: ARGUMENT. */

@@ -77,8 +77,9 @@ KOKSMA_API koksma_status koksma_study_open(const koksma_study_options *options, 
    nevertheless). */
 KOKSMA_API koksma_status koksma_study_close(koksma_study *study);
 
-/* Returns line i of the list of combinations that blocks with `skip` leave out, "PATTERN, N = 8, 32: reason"; NULL
-   past the last line. The string is valid until the study is closed. */
+/* Returns line i of the list of what has no results, NULL past the last line: first the combinations that blocks with
+   `skip` leave out, "PATTERN, N = 8, 32: reason", then those whose jobs failed when they ran, "PATTERN, N = 64 (3 of 100
+   trials): reason". The string is valid until the study runs or is closed. */
 KOKSMA_API const char *koksma_study_left_out_at(const koksma_study *study, size_t i);
 
 /* Statistics of a run. */
@@ -90,16 +91,18 @@ typedef struct koksma_study_summary {
     double idle_seconds;                /* sum over the workers of the time that they waited for jobs */
     double processor_seconds;           /* processor time, summed over threads and ranks */
     double store_seconds;               /* part of processor_seconds spent in the database */
-    bool complete;                      /* false if a time limit ended the run or a job is impossible */
+    bool complete;                      /* false if a time limit ended the run, or a job failed in a block without
+                                           `skip` */
 } koksma_study_summary;
 
 /* Runs all jobs that are not done.
      run      a time limit ends the run early, without an error
      summary  may be NULL
-   Errors: INTERRUPTED (finished jobs are kept), IMPOSSIBLE (a pattern found no set for one or more jobs, or the
-   search of a measure ended with bounds; the message names the first such job, all other jobs are done and the
-   report can be written. If a reference image is impossible, the run ends), IO, and those of koksma_generate,
-   koksma_evaluate and koksma_render. */
+   A job fails when its pattern finds no set, or the search of its measure ends with bounds. All other jobs are done, and
+   koksma_study_left_out_at lists the failed ones.
+   Errors: INTERRUPTED (finished jobs are kept), IMPOSSIBLE (jobs failed in a block without `skip`; the message names the
+   first, and the report can be written. If a reference image is impossible, the run ends), IO, and those of
+   koksma_generate, koksma_evaluate and koksma_render. */
 KOKSMA_API koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary);
 
 /* The estimated cost of a study. */
@@ -115,6 +118,12 @@ typedef struct koksma_study_cost {
    5 s), first one job of every block and scene, then jobs whose cost is large and uncertain, and extrapolates by
    the number of points or samples. It stores nothing. Errors: those of koksma_study_run. */
 KOKSMA_API koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, koksma_study_cost *out);
+
+/* Reads the list of koksma_study_left_out_at from a study's folder, as the last run wrote it.
+     lines  receives one text, in which each line ends with a newline; empty if nothing is left out. The caller frees it
+            with free()
+   Errors: MISSING, MALFORMED, IO, MEMORY. */
+KOKSMA_API koksma_status koksma_study_left_out(const char *folder, char **lines);
 
 /* Formats of exported results. */
 typedef enum koksma_export_format {

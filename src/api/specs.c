@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* koksma_pattern_spec and koksma_measure_spec: parse a text into a pattern or measure with its parameters. Every
    pattern also accepts the modifiers; an alias is replaced by the pattern that it stands for. */
+#include <stdio.h>
 #include <string.h>
 
 #include "core/lookup.h"
@@ -24,8 +25,11 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     }
     const koksma_pattern *pattern = koksma_pattern_find(name);
     if (!pattern) {
-        return koksma__fail_unknown("pattern", name, koksma_pattern_name_at, NULL,
-                                    "'koksma list patterns' names them");
+        char hint[sizeof name + 64] = "'koksma list patterns' names them";
+        if (strpbrk(name, "./{")) { /* which no pattern's name has */
+            snprintf(hint, sizeof hint, "points in a file are a pattern, as in file:%s", name);
+        }
+        return koksma__fail_unknown("pattern", name, koksma_pattern_name_at, NULL, hint);
     }
     spec->pattern = pattern = pattern->alias_of ? koksma_pattern_find(pattern->alias_of) : pattern;
     koksma__all_params all;

@@ -218,21 +218,36 @@ static koksma__style style_of(const koksma__theme *theme, const koksma_curve *k)
                      : koksma__curve_style(theme, k->colour, 1.5);
 }
 
-/* A mark, whose shape (disk, square, triangle or diamond) is given by the curve's dash. */
-static void draw_mark(koksma__canvas *canvas, double x, double y, koksma__style style)
+/* A mark of the curve. Each colour has its shape, and each dash of a colour another, so that curves differ without
+   colours, too: a disk, a square, a triangle, a diamond, a triangle that points down, a plus, a star, a cross. */
+static void draw_mark(koksma__canvas *canvas, double x, double y, const koksma_curve *k, koksma__style style)
 {
-    static const double corners[][8] = {
-        {-1, -1, 1, -1, 1, 1, -1, 1}, {-1.2, 1, 1.2, 1, 0, -1.2}, {0, -1.5, 1.5, 0, 0, 1.5, -1.5, 0}};
-    double at[8];
+    enum { MOST_CORNERS = 12 };
+    static const struct {
+        size_t n;
+        double at[2 * MOST_CORNERS];
+    } shapes[] = {{4, {-1, -1, 1, -1, 1, 1, -1, 1}},
+                  {3, {-1.2, 1, 1.2, 1, 0, -1.2}},
+                  {4, {0, -1.5, 1.5, 0, 0, 1.5, -1.5, 0}},
+                  {3, {-1.2, -1, 1.2, -1, 0, 1.2}},
+                  {12, {-0.4, -1.5, 0.4,  -1.5, 0.4,  -0.4, 1.5,  -0.4, 1.5,  0.4,  0.4,  0.4,
+                        0.4,  1.5,  -0.4, 1.5,  -0.4, 0.4,  -1.5, 0.4,  -1.5, -0.4, -0.4, -0.4}},
+                  {10, {0, -1.7, 0.42, -0.58, 1.62,  -0.53, 0.68,  0.22,  1,     1.38,
+                        0, 0.72, -1,   1.38,  -0.68, 0.22,  -1.62, -0.53, -0.42, -0.58}},
+                  {12, {-0.78, -1.34, 0, -0.57, 0.78,  -1.34, 1.34,  -0.78, 0.57,  0, 1.34,  0.78,
+                        0.78,  1.34,  0, 0.57,  -0.78, 1.34,  -1.34, 0.78,  -0.57, 0, -1.34, -0.78}}};
+    const size_t n_shapes = 1 + sizeof shapes / sizeof *shapes;
+    const size_t shape = k->dashed ? 0 : (k->colour + k->colour / KOKSMA__COLOURS) % n_shapes;
+    double at[2 * MOST_CORNERS];
     style.thickness = 0;
-    if (style.dash == KOKSMA__DASH_WHOLE || style.dash == KOKSMA__DASH_GUIDE) {
+    if (shape == 0) {
         koksma__canvas_circle(canvas, x, y, 2.6, style);
         return;
     }
-    for (int i = 0; i < 8; i++) {
-        at[i] = (i % 2 ? y : x) + 2.4 * corners[style.dash - 1][i];
+    for (size_t i = 0; i < 2 * shapes[shape - 1].n; i++) {
+        at[i] = (i % 2 ? y : x) + 2.4 * shapes[shape - 1].at[i];
     }
-    koksma__canvas_path(canvas, at, style.dash == KOKSMA__DASH_DOTS ? 3 : 4, style);
+    koksma__canvas_path(canvas, at, shapes[shape - 1].n, style);
 }
 
 /* Standard errors: bars at marks, otherwise a band along a run of points that begins at `first`. */
@@ -280,7 +295,7 @@ static void draw_curve(const axes *a, const koksma_curve *k, double *xys)
             koksma__canvas_path_inside(a->canvas, xys, n, a->box, style);
         }
         for (size_t i = 0; i < n && (k->marks || n == 1); i++) {
-            draw_mark(a->canvas, xys[2 * i], xys[2 * i + 1], style);
+            draw_mark(a->canvas, xys[2 * i], xys[2 * i + 1], k, style);
         }
     }
 }
@@ -309,7 +324,7 @@ static double legend(koksma__canvas *canvas, const koksma__theme *theme, const k
             koksma__style style = style_of(theme, k);
             koksma__canvas_line(canvas, x, y - 4, x + 22, y - 4, style);
             if (k->marks) {
-                draw_mark(canvas, x + 11, y - 4, style);
+                draw_mark(canvas, x + 11, y - 4, k, style);
             }
         }
         const size_t lines =

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The colours of plots. The style number of a curve is colour + KOKSMA__COLOURS * dash: palette.def gives each
- * pattern a colour, and specs of equal colour in a picture get different dashes. A curve that belongs to no pattern
- * gets the first free number.
+ * The colours of plots. The style number of a curve is colour + KOKSMA__COLOURS * dash. palette.def gives each pattern
+ * the colour of its family. Up to KOKSMA__COLOURS curves of a picture have different colours: the first of a family has
+ * the family's, the others get the next that no curve has; further curves differ in dashes. A curve that belongs to no
+ * pattern gets the first free number.
  */
 #include "plot/palette.h"
 
@@ -77,18 +78,37 @@ size_t koksma__take_curve_number(const char *spec, bool *taken)
     return KOKSMA__CURVE_STYLES;
 }
 
+/* Takes the first free number: of the dashes in turn, the colours from `colour` on. KOKSMA__CURVE_STYLES: none is free. */
+static size_t next_free(size_t colour, bool *taken)
+{
+    for (size_t i = 0; i < KOKSMA__CURVE_STYLES; i++) {
+        const size_t number = (colour + i) % KOKSMA__COLOURS + i / KOKSMA__COLOURS * KOKSMA__COLOURS;
+        if (!taken[number]) {
+            taken[number] = true;
+            return number;
+        }
+    }
+    return KOKSMA__CURVE_STYLES;
+}
+
 koksma_status koksma_plot_colours(const char *const *specs, size_t n, size_t *numbers)
 {
     KOKSMA__REQUIRE(specs, numbers);
     const koksma_status status = koksma__array_check("specs", specs, n, sizeof *specs);
     bool taken[KOKSMA__CURVE_STYLES] = {false};
-    for (size_t pass = 0; pass < 2 && !status; pass++) { /* the first pass assigns the specs that have a colour */
+    for (size_t i = 0; i < n && !status; i++) { /* the first of each family has the family's colour */
+        KOKSMA__REQUIRE(specs[i]);
+        const size_t colour = koksma__colour_of(specs[i]);
+        numbers[i] = colour < KOKSMA__COLOURS && !taken[colour] ? colour : KOKSMA__CURVE_STYLES;
+        taken[numbers[i] % KOKSMA__CURVE_STYLES] |= numbers[i] < KOKSMA__CURVE_STYLES;
+    }
+    for (size_t pass = 0; pass < 2 && !status; pass++) { /* then the others of the families, then the other texts */
         for (size_t i = 0; i < n; i++) {
-            KOKSMA__REQUIRE(specs[i]);
-            if ((koksma__colour_of(specs[i]) < KOKSMA__COLOURS) == (pass == 0)) {
-                const size_t number = koksma__take_curve_number(specs[i], taken);
+            const size_t colour = koksma__colour_of(specs[i]);
+            if (numbers[i] == KOKSMA__CURVE_STYLES && (colour < KOKSMA__COLOURS) == (pass == 0)) {
+                numbers[i] = next_free(colour % KOKSMA__COLOURS, taken);
                 /* styles repeat when there are more curves than styles */
-                numbers[i] = number < KOKSMA__CURVE_STYLES ? number : i % KOKSMA__CURVE_STYLES;
+                numbers[i] = numbers[i] < KOKSMA__CURVE_STYLES ? numbers[i] : i % KOKSMA__CURVE_STYLES;
             }
         }
     }

@@ -29,8 +29,7 @@ size_t koksma__colour_of(const char *spec);
    number. Returns KOKSMA__CURVE_STYLES if no number is free. */
 size_t koksma__take_curve_number(const char *spec, bool *taken);
 
-/* The style of curve `number` (koksma_curve): successive numbers vary the colour first, then the dash and the shape
-   of the marks. */
+/* The style of curve `number` (koksma_curve): successive numbers vary the colour first, then the dash. */
 koksma__style koksma__curve_style(const koksma__theme *theme, size_t number, double thickness);
 
 #endif

@@ -36,9 +36,20 @@ const contrasts = () => {
     if (width > 400) problems.push(`${file}: ${width} px wide in a window of 400`);
     (await page.evaluate(contrasts)).forEach(text => problems.push(`${file}: ${text}`));
   }
+  // Printed from a dark browser, a page has dark letters and nothing folded.
+  const printed = await (await browser.newContext({ colorScheme: "dark", viewport: { width: 718, height: 1000 } })).newPage();
+  await printed.goto("file://" + path.join(site, "patterns/n-rooks.html"));
+  await printed.emulateMedia({ media: "print", colorScheme: "dark" });
+  const [ink, folded] = await printed.evaluate(() => {
+    dispatchEvent(new Event("beforeprint"));
+    return [getComputedStyle(document.querySelector("main p")).color, document.querySelectorAll("main details:not([open])").length];
+  });
+  if (Math.max(...ink.match(/\d+/g).slice(0, 3)) > 120) problems.push(`printed from a dark browser, letters are ${ink}`);
+  if (folded) problems.push(`${folded} parts are printed folded`);
+  await printed.close();
   // From a page in a folder, by keyboard: the first of what is found is the page of that name.
   for (const [query, wanted] of [["l2-star", "measures/l2-star.html"], ["koksma rank", "commands/rank.html"], ["koksma_generate", "c/koksma.html#koksma_generate"],
-    ["spectrum python", "python/index.html#spectrum"], ["lens_radius", "guide/scenes.html"]]) {
+    ["spectrum python", "python/index.html#spectrum"], ["lens_radius", "guide/scenes.html"], ["how do I rank my scene", "guide/tutorial.html#4-the-ranked-list"]]) {
     await page.goto("file://" + path.join(site, "patterns/n-rooks.html"));
     for (let i = 0; i < 20 && !await page.evaluate(() => document.activeElement.type === "search"); i++) await page.keyboard.press("Tab");
     await page.keyboard.type(query);

@@ -78,6 +78,13 @@ async function colours(browser) {
       const stroke = await page.locator(`.set-${which} svg.plane .points`).evaluate(node => getComputedStyle(node).stroke);
       check(stroke === `rgb(${rgb})`, `${colorScheme}: ${pattern} is drawn in ${stroke}, in plots in ${rgb}`);
     }
+    // Two sets of one family, or of one pattern, have different colours, and set A keeps that of the family.
+    for (const hash of ["#a=sobol:scramble=owen@16&b=pmj02@16", "#a=sobol@16&b=sobol@16"]) {
+      await visit(page, hash);
+      const [a, b] = await Promise.all(["a", "b"].map(which => page.locator(`.set-${which} svg.plane .points`).evaluate(node => getComputedStyle(node).stroke)));
+      const blue = rows.find(row => row[3].includes("sobol"))[at].match(/../g).map(x => parseInt(x, 16)).join(", ");
+      check(a === `rgb(${blue})` && b !== a, `${colorScheme}, ${hash}: ${a} beside ${b}`);
+    }
     await page.context().close();
   }
 }
@@ -454,6 +461,21 @@ async function tour(browser) {
         return box && box.top < innerHeight && box.bottom > 0 && card.bottom <= innerHeight + 1 && card.top >= 0;
       });
       check(seen, `${width} px, step ${step}: what it points at, or its text, is not seen`);
+      // What a step asks to choose or to move is on top at its place in the window, and the text says what came of it.
+      const asked = { 4: "#strata", 5: "#split" }[step];
+      const reached = selector => page.evaluate(selector => {
+        const { left, top, width, height } = document.querySelector(selector).getBoundingClientRect();
+        return Boolean(document.elementFromPoint(left + width / 2, top + height / 2)?.closest(selector));
+      }, selector);
+      const says = () => page.locator("#tour p").allTextContents();
+      if (asked) {
+        check(await reached(asked), `${width} px, step ${step}: ${asked} can't be reached`);
+        check((await says())[2].includes(step === 4 ? "16 of 16 cells of 4 × 4" : "B: 16 of 16 cells"), `${width} px, step ${step} says ${await says()}`);
+        if (step === 4) await choose(page, asked, "rooks");
+        else await page.locator(asked).fill("4").then(() => idle(page));
+        check((await says())[2].includes(step === 4 ? "of 32 columns and rows" : "B: 16 of 16 cells of 16 × 1"), `${width} px, step ${step} says, after a change, ${await says()}`);
+        await page.locator("#tour-title").focus();
+      }
       states.add(await page.evaluate(() => koksmaExplorer.hash()));
       check(!(await page.locator(".problem").allTextContents()).join(""), `step ${step}: ${await page.locator(".problem").allTextContents()}`);
       (await page.evaluate(accessibility)).forEach(text => check(false, `tour, step ${step}, ${width} px: ${text}`));

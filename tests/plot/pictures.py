@@ -102,7 +102,9 @@ class Picture:
                         self.paper = style["fill"]
                 elif kind in ("polyline", "polygon"):
                     xs, ys = zip(*(map(float, pair.split(",")) for pair in part.get("points").split()))
-                    self.shapes.append(Box(min(xs), min(ys), max(xs), max(ys), kind))
+                    box = Box(min(xs), min(ys), max(xs), max(ys), kind)
+                    small = kind == "polygon" and max(box.x1 - box.x0, box.y1 - box.y0) < 9  # a mark that is not a disk
+                    (self.circles if small and style.get("stroke") is None else self.shapes).append(box)
         self.words = "".join(box.what for box in self.texts).replace(" ", "")
 
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Search over all pages: the index (search-index.js) is a script, as a page that is opened from disk may fetch nothing, and is
 // loaded with the first letter. A section is found when each word of the query begins a word of it; those with the words in
-// their titles come first, and before them one of that name.
+// their titles come first, and before them one of that name; pages for those who change Koksma come last. Small words of a
+// question ("how do I rank my scene") need not be found. What is folded is printed unfolded.
 "use strict";
 (() => {
   const up = document.documentElement.dataset.up, input = document.querySelector("#search input"), list = document.getElementById("found");
   let sections = null;
+  const small = new Set("a an and are can do does for how i in is it me my of on or the this to what when where which why with you your".split(" "));
+  const forDevelopers = /^(decisions|adding)\//;
 
   const escape = text => text.replace(/[\\^$.*+?()[\]{}|]/g, "\\$&");
   const begins = word => new RegExp(`(^|[^\\p{L}\\p{N}])${escape(word)}`, "iu");
@@ -26,7 +29,7 @@
   }
 
   // [address, title of the page, heading, text]
-  function score([, title, heading, text], words, query) {
+  function score([address, title, heading, text], words, query) {
     let sum = 0;
     for (const word of words) {
       const here = (word.test(title) ? 8 : 0) + (heading && word.test(heading) ? 6 : 0) + (word.test(text) ? 1 : 0) +
@@ -36,7 +39,7 @@
     }
     const name = `${title} ${heading}`, letters = text => text.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, " ").trim();
     const whole = letters(heading || title) === letters(query.join(" ")); // "min distance" is min-distance
-    return sum + (heading ? 0 : 0.5) + (words.every(word => word.test(name)) ? 10 : 0) + (whole ? 20 : 0);
+    return (sum + (heading ? 0 : 0.5) + (words.every(word => word.test(name)) ? 10 : 0) + (whole ? 20 : 0)) * (forDevelopers.test(address) ? 0.3 : 1);
   }
 
   function snippet(text, words) {
@@ -81,7 +84,8 @@
   }
 
   function show() {
-    const query = input.value.trim().split(/\s+/).filter(Boolean), words = query.map(begins);
+    const typed = input.value.trim().split(/\s+/).filter(Boolean), large = typed.filter(word => !small.has(word.toLowerCase()));
+    const query = large.length ? large : typed, words = query.map(begins);
     list.hidden = !words.length;
     if (!words.length) return;
     const found = sections.map(section => [score(section, words, query), section]).filter(([points]) => points > 0).sort((a, b) => b[0] - a[0]);
@@ -120,4 +124,7 @@
   });
   document.addEventListener("click", event => { if (!event.target.closest("#search")) list.hidden = true; });
   document.querySelector("#search").hidden = false;
+  const folded = []; // what is printed unfolded
+  addEventListener("beforeprint", () => document.querySelectorAll("main details:not([open])").forEach(node => { folded.push(node); node.open = true; }));
+  addEventListener("afterprint", () => folded.splice(0).forEach(node => { node.open = false; }));
 })();

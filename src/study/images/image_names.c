@@ -102,7 +102,8 @@ koksma_status koksma__image_names_pattern(const char *places, char *pattern, siz
                     size / 2);
     for (const char *at = places; *at; at++) {
         if (*at == '{') {
-            at = strchr(at, '}');
+            const char *inner = strpbrk(at + 1, "{}");
+            at = inner && *inner == '}' ? inner : NULL;
             KOKSMA__FAIL_IF(++n > MAX_PLACES, KOKSMA_ARGUMENT, "'%s': more than %d places", places, MAX_PLACES);
             KOKSMA__FAIL_IF(!at, KOKSMA_ARGUMENT, "'%s': a brace is not closed", places);
             pattern[used++] = '*';

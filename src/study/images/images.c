@@ -68,7 +68,9 @@ static koksma_status collect(const char *places, const char *pattern, const glob
     }
     qsort(out->at, out->n, sizeof *out->at, compare_pictures);
     if (!found->gl_pathc) {
-        return koksma__fail(KOKSMA_MISSING, "%s: no such images: no file matches '%s'", places, pattern);
+        return koksma__fail(KOKSMA_MISSING, "%s: no such images: no file matches '%s'%s", places, pattern,
+                            strpbrk(places, "*?[") ? "; only names in braces, such as {pattern}, stand for other text"
+                                                   : "");
     }
     return out->n
                ? KOKSMA_OK

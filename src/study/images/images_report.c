@@ -84,7 +84,7 @@ static void put_answer(koksma__document *d, const koksma__images *all, long long
     if (n == 1) {
         koksma__doc_say(d, "; there is no other group.");
     } else if (more == n - 1) {
-        koksma__doc_say(d, ", less than all %zu others.", more);
+        koksma__doc_say(d, more > 1 ? ", less than all %zu others." : ", less than the other.", more);
     } else {
         koksma__doc_say(
             d,

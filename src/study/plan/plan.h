@@ -19,6 +19,7 @@ typedef struct koksma__wholes {
 
 /* The sizes that a block with `skip` leaves out: numbers of points that a pattern cannot make. */
 typedef struct koksma__left_out {
+    bool skip;           /* whether the block has `skip` */
     bool *is;            /* a flag for each pattern and size, true if left out, or NULL if no size is left out */
     koksma__texts lines; /* a message for each pattern, with its sizes and the reason */
 } koksma__left_out;

@@ -8,6 +8,7 @@
 #include <koksma/integrate.h>
 
 #include "core/status.h"
+#include "patterns/shared/file_names.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_section.h"
 #include "study/plan/variants.h"
@@ -33,7 +34,7 @@ static koksma_status try_set(const char *pattern, long long n, int dim)
     koksma_status status = koksma_pattern_spec(pattern, &spec);
     status = status ? status : koksma_points_init(&points, (size_t)n, dim);
     if (!status) {
-        status = koksma_generate(&spec, 0, &briefly, &points);
+        status = koksma_generate(&spec, koksma__first_seed(&spec, (size_t)n), &briefly, &points);
         koksma_points_fini(&points);
     }
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
@@ -86,6 +87,24 @@ static koksma_status refuse_first(const tried *t)
     return status;
 }
 
+/* Whether a pattern is a family of files (file_names.h) that has sets of other numbers of points, but not of n. */
+static bool is_gap(const char *pattern, long long n)
+{
+    koksma_spec spec;
+    koksma__file_set *sets = NULL;
+    size_t count = 0;
+    if (koksma_pattern_spec(pattern, &spec) || !koksma__reads_points(spec.pattern) ||
+        !koksma__file_has(spec.path, "{n}") || koksma__file_sets(spec.path, &sets, &count)) {
+        return false;
+    }
+    bool gap = count > 0;
+    for (size_t i = 0; i < count; i++) {
+        gap &= sets[i].n != (size_t)n;
+    }
+    free(sets);
+    return gap;
+}
+
 /* Tries pattern p with all sizes and marks those that it cannot make. If there are any, appends the line
    "PATTERN, N = 8, 32: reason". */
 static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *out)
@@ -94,8 +113,11 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     int length = snprintf(line, sizeof line, "%s, N = ", t->patterns->at[p]);
     for (size_t k = 0; k < t->n->n && t->n->at[k] <= MOST_TRIED; k++) {
         const koksma_status status = t->trial(t->block, t->patterns->at[p], t->n->at[k]);
+        char text[sizeof reason] = "";
+        snprintf(text, sizeof text, "%s", status ? koksma_error_text() : "");
         /* the error concerns a file or the system, not this number of points */
-        if (koksma_status_exit_code(status) > 2) {
+        if (koksma_status_exit_code(status) > 2 && !is_gap(t->patterns->at[p], t->n->at[k])) {
+            koksma__fail(status, "%s", text);
             return koksma__json_fail_in(t->node, status);
         }
         if (status && length < (int)sizeof line) {
@@ -103,7 +125,7 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
                 snprintf(line + length, sizeof line - (size_t)length, "%s%lld", reason[0] ? ", " : "", t->n->at[k]);
         }
         if (status && !reason[0]) {
-            snprintf(reason, sizeof reason, "%s", koksma_error_text());
+            snprintf(reason, sizeof reason, "%s", text);
         }
         out->is[p * t->n->n + k] = status != KOKSMA_OK;
     }
@@ -132,6 +154,7 @@ static koksma_status check(const tried *t, koksma__left_out *out)
         status = refuse_first(t);
     }
     koksma__plan_sort(t->n);
+    out->skip = skip;
     if (status || !skip) {
         return status;
     }

@@ -316,6 +316,7 @@ static koksma_status compare(audit *a, const koksma_run *run)
     if (failures.n) {
         differ(a, "%zu rows can't be computed again, such as %s", failures.n, failures.text);
     }
+    koksma__failures_fini(&failures);
     const long long wrong = a->out->drawn - a->out->agree;
     const bool all = a->out->drawn == a->out->rows;
     a->out->bound = !a->out->drawn ? 1

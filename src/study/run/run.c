@@ -56,15 +56,6 @@ static koksma_status record_run(koksma_study *study, const char *started, const 
 
 /* ---- The whole run ------------------------------------------------------------------------------------- */
 
-/* Adds the failures of a phase to those of the run. */
-static void add_failures(koksma__failures *all, const koksma__failures *more)
-{
-    if (more->n && !all->n) {
-        memcpy(all->text, more->text, sizeof all->text);
-    }
-    all->n += more->n;
-}
-
 /* If `before` is not OK, the jobs are only counted. */
 koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
                                koksma_study_summary *summary, koksma__failures *failures)
@@ -86,9 +77,10 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
     summary->done_now += atomic_load(&phase.done);
     summary->idle_seconds -= 1e-9 * (double)atomic_load(&phase.busy_ns);
     summary->processor_seconds += phase.others_s;
-    add_failures(failures, &phase.failures);
+    const koksma_status added = koksma__failures_add(failures, &phase.failures, &tasks);
+    koksma__failures_fini(&phase.failures);
     koksma__tasks_close(&tasks);
-    return before ? before : status;
+    return before ? before : status ? status : added;
 }
 
 /* A rough estimate of the work of one kind of jobs: the samples of all images, or the points of all sets times their
@@ -141,14 +133,16 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     summary->processor_seconds += koksma__processor_s() - processor_s;
     summary->store_seconds = koksma__store_seconds(study->store) - store_s;
     const bool all = !status;
-    summary->complete = all && !failures.n;
+    summary->complete = all && !failures.n_refused;
     if (!status || status == KOKSMA_INTERRUPTED || status == KOKSMA_IMPOSSIBLE) {
-        const koksma_status recorded = record_run(study, started, summary);
+        koksma_status recorded = koksma__failures_record(study, &failures, all);
+        recorded = recorded ? recorded : record_run(study, started, summary);
         status = status == KOKSMA_OK || koksma__run_control_time_is_up(&control) ? recorded : status;
     }
-    if (all && !status && failures.n) {
+    if (all && !status && failures.n_refused) {
         status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs failed; the others completed. First: %s",
-                              failures.n, summary->jobs, failures.text);
+                              failures.n_refused, summary->jobs, failures.text);
     }
+    koksma__failures_fini(&failures);
     return status;
 }

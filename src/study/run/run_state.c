@@ -119,13 +119,14 @@ void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksm
 
 void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char *text)
 {
-    koksma__failures *f = &state->phase->failures;
     pthread_mutex_lock(&state->lock);
-    if (koksma__work_queue_put(&state->jobs, job) && (!f->n++ || job < f->first)) {
-        f->first = job;
-        snprintf(f->text, sizeof f->text, "%s", text);
-    }
+    const koksma_status status = koksma__work_queue_put(&state->jobs, job)
+                                     ? koksma__failures_count(state->phase->tasks, job, text, &state->phase->failures)
+                                     : KOKSMA_OK;
     pthread_mutex_unlock(&state->lock);
+    if (status) {
+        koksma__run_state_stop(state, status, koksma_error_text());
+    }
 }
 
 size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile)

@@ -9,11 +9,12 @@
 
 #include <pthread.h>
 
+#include "study/run/failed_jobs.h"
 #include "study/run/reference_tiles.h"
 #include "study/run/run_control.h"
 #include "study/run/work_queue.h"
 
-enum { KOKSMA__MAX_BATCH = 256, KOKSMA__FAILURE_TEXT = 480 };
+enum { KOKSMA__MAX_BATCH = 256 };
 
 /* Seconds of work in a batch: long enough for a slow answer of rank 0, because a rank requests the next batch when it
    begins one. */
@@ -30,13 +31,6 @@ typedef struct koksma__assignment {
     unsigned long long kind, number; /* number: index of the job or tile */
     koksma__reference_tile tile;
 } koksma__assignment;
-
-/* The failed jobs, whose pattern has no point set or whose measure has no value (IMPOSSIBLE). The other jobs
-   continue. */
-typedef struct koksma__failures {
-    size_t n, first;
-    char text[KOKSMA__FAILURE_TEXT]; /* the error text of job `first`, the failed job with the lowest number */
-} koksma__failures;
 
 /* The jobs of one kind, and their progress. */
 typedef struct koksma__phase {

@@ -12,6 +12,7 @@
 #include "core/suggestion.h"
 #include "scene/scene.h"
 #include "study/plan/plan_owned.h"
+#include "study/run/failed_jobs.h"
 #include "study/run/mpi_rank.h"
 #include "study/run/study.h"
 
@@ -213,6 +214,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
         snprintf(path, sizeof path, "%s/results.sqlite", options->folder);
         status = status ? status : koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
         status = status ? status : keep_plan(study, options, texts);
+        status = status ? status : koksma__failures_recall(study);
     }
     for (size_t i = 0; i < options->n_plans; i++) {
         free(texts[i]);
@@ -230,6 +232,7 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
     snprintf(path, sizeof path, "%s/results.sqlite", folder);
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
     status = status ? status : recall_plan(study);
+    status = status ? status : koksma__failures_recall(study);
     return status ? status : open_scenes(study);
 }
 
@@ -279,7 +282,7 @@ const char *koksma_study_left_out_at(const koksma_study *study, size_t i)
         }
         i -= lines->n;
     }
-    return NULL;
+    return i < study->failed.n ? study->failed.at[i] : NULL;
 }
 
 koksma_status koksma_study_close(koksma_study *study)
@@ -296,6 +299,7 @@ koksma_status koksma_study_close(koksma_study *study)
     }
     free(study->references);
     free(study->scenes);
+    koksma__texts_fini(&study->failed);
     koksma__plan_fini(&study->plan);
     free(study->folder);
     free(study);

@@ -31,6 +31,7 @@ struct koksma_study {
     koksma__study_scene *scenes;
     size_t n_references;
     koksma__reference_image *references;
+    koksma__texts failed;     /* for readers: the jobs that failed alone (failed_jobs.h) */
     const koksma__sink *sink; /* NULL: results go into the store */
 };
 

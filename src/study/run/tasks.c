@@ -20,6 +20,7 @@
 #include "core/status.h"
 #include "image/coherence.h"
 #include "image/metrics/metrics.h"
+#include "patterns/shared/file_names.h"
 #include "study/run/references.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
@@ -44,6 +45,9 @@ static uint64_t key_of(const koksma__task *t)
 uint64_t koksma__task_seed(const koksma__task *t, long long trial)
 {
     char digits[KOKSMA__CSV_NUMBER];
+    if (t->seeds && trial < t->trials) {
+        return t->seeds[trial];
+    }
     return koksma__hash_end(koksma__hash_more(t->key, digits, koksma__csv_whole((uint64_t)trial, digits)));
 }
 
@@ -69,6 +73,34 @@ bool koksma__has_one_set(const char *pattern)
     return !koksma_pattern_spec(pattern, &spec) && koksma__spec_is_deterministic(&spec);
 }
 
+/* A family of files, such as file:my_{n}_{seed}.npy, has one set for each file: trial t has the file with the t-th smallest
+   seed, and there are as many trials as files, at most those of the block. */
+static koksma_status find_seeds(koksma__task *t)
+{
+    koksma_spec spec;
+    koksma__file_set *sets = NULL;
+    size_t count = 0, n = 0;
+    if (koksma_pattern_spec(t->pattern, &spec) || !koksma__reads_points(spec.pattern) ||
+        !koksma__file_has(spec.path, "{seed}")) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = koksma__file_sets(spec.path, &sets, &count);
+    t->seeds = status ? NULL : calloc(count + 1, sizeof *t->seeds);
+    status = status || t->seeds ? status : koksma__fail_memory(count * sizeof *t->seeds);
+    for (size_t i = 0; !status && i < count && (long long)n < t->trials; i++) {
+        if (!sets[i].n || sets[i].n == (size_t)t->n) {
+            t->seeds[n++] = sets[i].seed;
+        }
+    }
+    free(sets);
+    if (!n) { /* the error of the first trial names the file that is missing */
+        free(t->seeds);
+        t->seeds = NULL;
+    }
+    t->trials = n ? (long long)n : 1;
+    return status;
+}
+
 static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discrepancy_block *b)
 {
     const size_t warps = b->warps.n ? b->warps.n : 1;
@@ -77,14 +109,18 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
         if (koksma__is_left_out(&b->left_out, i / (b->n.n * warps), b->n.n, i / warps % b->n.n)) {
             continue;
         }
-        const koksma__task task = {.discrepancy = b,
-                                   .pattern = b->patterns.at[i / (b->n.n * warps)],
-                                   .n = b->n.at[i / warps % b->n.n],
-                                   .variant = b->warps.n ? b->warps.at[i % warps] : "",
-                                   .trials =
-                                       koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials,
-                                   .n_series = b->measures.n};
-        status = add_task(tasks, &task);
+        koksma__task task = {.discrepancy = b,
+                             .pattern = b->patterns.at[i / (b->n.n * warps)],
+                             .n = b->n.at[i / warps % b->n.n],
+                             .variant = b->warps.n ? b->warps.at[i % warps] : "",
+                             .trials = koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials,
+                             .n_series = b->measures.n};
+        const size_t before = tasks->n;
+        status = find_seeds(&task);
+        status = status ? status : add_task(tasks, &task);
+        if (tasks->n == before) { /* the list does not own them */
+            free(task.seeds);
+        }
     }
     return status;
 }
@@ -174,7 +210,7 @@ koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks
 void koksma__tasks_close(koksma__tasks *tasks)
 {
     for (size_t i = 0; i < tasks->n; i++) {
-        KOKSMA__FREE(tasks->at[i].series, tasks->at[i].references, tasks->at[i].done);
+        KOKSMA__FREE(tasks->at[i].series, tasks->at[i].references, tasks->at[i].done, tasks->at[i].seeds);
     }
     free(tasks->at);
     free(tasks->rounds);
@@ -471,21 +507,25 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
     return status;
 }
 
-/* Puts the job's name, such as "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417: ", before the error
-   text. */
-static koksma_status fail_job(const koksma_study *study, const koksma__task *t, long long trial, koksma_status status)
+void koksma__task_name(const koksma_study *study, const koksma__task *t, long long trial, char name[KOKSMA__JOB_NAME])
 {
-    char name[KOKSMA_MAX_SPEC + KOKSMA__VARIANT_TEXT + 128];
     const koksma__plan *plan = &study->plan;
     if (t->image) {
-        snprintf(name, sizeof name, "images[%td], %.64s%s%s, %s, %lld samples a pixel, trial %lld",
+        snprintf(name, KOKSMA__JOB_NAME, "images[%td], %.64s%s%s, %s, %lld samples a pixel, trial %lld",
                  t->image - plan->images, t->scene->name, t->variant[0] ? ", " : "", t->variant, t->pattern, t->n,
                  trial);
     } else {
-        snprintf(name, sizeof name, "discrepancies[%td], %s%s%s, n = %lld, trial %lld",
+        snprintf(name, KOKSMA__JOB_NAME, "discrepancies[%td], %s%s%s, n = %lld, trial %lld",
                  t->discrepancy - plan->discrepancies, t->pattern, t->variant[0] ? " through " : "", t->variant, t->n,
                  trial);
     }
+}
+
+/* Puts the job's name before the error text. */
+static koksma_status fail_job(const koksma_study *study, const koksma__task *t, long long trial, koksma_status status)
+{
+    char name[KOKSMA__JOB_NAME];
+    koksma__task_name(study, t, trial, name);
     return koksma__fail_in(status, name);
 }
 

@@ -8,6 +8,7 @@
 #ifndef KOKSMA_STUDY_RUN_TASKS_H
 #define KOKSMA_STUDY_RUN_TASKS_H
 
+#include "study/plan/variants.h"
 #include "study/run/study.h"
 
 typedef struct koksma__task {
@@ -24,6 +25,7 @@ typedef struct koksma__task {
     /* Number of results of a job: one per measure; or, for an image, its error against each reference, then the
        coherence of its error against the last reference, then that error by each metric. */
     size_t n_series;
+    uint64_t *seeds; /* of a family of files (file_names.h): the seed in the name of each trial's file; else NULL */
     size_t *references;    /* for an image: indices into study->references, one per result */
     long long *series;     /* ids of the series in the store, set by koksma__tasks_look_up */
     unsigned char *done;   /* one bit per trial, which tells whether the trial was done before this run */
@@ -64,8 +66,13 @@ bool koksma__task_is_done(const koksma__task *task, long long trial);
 /* The key of result k of a task's jobs; `name` holds a text that the key points to. */
 koksma__series koksma__task_series(const koksma__task *task, size_t k, char name[KOKSMA__REFERENCE_NAME]);
 
-/* The seed of a job. */
+/* The seed of a job: a hash of its key, or the number in the name of the job's file. */
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
+
+/* Writes the name of a job, such as "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417". */
+enum { KOKSMA__JOB_NAME = KOKSMA_MAX_SPEC + KOKSMA__VARIANT_TEXT + 128 };
+void koksma__task_name(const koksma_study *study, const koksma__task *task, long long trial,
+                       char name[KOKSMA__JOB_NAME]);
 
 /* Does one job, which gives n_series results. The pixels of the references must be loaded. Errors: INTERRUPTED, if
    `run` stops the job; MEMORY; those of generating, measuring and rendering, whose text begins with the job's block,

@@ -44,10 +44,13 @@ for (const [low, high, arrows] of [[9, 21, 0], [0, 21, 2], [-5, 1e9, 4], [NaN, N
   for (const [, y] of paths.matchAll(/V([-0-9.]+)/g)) assert(y >= 14 && y <= 258, `a bar ends at ${y}`);
 }
 
-// A mark a point, of three shapes; a point that a logarithmic axis does not have is left out.
-const marks = draw([0, 1, 2].map(i => ({ label: `s${i}`, className: "s", points: [[1, 1], [2, 4], [3, -1]], marks: i })), { log: true });
-assert.deepEqual(["circle", "rect", "polygon"].map(name => marks.count(name)), [2, 2, 2]);
-assert.equal(marks.count("title"), 6);
+// A mark a point, of eight shapes; a point that a logarithmic axis does not have is left out.
+const marks = draw([0, 1, 2, 3, 4, 5, 6, 7].map(i => ({ label: `s${i}`, className: "s", points: [[1, 1], [2, 4], [3, -1]], marks: i })), { log: true });
+assert.deepEqual(["circle", "polygon"].map(name => marks.count(name)), [2, 14]);
+const outlines = marks.all(n => n.name === "polygon").map(n => n.attributes.points.split(" ").map(p => p.split(",").map(Number)))
+  .map(corners => corners.map((p, k) => p.map((v, i) => Math.sign(Math.round(v - (corners[k - 1] ?? p)[i])))).join(" ")); // ways of the edges
+assert.equal(new Set(outlines).size, 7);
+assert.equal(marks.count("title"), 16);
 assert.equal(marks.of("line").length, 0);
 
 // The legend names series with labels, beside the chart or below it, hollow ones left out; guides do not widen the axes.

@@ -138,15 +138,19 @@ async function byKeyboard(page) {
     check(eight.lines === 8 && eight.free === lineLabels(long).length - 8, `${eight.lines} lines at first, ${eight.free} more that can't be chosen`);
     const shown = lineLabels(long).filter(label => opening(long).includes(label)), absent = lineLabels(long).findLast(label => !shown.includes(label));
     check(shown.every(label => eight.legend.includes(label)), `${long.title} begins with ${eight.legend}, not with ${shown}`);
-    const alike = await page.evaluate(() => [...document.querySelectorAll(".chart-figure")].flatMap(f => { // what a reader can tell lines by
-      const look = g => { // as painted: colour, dash, mark
-        const line = g.querySelector(".line"), style = line && getComputedStyle(line);
-        return [style?.stroke, style?.strokeDasharray, g.querySelector(".dots > *")?.localName].join(" ");
+    // What a reader can tell lines by, as painted: up to eight lines differ in colour, and in the shape of the mark.
+    const alike = () => page.evaluate(() => [...document.querySelectorAll(".chart-figure")].flatMap(f => {
+      const colour = g => getComputedStyle(g.querySelector(".line") ?? g.querySelector(".dots"))[g.querySelector(".line") ? "stroke" : "fill"];
+      const shape = g => {
+        const corners = (g.querySelector(".dots > polygon")?.getAttribute("points") ?? "0,0").split(" ").map(p => p.split(",").map(Number));
+        return corners.map((p, k) => p.map((v, i) => Math.sign(Math.round(v - (corners[k - 1] ?? p)[i])))).join(" "); // ways of the edges
       };
-      const all = [...f.querySelectorAll(".legend .series:not(.theory)")].map(look), inChart = [...f.querySelectorAll(".chart .series:not(.theory)")].map(look);
-      return [...all.filter((one, i) => all.indexOf(one) !== i), ...all.filter(one => !inChart.includes(one))];
+      const all = [...f.querySelectorAll(".legend .series:not(.theory)")], inChart = [...f.querySelectorAll(".chart .series:not(.theory)")];
+      const looks = inChart.map(g => colour(g) + shape(g)), n = all.length;
+      const few = n > 8 || [colour, shape].every(of => new Set(all.map(of)).size === n);
+      return [...(few ? [] : [`${f.querySelector("figcaption").textContent}: ${n} lines, ${all.map(colour)}`]), ...all.map(g => colour(g) + shape(g)).filter(one => !looks.includes(one))];
     }));
-    check(!alike.length, `the legend shows lines alike, or other marks than the chart: ${alike}`);
+    check(!(await alike()).length, `lines look alike, or the legend has other marks than the chart: ${await alike()}`);
     await tabTo(page, ".choice input");
     await page.keyboard.press("Space");
     check((await figure()).lines === 7 && !(await figure()).legend.includes(shown[0]), "a line stays that was chosen away");
@@ -154,6 +158,7 @@ async function byKeyboard(page) {
     await tabTo(page, ".last");
     await page.keyboard.press("Space");
     check((await figure()).lines === 8 && (await figure()).legend.includes(absent), "a line that was chosen is not drawn");
+    check(!(await alike()).length, `with a line that was chosen, lines look alike: ${await alike()}`);
   }
 }
 
@@ -253,6 +258,14 @@ async function byKeyboard(page) {
     if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}.png`, fullPage: true });
     if (colorScheme === "light") { // printed, nothing is folded, and nothing is cut off at the side of a page
       await page.emulateMedia({ media: "print" });
+      const wide = await page.evaluate(() => { // a window's chart on paper would have letters of half their size
+        const most = () => Math.max(0, ...[...document.querySelectorAll(".chart")].map(chart => chart.viewBox.baseVal.width)), before = most();
+        dispatchEvent(new Event("beforeprint"));
+        const printed = most();
+        dispatchEvent(new Event("afterprint"));
+        return [before, printed, most(), [...document.querySelectorAll(".commands button")].filter(b => b.checkVisibility()).length];
+      });
+      check(wide[1] <= 700 && wide[0] === wide[2] && !wide[3], `charts are ${wide[1]} wide on paper, ${wide[0]} before and ${wide[2]} after; ${wide[3]} buttons`);
       await page.setViewportSize({ width: 718, height: 1000 }); // A4 without its margins
       const cut = await page.evaluate(() => {
         dispatchEvent(new Event("beforeprint"));

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Charts of a report. A chart is as wide as the page and shows at most eight lines at once, which the reader chooses; where the
 // data say which values are better, the first eight are those that are best at the right end. A label names the point under the mouse, or the point chosen by arrow keys, with its values. Series of marks without lines,
-// such as those of a scatter plot, are all shown.
+// such as those of a scatter plot, are all shown. Shown lines have different colours and marks.
 import { chart, shape } from "../../../../explorer/page/chart.mjs";
 import { element, short, svg } from "../../../../explorer/page/dom.mjs";
 
-const lines = 8, near = 40;
+const lines = 8, near = 40, widest = 1400; // as many lines as the palette has colours
 const drawn = []; // the functions that draw the charts, called again when the width of the window changes
 
-export function redraw() {
-  drawn.forEach(draw => draw());
+export function redraw(most = widest) {
+  drawn.forEach(draw => draw(most));
 }
 
-// As long as one period of every dash pattern, and with the mark of the chart: lines of one colour differ in these alone.
+// As long as one period of every dash pattern, and with the mark of the chart.
 const swatch = (className, mark, line) => svg("svg", { class: "swatch", width: 46, height: 12, "aria-hidden": "true" },
   svg("g", { class: `series ${className}` }, line ? svg("path", { class: "line", d: "M1 6h44" }) : null,
     mark === undefined ? null : svg("g", { class: "dots" }, shape(mark, 23, 6))));
@@ -66,41 +66,41 @@ function opening(block, named, labels) {
 
 export function chartFigure(block) {
   const named = block.series.filter(s => s.style !== "theory" && s.points.length), labels = [...new Set(named.map(s => s.label))];
-  const limited = named.some(s => s.style === "line"), slots = new Map(); // from a label to the number of its mark
-  (limited ? opening(block, named, labels) : labels).forEach((label, i) => slots.set(label, i));
+  const limited = named.some(s => s.style === "line"), looks = new Map(); // from a shown label to the number of its look
   const plot = element("div", { class: "plot" }), tip = element("output", { class: "tip", hidden: true }), legend = element("ul", { class: "legend" });
   const stage = element("div", { class: "stage", tabindex: 0, role: "group", "aria-label": `${block.title}: arrow keys name its points` }, plot, tip);
   const choice = element("div", { class: "boxes" }), count = element("summary", {}), boxes = new Map();
-  const classes = new Map(named.filter(s => s.style !== "hollow").map(s => [s.label, `c${s.colour} d${s.dash}`]));
-  // The mark of a line: that of its slot, or the next that no line of the same colour and dash has.
-  const marksOf = () => {
-    const marks = new Map(), taken = new Set();
-    for (const [label, slot] of slots) {
-      const mark = [0, 1, 2].map(i => (slot + i) % 3).find(m => !taken.has(classes.get(label) + m)) ?? slot;
-      taken.add(classes.get(label) + mark);
-      marks.set(label, mark);
-    }
-    return marks;
+  // A look is a colour, a dash and a mark, as numbers of koksma_plot_colours are: of what is shown, the first series of a
+  // family of patterns has the family's colour, the others the next that no series has. A series keeps its look while it is shown.
+  const family = new Map(named.filter(s => s.style !== "hollow").map(s => [s.label, s.colour]));
+  const take = label => {
+    const taken = new Set(looks.values()), own = family.get(label) ?? 0;
+    let i = 0;
+    const number = () => (own + i) % lines + i - i % lines;
+    while (taken.has(number())) i++;
+    looks.set(label, number());
   };
+  const first = limited ? opening(block, named, labels) : labels;
+  const leads = first.filter((label, i) => first.findIndex(other => family.get(other) === family.get(label)) === i);
+  [...leads, ...first.filter(label => !leads.includes(label))].forEach(take);
+  const classOf = look => `c${look % lines} d${Math.floor(look / lines) % 4}`, markOf = look => look + Math.floor(look / lines);
   let points = [];
-  const draw = () => {
-    const marks = marksOf();
-    const series = block.series.filter(s => s.style === "theory" || slots.has(s.label)).map(({ label, style, points: values }) => {
-      const theory = style === "theory", hollow = style === "hollow", slot = marks.get(label);
-      return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}${classes.get(label) ?? "c0"}`,
-        line: style === "line" || theory, marks: theory ? undefined : slot };
+  const draw = (most = widest) => {
+    const series = block.series.filter(s => s.style === "theory" || looks.has(s.label)).map(({ label, style, points: values }) => {
+      const theory = style === "theory", hollow = style === "hollow", look = looks.get(label);
+      return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}${classOf(look)}`,
+        line: style === "line" || theory, marks: theory ? undefined : markOf(look) };
     });
-    points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most: 1400 });
+    points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most });
     legend.replaceChildren(...series.filter(s => !s.hollow).map(s => element("li", {}, swatch(s.className, s.marks, s.line), s.label)));
-    count.textContent = `Choose lines: ${slots.size} of ${labels.length} are shown, ${lines} at most${block.y.better && labels.length > lines ? "; the best at the right end to begin with" : ""}`;
-    boxes.forEach((box, label) => { box.disabled = !slots.has(label) && slots.size >= lines; });
+    count.textContent = `Choose lines: ${looks.size} of ${labels.length} are shown, ${lines} at most${block.y.better && labels.length > lines ? "; the best at the right end to begin with" : ""}`;
+    boxes.forEach((box, label) => { box.disabled = !looks.has(label) && looks.size >= lines; });
   };
   for (const label of limited ? labels : []) {
-    const box = element("input", { type: "checkbox", checked: slots.has(label) });
+    const box = element("input", { type: "checkbox", checked: looks.has(label) });
     box.addEventListener("change", () => {
-      const taken = new Set(slots.values());
-      if (box.checked) slots.set(label, [...Array(lines).keys()].find(i => !taken.has(i)));
-      else slots.delete(label);
+      if (box.checked) take(label);
+      else looks.delete(label);
       draw();
     });
     boxes.set(label, box);

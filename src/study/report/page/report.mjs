@@ -173,8 +173,10 @@ addEventListener("resize", () => {
   if (innerWidth !== drawnFor) redraw();
   drawnFor = innerWidth;
 });
-// Opens all collapsed sections for printing.
+// Opens all collapsed sections for printing, and draws charts about as wide as a sheet of A4, so that their letters keep their size.
 const folded = [];
+addEventListener("beforeprint", () => redraw(680));
+addEventListener("afterprint", () => redraw());
 addEventListener("beforeprint", () => document.querySelectorAll("#evidence details:not([open], .choice)").forEach(node => { folded.push(node); node.open = true; }));
 addEventListener("afterprint", () => folded.splice(0).forEach(node => { node.open = false; }));
 if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView();

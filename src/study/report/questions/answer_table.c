@@ -236,7 +236,9 @@ static koksma_status say_bands(koksma_study *study, koksma__document *d, const s
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
-static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *c, const standing *s)
+/* *gaps: whether a cell has no mean. */
+static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *c, const standing *s,
+                              bool *gaps)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < c->patterns->n; i++) {
@@ -245,6 +247,7 @@ static koksma_status add_rows(koksma_study *study, koksma__document *d, const su
         for (size_t k = 0; !status && k < c->n->n; k++) {
             koksma__summary mean = {0};
             status = cell_of(study, c, s->by[i], k, &mean);
+            *gaps |= !mean.n;
             koksma__doc_interval(d, koksma__estimate_of(&mean));
         }
         if (!status && c->image) {
@@ -391,8 +394,13 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const c
             !status && c->image ? koksma__say_reference(study, d, c->image, c->scene, c->variant, c->metric) : status;
         koksma__doc_sorted_table_begin(d, file, last, false, c->larger);
         add_heads(d, c);
-        status = status ? status : add_rows(study, d, c, &s);
+        bool gaps = false;
+        status = status ? status : add_rows(study, d, c, &s, &gaps);
         koksma__doc_table_end(d);
+        if (gaps && koksma_study_left_out_at(study, 0)) {
+            koksma__doc_paragraph(
+                d, "A cell without a number has no results: the section *Left out* gives the reasons.");
+        }
         status = !status && c->image ? add_metrics(study, d, id, number, c, &s) : status;
         koksma__doc_end(d);
     }
