@@ -7,6 +7,8 @@
 #
 # Both streams are shown, stderr in its place; a non-zero exit code is shown as a last line "[exit N]".
 # A line of the expected output that begins with "~ " is an extended regular expression for the whole line.
+# A command after "$long " instead of "$ " is left out where KOKSMA_SANITIZED is 1 (tests/CMakeLists.txt): it repeats, for longer,
+# what shorter ones do. `few A B` prints A there and B elsewhere: how often, how large.
 set -u
 program=$(readlink -f "$1")
 test=$(readlink -f "$2")
@@ -16,14 +18,21 @@ mkdir "$work/bin" "$work/run"
 ln -s "$program" "$work/bin/koksma"
 ln -s "$(dirname "$test")/../study/report/text.py" "$work/bin/report-text" # the report of a study as lines of text
 ln -s "$(dirname "$test")/../study/reseal.py" "$work/bin/reseal" # makes a store's rows, changed by hand, its rows
+printf '#!/bin/sh\n[ "${KOKSMA_SANITIZED:-0}" = 1 ] && echo "$1" || echo "$2"\n' >"$work/bin/few"
+chmod +x "$work/bin/few"
 PATH="$work/bin:$PATH"
 KOKSMA_TESTS=$(dirname "$(dirname "$test")")
 export PATH KOKSMA_TESTS
 cd "$work/run" || exit 1
 awk -v work="$work" '
-  /^\$ / { n++; print substr($0, 3) > (work "/command." n); printf "" > (work "/expected." n); next }
+  /^\$(long)? / {
+    taken = /^\$ / || ENVIRON["KOKSMA_SANITIZED"] != 1
+    if (taken) { n++; sub(/^[^ ]* /, ""); print > (work "/command." n); printf "" > (work "/expected." n) }
+    next
+  }
+  !taken { next }
   /^  \.\.\. / { print substr($0, 7) >> (work "/command." n); next }
-  n && !/^#/ && !/^$/ { print > (work "/expected." n) }
+  !/^#/ && !/^$/ { print > (work "/expected." n) }
   END { print n + 0 > (work "/count") }' "$test"
 failed=0 passed=0
 count=$(cat "$work/count")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """terminal.py KOKSMA: tables on a terminal. Every table of `koksma list` and of the commands below, on pseudo terminals of
-several widths (with sanitizers two): no line is wider; every column of the table that a pipe gets is a column, in the line above or named as left
+several widths (with sanitizers one): no line is wider; every column of the table that a pipe gets is a column, in the line above or named as left
 out; and a terminal that is wide enough, or --long, shows what a pipe gets, where nothing is cut. Numbers of a pipe are those
 of JSON to five digits; JSON and files hold them to the last bit. Every command that may take long shows one bar, which never
 falls and is gone before anything else is printed."""
@@ -17,7 +17,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from pseudo_terminal import shown  # pylint: disable=wrong-import-position
 
 KOKSMA = os.path.abspath(sys.argv[1])
-WIDTHS = (40, 80) if os.environ.get("KOKSMA_SANITIZED") == "1" else (40, 60, 80, 132)
+SANITIZED = os.environ.get("KOKSMA_SANITIZED") == "1"
+WIDTHS = (40,) if SANITIZED else (40, 60, 80, 132)
 failures, tables = [], 0
 
 
@@ -54,11 +55,13 @@ def look(*arguments):
     for width in WIDTHS:
         text = on_terminal(arguments, width)
         check(max(map(len, text.split("\n"))) <= width, f"{name}: a line of more than {width} columns: {text}")
-        check(text == on_terminal(arguments, 80, width), f"{name}: COLUMNS={width} is not a terminal of that width")
+        check(SANITIZED or text == on_terminal(arguments, 80, width), f"{name}: COLUMNS={width} is not a terminal of that width")
         words = re.findall(r"[\w%-]+", text)
         check(all(key in words for key in header), f"{name} in {width}: not told of {[key for key in header if key not in words]}")
         if max(map(len, whole.split("\n"))) <= width:
             check(text == whole, f"{name}: fits in {width}, but is not what a pipe gets")
+    if SANITIZED:
+        return
     check(on_terminal([*arguments, "--long"], 80) == whole, f"{name}: --long is not what a pipe gets")
     check(on_terminal(arguments, 5000) == whole, f"{name}: a wide terminal has not what a pipe gets")
 
@@ -72,7 +75,7 @@ with tempfile.TemporaryDirectory() as folder:
         if kind not in ("records", "parameters", "plans", "formats"):
             text = on_terminal(["list", kind], 80)
             check(re.search(r"^\w+ +what( |$)", text, re.M), f"list {kind}: what the names are does not come first: {text}")
-    for row in rows("list", "patterns"):
+    for row in rows("list", "patterns")[:1 if SANITIZED else None]:
         check(row["source"] in piped("list", "patterns") and row["claims"] in piped("list", "patterns"), "a pipe's table is cut")
     subprocess.run([KOKSMA, "generate", "random", "-n", "32", "-o", "a file of points whose name is rather long, with a comma.txt"], check=True)
     for seed in ("1", "2"):
@@ -91,7 +94,7 @@ with tempfile.TemporaryDirectory() as folder:
                  ["study", "images", "{trial}.pfm", "--reference", "1.pfm"],
                  ["optimise", "l2-star", "-n", "6", "--steps", "1", "-o", "six.txt"]):
         look(*line)
-        check(rows(*line), f"{line}: no JSON")
+        check(SANITIZED or rows(*line), f"{line}: no JSON")
     # Text has five digits, --digits others; JSON and files have all.
     for row, five, nine in zip(rows("measure", "pattern:random@64", "-m", "all"), piped("measure", "pattern:random@64", "-m", "all").splitlines()[1:],
                                piped("measure", "pattern:random@64", "-m", "all", "--digits", "9").splitlines()[1:]):
@@ -111,6 +114,11 @@ with tempfile.TemporaryDirectory() as folder:
             "rank": ["ball", "--size", "16x12", "--max-trials", "8", "--one-size", "-p", "random,jittered"],
             "optimise": ["l2-star", "-n", "30", "--steps", "3", "-o", "b.txt"], "study": ["run", "./plan.json", "-o", "results", "--quick"],
             "reproduce": ["./plan.json", "-o", "again", "--quick"]}
+    if SANITIZED:
+        slow |= {"measure": ["random@100", "-m", "star,l2-star", "--trials", "3"], "verify": ["sobol@64", "halton@64"],
+                 "generate": ["best-candidate", "-n", "400", "-o", "b.txt"], "curve": ["power", "random@100", "--trials", "9"],
+                 "plot": ["random@100", "--curve", "power", "--trials", "9", "-o", "b.png"], "render": ["ball", "--size", "64x48", "-o", "b.png"],
+                 "optimise": ["l2-star", "-n", "8", "--steps", "2", "-o", "b.txt"]}
     for command, more in slow.items():
         text = on_terminal([command, *more, "--seed", "1"] if command not in ("rank", "study", "reproduce") else [command, *more], 80, None, subprocess.STDOUT)
         # A message follows on the line that was cleared, perhaps with a percentage of its own, but has a colon.
@@ -118,7 +126,7 @@ with tempfile.TemporaryDirectory() as folder:
         check(bars and all(after == "\r" for _, _, after in bars), f"{command}: no bar, or something is printed behind it: {text[-400:]!r}")
         parts = [int(part) for _, part, _ in bars]
         check(parts == sorted(parts) and parts[-1] <= 100 and all(len(bar) < 80 for bar, _, _ in bars), f"{command}: {parts}")
-        check("%" not in subprocess.run([KOKSMA, command, *more], capture_output=True, text=True, check=False).stderr.split("workers")[0].split("leaves")[0],
+        check(SANITIZED or "%" not in subprocess.run([KOKSMA, command, *more], capture_output=True, text=True, check=False).stderr.split("workers")[0].split("leaves")[0],
               f"{command}: a bar in a pipe")
     # Points follow on the terminal: no bar stands before them or between them.
     for points in (["random", "-n", "5"], ["gaussian-jittered", "-n", "400"], ["random", "-n", "9", "--warp", "polar-disk"]):

@@ -15,7 +15,12 @@ const contrasts = () => {
   const parse = c => (c.match(/[\d.]+/g) || []).map(Number), found = new Set();
   const light = rgb => rgb.slice(0, 3).map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
     .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-  const behind = e => { for (; e; e = e.parentElement) { const c = parse(getComputedStyle(e).backgroundColor); if (c.length === 3 || c[3] > 0) return c; } return [255, 255, 255]; };
+  const papers = new Map(); // what is behind an element, of each once
+  const behind = e => {
+    if (!e) return [255, 255, 255];
+    if (!papers.has(e)) { const c = parse(getComputedStyle(e).backgroundColor); papers.set(e, c.length === 3 || c[3] > 0 ? c : behind(e.parentElement)); }
+    return papers.get(e);
+  };
   for (const e of document.querySelectorAll("body *")) {
     if (![...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()) || !e.checkVisibility()) continue;
     const [ink, paper] = [light(parse(getComputedStyle(e).color)), light(behind(e))];

@@ -1,7 +1,7 @@
 #!/bin/sh
 # readme.sh PROGRAM: the commands that README.md, docs/commands.md and the examples of every --help show are run, in their
-# order and in one folder; rankings and studies of papers, which take minutes, with their --help. Files that they speak of
-# are there before. Every command has an example, in its manual page as well;
+# order and in one folder; rankings and studies of papers, which take minutes, with their --help, searches with fewer points
+# and one step. Files that they speak of are there before. Every command has an example, in its manual page as well;
 # README says how many patterns there are.
 set -u
 program=$(readlink -f "$1")
@@ -44,7 +44,7 @@ while read -r command; do
     'koksma manual '*) command -v man >/dev/null || command=true ;;
     'koksma optimise --scene '*)
       command="$command --candidates 2 --phases 1 --max-trials 8 --size 16x12 --held-out checker --against random,jittered" ;;
-    'koksma optimise '*) command=$(echo "$command" | sed 's/--time-limit [0-9]*/--steps 2/') ;;
+    'koksma optimise '*) command=$(echo "$command" | sed 's/--time-limit [0-9]*/--steps 1/; s/--steps [0-9]*/--steps 1/; s/ -n [0-9]*/ -n 16/') ;;
     'koksma render '*) command="$command --size 32x32 -q" ;;
   esac
   if ! timeout 3000 sh -c "$command" >out 2>&1 </dev/null; then

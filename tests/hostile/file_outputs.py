@@ -5,7 +5,7 @@
 Links are planted under the names that the program chooses, two processes have equal numbers (as in containers), runs are
 killed, and disks are full. A file is the old or the new one, whole; no file but the one that was asked for changes;
 what dead runs leave is removed by the next one, and what living runs write is not. FAULTS is the program with faults
-(tests/faults).
+(tests/faults). With sanitizers there are fewer kills and pairs of processes, of fewer points.
 """
 import glob
 import os
@@ -24,6 +24,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 PLAN = os.path.join(os.path.dirname(HERE), "faults", "inputs", "plan.json")
 VICTIM = b"what somebody keeps here\n"
 POINTS = ["generate", "random", "-q"]
+MANY = "20000" if files.SANITIZED else "100000"
 
 
 def write(path, data=VICTIM):
@@ -128,10 +129,10 @@ def check_equal_numbers(checks, program, folder):
             container = []
     whole = []
     for seed in "12":
-        good(checks, "one alone", files.run(program, *POINTS, "-n", "100000", "-s", seed, "-o", "one.txt", cwd=folder))
+        good(checks, "one alone", files.run(program, *POINTS, "-n", MANY, "-s", seed, "-o", "one.txt", cwd=folder))
         whole.append(read(os.path.join(folder, "one.txt")))
-    for _ in range(12):
-        both = [subprocess.Popen([*container, program, *POINTS, "-n", "100000", "-s", seed, "-o", "o.txt"], cwd=folder,
+    for _ in range(2 if files.SANITIZED else 12):
+        both = [subprocess.Popen([*container, program, *POINTS, "-n", MANY, "-s", seed, "-o", "o.txt"], cwd=folder,
                                  stderr=subprocess.PIPE) for seed in "12"]
         for process in both:
             _, err = process.communicate(timeout=files.SECONDS)
@@ -150,13 +151,13 @@ def check_leftovers(checks, program, faults, folder):
         good(checks, "the next run", files.run(program, *POINTS, "-n", "4", "-o", "other.txt", cwd=folder))
         checks.check(not leftovers(folder), f"the next run leaves what an end at {kind} left")
     chance = random.Random(1)
-    for _ in range(20):
-        process = subprocess.Popen([program, *POINTS, "-n", "100000", "-o", "out.txt"], cwd=folder)
+    for _ in range(3 if files.SANITIZED else 20):
+        process = subprocess.Popen([program, *POINTS, "-n", MANY, "-o", "out.txt"], cwd=folder)
         time.sleep(chance.random() * 0.3)
         process.kill()
         process.wait()
     good(checks, "the next run", files.run(program, *POINTS, "-n", "4", "-o", "other.txt", cwd=folder))
-    checks.check(not leftovers(folder), "leftovers after 20 kills and a run")
+    checks.check(not leftovers(folder), "leftovers after kills and a run")
 
 
 def check_others(checks, program, folder):

@@ -5,8 +5,9 @@
 Without --allow-exec no command runs them, whatever a spec, plan or stored study says: a marker file shows who ran. With it
 the examples take part as other patterns do, with the same results on any threads and ranks. Programs that hang, fork, print
 rubbish or too much, die or change their minds give one line and exit code 3; a mark in the environment, which every process
-below inherits, shows in /proc that none is left.
+below inherits, shows in /proc that none is left. With sanitizers each place of a spec has one of the specs in turn.
 """
+import itertools
 import json
 import os
 import re
@@ -108,14 +109,12 @@ def check_permission(checks, program):
     write_program("mark", "touch ran; " + POINTS)
     with open("p.json", "w", encoding="utf-8") as file:
         file.write(plan("exec:./mark"))
-    for spec in ("exec:./mark", "plugin:./p.so", "plugin:./p.so:good", "exec:./mark,shift=1"):
-        for command in (["generate", spec, "-n", "2"], ["measure", spec + "@2", "-m", "star"], ["integrate", "disk", spec + "@2"],
-                        ["verify", spec + "@2"], ["plot", spec + "@2", "-o", "o.svg"], ["generate", "-p", spec, "-n", "2"],
-                        ["curve", "power", spec + "@2"],
-                        ["render", "ball", "-p", spec, "-n", "2", "--size", "8x6", "-o", "o.pfm"],
-                        ["datasheet", spec, "--quick", "-o", "sheet.html"]):
-            done = files.run(program, *command)
-            checks.refused(" ".join(command), done, 2, "--allow-exec")
+    commands = (["generate", "{}", "-n", "2"], ["measure", "{}@2", "-m", "star"], ["integrate", "disk", "{}@2"], ["verify", "{}@2"],
+                ["plot", "{}@2", "-o", "o.svg"], ["generate", "-p", "{}", "-n", "2"], ["curve", "power", "{}@2"],
+                ["render", "ball", "-p", "{}", "-n", "2", "--size", "8x6", "-o", "o.pfm"], ["datasheet", "{}", "--quick", "-o", "sheet.html"])
+    for command, spec in files.each(commands, ("exec:./mark", "plugin:./p.so", "plugin:./p.so:good", "exec:./mark,shift=1")):
+        words = [word.replace("{}", spec) for word in command]
+        checks.refused(" ".join(words), files.run(program, *words), 2, "--allow-exec")
     done = files.run(program, "rank", "ball", "-p", "exec:./mark,random", "--spp", "2", "--size", "8x6")
     checks.check(b"--allow-exec" in done.out + done.err, f"rank: {done.out} {done.err}")
     done = files.run(program, "study", "run", "p.json", "-o", "refused", "-q")
@@ -187,21 +186,21 @@ def check_every_command(checks, program):
         file.write(b"Pf\n1 1\n-1.0\n\0\0\x80?")
     with open("t.obj", "w", encoding="utf-8") as file:
         file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    for spec in "exec:./mark", "plugin:./p.so", "plugin:./p.so:good", f"exec:{os.getcwd()}/mark":
+    specs = "exec:./mark", "plugin:./p.so", "plugin:./p.so:good", f"exec:{os.getcwd()}/mark"
+    for (command, row), spec in files.each([(command, row) for command, rows in PLACES.items() for row in rows], specs):
         with open("a.json", "w", encoding="utf-8") as file:
             file.write(plan(spec))
-        for command, rows in PLACES.items():
-            for row in rows:
-                words = [word.replace("{}", spec) for word in row]
-                done = files.run(program, command, *words)
-                checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{command} {words}: {done and done.code}, ran")
-        for one in plans(spec):
-            with open("a.json", "w", encoding="utf-8") as file:
-                json.dump({"name": "p", "title": "p", **one}, file)
-            for words in ["run", "a.json", "-o", "stored"], ["estimate", "a.json"], ["report", "stored"], ["audit", "stored"], ["export", "stored"]:
-                done = files.run(program, "study", *words, "-q" if words[0] == "run" else "--quiet")
-                checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{one}: {words}: {done and done.code}, ran")
-            shutil.rmtree("stored", ignore_errors=True)
+        words = [word.replace("{}", spec) for word in row]
+        done = files.run(program, command, *words)
+        checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{command} {words}: {done and done.code}, ran")
+    for i, spec in files.each(range(len(list(plans("")))), specs):
+        one = list(plans(spec))[i]
+        with open("a.json", "w", encoding="utf-8") as file:
+            json.dump({"name": "p", "title": "p", **one}, file)
+        for words in ["run", "a.json", "-o", "stored"], ["estimate", "a.json"], ["report", "stored"], ["audit", "stored"], ["export", "stored"]:
+            done = files.run(program, "study", *words, "-q" if words[0] == "run" else "--quiet")
+            checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{one}: {words}: {done and done.code}, ran")
+        shutil.rmtree("stored", ignore_errors=True)
 
 
 def check_rows(checks, program):
@@ -209,18 +208,17 @@ def check_rows(checks, program):
     with open("a.json", "w", encoding="utf-8") as file:
         file.write(plan("jittered:columns=1"))
     checks.check(files.run(program, "study", "run", "a.json", "-o", "kept", "-q").code == 0, "a study")
-    for spec in "exec:./mark", "plugin:./p.so":
-        for column in "what", "pattern", "made_by", "measured_by":
-            for verb in ["export"], ["report"], ["audit", "--rows", "all"], ["run", "a.json", "-q", "-o"]:
-                shutil.rmtree("stored", ignore_errors=True)
-                shutil.copytree("kept", "stored")
-                database = sqlite3.connect("stored/results.sqlite")
-                database.execute(f"UPDATE series SET {column} = ? WHERE pattern LIKE 'jittered%'", (spec,))
-                database.commit()
-                database.close()
-                reseal("stored")
-                done = files.run(program, "study", *verb, "stored")
-                checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{column} {spec}: {verb}: {done and done.code}, ran")
+    verbs = ["export"], ["report"], ["audit", "--rows", "all"], ["run", "a.json", "-q", "-o"]
+    for (verb, column), spec in files.each(itertools.product(verbs, ("what", "pattern", "made_by", "measured_by")), ("exec:./mark", "plugin:./p.so", "plugin:./p.so:good")):
+        shutil.rmtree("stored", ignore_errors=True)
+        shutil.copytree("kept", "stored")
+        database = sqlite3.connect("stored/results.sqlite")
+        database.execute(f"UPDATE series SET {column} = ? WHERE pattern LIKE 'jittered%'", (spec,))
+        database.commit()
+        database.close()
+        reseal("stored")
+        done = files.run(program, "study", *verb, "stored")
+        checks.check(not os.path.exists("ran") and done and done.code in (0, 1, 2, 3), f"{column} {spec}: {verb}: {done and done.code}, ran")
     shutil.rmtree("stored", ignore_errors=True)
 
 

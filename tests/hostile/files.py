@@ -6,6 +6,7 @@ import sys
 import tempfile
 import threading
 
+SANITIZED = os.environ.get("KOKSMA_SANITIZED") == "1"  # tests/CMakeLists.txt: repeat little
 SECONDS = 300  # a run takes tenths of one; this finds those that never end, on machines under any load
 MIB = 1 << 20
 OTHER = 400  # MiB that the program and its sanitizers take beside a file
@@ -42,6 +43,14 @@ class Checks:
     def end(self):
         print(f"{self.n} checks, {self.bad} failed")
         sys.exit(1 if self.bad or not self.n else 0)
+
+
+def each(rows, columns):
+    """Every pair of a row and a column; with sanitizers each row once and each column, where there are as many rows."""
+    rows, columns = list(rows), list(columns)
+    for i, row in enumerate(rows):
+        for column in [columns[i % len(columns)]] if SANITIZED else columns:
+            yield row, column
 
 
 def is_utf8(text):

@@ -13,7 +13,7 @@ synced is dropped, torn at sectors, in another order, or rubbish. Of such a fold
 - the next `run` ends with all rows, and with no files but those of an undisturbed study.
 
 As a check of this test, the same list without the fsyncs of the database and its log must be found wanting.
-KOKSMA_POWER_STATES is how many states are drawn of each study (default 40, with sanitizers 10).
+KOKSMA_POWER_STATES is how many states are drawn of each study (default 40, with sanitizers 6).
 """
 import os
 import random
@@ -26,7 +26,7 @@ import files
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PLAN = os.path.join(HERE, "../study/plan.json")
-STATES = int(os.environ.get("KOKSMA_POWER_STATES", "10" if os.environ.get("KOKSMA_SANITIZED") == "1" else "40"))
+STATES = int(os.environ.get("KOKSMA_POWER_STATES", "6" if os.environ.get("KOKSMA_SANITIZED") == "1" else "40"))
 RUN = ["study", "run", PLAN, "-q", "--threads", "2", "-o", "d"]
 MORE = [*RUN, "--trials", "5"]
 FRESH, KILLED = {}, {"KOKSMA_FAULT": "db", "KOKSMA_FAULT_MODE": "end", "KOKSMA_FAULT_AT": "150"}
