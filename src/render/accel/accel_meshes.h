@@ -17,6 +17,7 @@ typedef struct koksma__mesh_host {
     const koksma__batch_table *(*batch)(void);
     void (*normal_matrix)(const double matrix[12], double out[9]);
     void (*poses_at)(const koksma__pose poses[2], double t, double matrix[12]);
+    bool (*matrix_mirrors)(const double matrix[12]);
 } koksma__mesh_host;
 
 /* Makes the geometry of the scene's shapes and meshes. Errors: UNSUPPORTED (the module is missing), ARGUMENT, MEMORY,
