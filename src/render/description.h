@@ -125,8 +125,9 @@ typedef struct koksma__camera {
        corner 0 is at this angle from `right` towards up. */
     int blades;
     double blade_angle_rad;
-    double shutter[2]; /* the times when it opens and closes */
-    double motion[3];  /* at time t the eye is eye + t motion */
+    double
+        shutter[2];   /* the times when it opens and closes; rays before 0 and after 1 see what is there at 0 and 1 */
+    double motion[3]; /* at time t the eye is eye + t motion */
 } koksma__camera;
 
 /* Data that the renderer derives from a scene and that all its images share: made under the lock when first needed,

@@ -579,7 +579,7 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
     KOKSMA__TRY(surface_of(r, n, &item.surface));
     KOKSMA__TRY(transform(r, n, "to_world", to_world));
     koksma__matrix_multiply(to_world, form, item.matrix);
-    return koksma__import_put(r->im, &item, outer);
+    return koksma__import_put(r->im, &item, outer, NULL);
 }
 
 /* ---- Emitters and sensors ------------------------------------------------------------------------------------ */

@@ -134,7 +134,7 @@ static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_p
 koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                     double rgb[3])
 {
-    static const char *const unknown[] = {"power", "illuminance", "portal", "alpha", "twosided"};
+    static const char *const unknown[] = {"power", "illuminance", "portal", "alpha"};
     koksma__import_colour colour;
     KOKSMA__TRY(read_colour(scene, p, name, 1, true, &colour));
     for (int k = 0; k < 3; k++) {

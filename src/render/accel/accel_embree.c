@@ -681,7 +681,7 @@ static koksma_status make_keys(const koksma__placement *from, part *p)
     }
     for (int i = 0; p->steps && i <= p->steps; i++) {
         double matrix[12];
-        HOST->poses_at(from->poses, (double)i / p->steps, matrix);
+        HOST->placement_at(from, (double)i / p->steps, matrix);
         for (int k = 0; k < 12; k++) {
             p->keys[i][k] = (float)matrix[k];
         }
