@@ -523,6 +523,64 @@ static void shutters_outlast_motions(void **state)
     koksma_scene_close(scene);
 }
 
+/* ---- Media of Mitsuba ---------------------------------------------------------------------------------------------- */
+
+/* A sensor within a medium, whose inside and the rest of the scene are given. */
+#define FOGGY(inside, rest)                                                                                          \
+    "<scene version=\"3.0.0\"><medium type=\"homogeneous\" id=\"f\">" inside "</medium>"                             \
+    "<sensor type=\"perspective\"><ref id=\"f\"/></sensor>\n" rest "</scene>"
+
+static void check_medium(const char *text, const double absorption[3], const double scattering[3], double g,
+                         double low)
+{
+    koksma_scene *scene = opened("medium.xml", text);
+    const koksma__medium *m = &scene->medium;
+    assert_int_equal(scene->n_unknown, 0);
+    assert_true(m->is_there);
+    for (int k = 0; k < 3; k++) {
+        assert_near(m->absorption[k], absorption[k], 1e-6);
+        assert_near(m->scattering[k], scattering[k], 1e-6);
+        assert_true(isinf(low) ? isinf(m->low[k]) && isinf(m->high[k]) : fabs(m->low[k] - low * (k + 1)) < 1e-6);
+    }
+    assert_near(m->phase.values[0], g, 1e-6);
+    koksma_scene_close(scene);
+}
+
+/* Mitsuba's defaults are the albedo .75 and the extinction 1; a scale multiplies the extinction. The medium of a cube is
+   between its sides. */
+static void media_of_mitsuba_are_read(void **state)
+{
+    (void)state;
+    if (!reads_xml()) {
+        return;
+    }
+    check_medium(FOGGY("", ""), (double[]){.25, .25, .25}, (double[]){.75, .75, .75}, 0, -INFINITY);
+    check_medium(
+        FOGGY("<rgb name=\"albedo\" value=\"0.5, 0.2, 1\"/><volume name=\"sigma_t\" type=\"constvolume\"><rgb "
+              "name=\"value\" value=\"0.1, 0.2, 0.3\"/></volume><float name=\"scale\" value=\"2\"/><phase "
+              "type=\"hg\"><float name=\"g\" value=\"0.6\"/></phase>",
+              ""),
+        (double[]){.1, .32, 0}, (double[]){.1, .08, .6}, 0.6, -INFINITY);
+    check_medium(
+        FOGGY("<float name=\"albedo\" value=\"1\"/><float name=\"sigma_t\" value=\"1e999\"/><float name=\"scale\" "
+              "value=\"nan\"/>",
+              ""),
+        (double[]){0, 0, 0}, (double[]){0, 0, 0}, 0, -INFINITY);
+    check_medium(FOGGY("<float name=\"albedo\" value=\"2\"/><float name=\"scale\" value=\"1e999\"/>", ""),
+                 (double[]){0, 0, 0}, (double[]){1e6, 1e6, 1e6}, 0, -INFINITY);
+    check_medium(FOGGY("<rgb name=\"sigmaA\" value=\"0.1, 0.2, 0.3\"/><rgb name=\"sigmaS\" value=\"0.5\"/>", ""),
+                 (double[]){.1, .2, .3}, (double[]){.5, .5, .5}, 0, -INFINITY);
+#define CUBE                                                                                                         \
+    "<shape type=\"cube\"><bsdf type=\"null\"/><ref name=\"interior\" id=\"f\"/><transform "                         \
+    "name=\"to_world\"><rotate "                                                                                     \
+    "y=\"1\" angle=\"90\"/><scale x=\"1\" y=\"2\" z=\"3\"/></transform></shape>"
+    check_medium(FOGGY("", CUBE "<emitter type=\"constant\"/>"), (double[]){.25, .25, .25}, (double[]){.75, .75, .75},
+                 0, -1);
+    check_medium("<scene version=\"3.0.0\"><sensor type=\"perspective\"/><medium type=\"homogeneous\" id=\"f\"/>" CUBE
+                 "</scene>",
+                 (double[]){.25, .25, .25}, (double[]){.75, .75, .75}, 0, -1);
+}
+
 /* ---- Lights with two sides ------------------------------------------------------------------------------------------ */
 
 /* A square light, with a surface that reflects or without, seen from behind. */
@@ -667,6 +725,29 @@ static const struct {
      "Translate 0 1 0 ObjectInstance \"o\"",
      "a.pbrt:2: motion within an object whose instance moves"},
     {"a.xml", BALL("<bsdf type=\"diffuse\"/>"), NULL},
+    {"a.xml",
+     MITSUBA("<shape type=\"sphere\">\n<animation name=\"to_world\"><transform time=\"0\"><translate "
+             "x=\"1\"/></transform>"
+             "<transform time=\"1\"><translate x=\"2\"/></transform></animation></shape>"),
+     "a.xml:3: motion is ignored"},
+    {"a.xml", FOGGY("", "<shape type=\"sphere\"/>"), NULL},
+    {"a.xml", FOGGY("", "<shape type=\"sphere\"><ref name=\"exterior\" id=\"f\"/></shape>"), NULL},
+    {"a.xml",
+     FOGGY("", "<shape type=\"sphere\"><bsdf type=\"dielectric\"/><ref name=\"exterior\" id=\"f\"/></shape>"),
+     "a.xml:2: glass in a medium"},
+    {"a.xml", FOGGY("", "<emitter type=\"constant\"/>"), "a.xml:1: the sensor's medium is ignored"},
+    {"a.xml", FOGGY("<phase type=\"rayleigh\"/>", "<shape type=\"sphere\"/>"), "a.xml:1: phase function 'rayleigh'"},
+    {"a.xml", FOGGY("<volume name=\"albedo\" type=\"gridvolume\"/>", "<shape type=\"sphere\"/>"),
+     "a.xml:1: volume 'gridvolume'"},
+    {"a.xml", MITSUBA("<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"/></shape>"),
+     "a.xml:2: a medium in a shape"},
+    {"a.xml", MITSUBA("<shape type=\"cube\"><medium name=\"interior\" type=\"heterogeneous\"/></shape>"),
+     "a.xml:2: media that vary"},
+    {"a.xml", MITSUBA("<shape type=\"cube\"><medium name=\"interior\" type=\"homogeneous\"/></shape>"), NULL},
+    {"a.xml",
+     MITSUBA("<shape type=\"cube\"><medium name=\"interior\" type=\"homogeneous\"/><bsdf type=\"null\"/>"
+             "<transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/></transform></shape>"),
+     "a.xml:2: a medium in a shape"},
     {"a.xml", BALL("<bsdf type=\"twosided\"><bsdf type=\"conductor\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"dielectric\"><string name=\"intIOR\" value=\"water\"/></bsdf>"), NULL},
     {"a.xml", BALL("<bsdf type=\"plastic\"/>"), "a.xml:2: a coated surface"},
@@ -895,6 +976,7 @@ int main(void)
         cmocka_unit_test(shapes_move_as_in_pbrt),
         cmocka_unit_test(cameras_move_as_in_pbrt),
         cmocka_unit_test(shutters_outlast_motions),
+        cmocka_unit_test(media_of_mitsuba_are_read),
         cmocka_unit_test(lights_of_pbrt_may_have_two_sides),
         cmocka_unit_test(both_sides_light_alike),
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
