@@ -33,6 +33,7 @@ typedef struct koksma__import {
 typedef struct koksma__import_colour {
     double rgb[3];
     char image[KOKSMA__MAX_PATH]; /* path of the image; "": no image */
+    koksma__mapping mapping;      /* how the image is mapped */
     bool is_checker;
     double second[3], period;
 } koksma__import_colour;

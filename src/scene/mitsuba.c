@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/capacity.h"
 #include "core/vector.h"
 #include "render/fields.h"
 #include "render/lights/lights.h"
@@ -30,7 +31,8 @@ typedef koksma__xml_node node;
 typedef struct reader {
     koksma__import *im;
     koksma__xml xml;
-    int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
+    int *materials;    /* index of the material of each node; -2: not converted yet, -1: light passes through */
+    bool *used, *read; /* of each node: its parent's reader has asked for it; its children describe what is shown */
     bool has_sensor;
     const node *medium, *box; /* the only medium that is read, and the cube that bounds it; or NULL */
     double low[3], high[3];   /* the bounds, if `box` */
@@ -65,10 +67,17 @@ static const node *property(const reader *r, const node *n, const char *name)
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const char *has = koksma__xml_attribute(c, "name");
         if (has && koksma__xml_alike(has, name)) {
+            r->used[c - r->xml.nodes] = true;
             return c;
         }
     }
     return NULL;
+}
+
+/* Notes that a node is shown as the file describes it, so that all its properties count. */
+static void set_read(const reader *r, const node *n)
+{
+    r->read[n - r->xml.nodes] = true;
 }
 
 static const char *text(const reader *r, const node *n, const char *name, const char *otherwise)
@@ -275,15 +284,44 @@ static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth);
 
+/* Reads how an image is mapped. Of the transform the third row and column count for nothing. */
+static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
+{
+    static const struct {
+        const char *name;
+        koksma__wrap wrap;
+    } wraps[] = {{"repeat", KOKSMA__WRAP_REPEAT}, {"clamp", KOKSMA__WRAP_CLAMP}, {"mirror", KOKSMA__WRAP_MIRROR}};
+    const char *wrap = text(r, n, "wrap_mode", "repeat");
+    double m[12];
+    for (size_t i = 0; i < sizeof wraps / sizeof *wraps; i++) {
+        to->wrap[0] = to->wrap[1] = !strcmp(wraps[i].name, wrap) ? wraps[i].wrap : to->wrap[0];
+    }
+    to->nearest = !strcmp(text(r, n, "filter_type", "bilinear"), "nearest");
+    to->moved = property(r, n, "to_uv");
+    KOKSMA__TRY(transform(r, n, "to_uv", m));
+    for (int i = 0; i < 6; i++) {
+        to->matrix[i] = (float)m[i / 3 * 4 + i % 3];
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status texture(reader *r, const node *n, koksma__import_colour *out, int depth)
 {
     const char *type = type_of(n);
     double m[12];
     if (!strcmp(type, "bitmap") && *text(r, n, "filename", "")) {
-        return koksma__import_path(r->im, n->place, text(r, n, "filename", ""), out->image);
+        const char *name = text(r, n, "filename", ""), *dot = strrchr(name, '.');
+        const bool linear = dot && (koksma__xml_alike(dot, ".exr") || koksma__xml_alike(dot, ".pfm"));
+        set_read(r, n);
+        KOKSMA__TRY(flag(r, n, "raw", false) && !linear
+                        ? koksma__import_unknown(r->im, n->place, "a texture's 'raw' is ignored: its levels are sRGB")
+                        : KOKSMA_OK);
+        KOKSMA__TRY(set_mapping(r, n, &out->mapping));
+        return koksma__import_path(r->im, n->place, name, out->image);
     }
     if (!strcmp(type, "checkerboard")) {
         koksma__import_colour second;
+        set_read(r, n);
         KOKSMA__TRY(colour(r, n, "color0", 0.4, out, depth + 1));
         KOKSMA__TRY(colour(r, n, "color1", 0.2, &second, depth + 1));
         KOKSMA__TRY(transform(r, n, "to_uv", m));
@@ -425,6 +463,9 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
     }
+    if (!found->instead && found->kind != KOKSMA__COATED) {
+        set_read(r, n);
+    }
     if (found->instead) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF '%s': %s here", type, found->instead));
     }
@@ -462,6 +503,7 @@ static koksma_status find_bsdf(reader *r, const node *n, int *out)
 static koksma_status area_light(reader *r, const node *n, koksma__import_surface *surface)
 {
     koksma__import_colour radiance;
+    set_read(r, n);
     KOKSMA__TRY(colour(r, n, "radiance", 1, &radiance, 0));
     memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
     surface->emits = true;
@@ -671,6 +713,7 @@ static koksma_status set_medium(reader *r)
         return koksma__import_unknown(r->im, n->place,
                                       "media that vary, or have the name of a material, are ignored");
     }
+    set_read(r, n);
     const bool old = property(r, n, "sigma_s") || property(r, n, "sigma_a");
     const double scale = fmin(fmax(number(r, n, "scale", 1), 0), FAR);
     KOKSMA__TRY(medium_colour(r, n, old ? "sigma_s" : "albedo", old ? 0 : 0.75, b));
@@ -728,6 +771,7 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
     if (item.form == KOKSMA__FORM_MESH && item.mesh < 0) {
         return KOKSMA_OK;
     }
+    set_read(r, n);
     KOKSMA__TRY(surface_of(r, n, &item.surface));
     KOKSMA__TRY(name_media(r, n, item.surface.material));
     KOKSMA__TRY(transform(r, n, "to_world", to_world));
@@ -744,6 +788,9 @@ static koksma_status emitter(reader *r, const node *n)
     double m[12], along[3] = {0, 0, 1};
     const char *type = type_of(n);
     const bool far = !strcmp(type, "directional"), around = !strcmp(type, "constant");
+    if (far || around || !strcmp(type, "envmap") || !strcmp(type, "spot") || !strcmp(type, "point")) {
+        set_read(r, n);
+    }
     KOKSMA__TRY(transform(r, n, "to_world", m));
     KOKSMA__TRY(colour(r, n, around ? "radiance" : far ? "irradiance" : "intensity", 1, &c, 0));
     memcpy(light.radiance, c.rgb, sizeof c.rgb);
@@ -841,6 +888,7 @@ static koksma_status sensor(reader *r, const node *n)
                                    "sensor '%s' is not read; 'perspective', 'thinlens' and 'orthographic' are", type);
     }
     r->has_sensor = true;
+    set_read(r, n);
     KOKSMA__TRY(film(r, n));
     KOKSMA__TRY(transform(r, n, "to_world", m));
     const double width = r->im->scene->width, height = r->im->scene->height;
@@ -862,6 +910,44 @@ static koksma_status sensor(reader *r, const node *n)
 
 /* ---- The whole scene ---------------------------------------------------------------------------------------- */
 
+/* Whether a property changes no picture here. */
+static bool is_harmless(const node *n, const char *name)
+{
+    static const struct {
+        const char *name, *value; /* value NULL: any */
+    } all[] = {{"near_clip", NULL},       {"far_clip", NULL},     {"focus_distance", NULL}, {"sample_visible", NULL},
+               {"sampling_weight", NULL}, {"shutter_open", NULL}, {"shutter_close", NULL},  {"accel", NULL},
+               {"to_world", NULL},        {"interior", NULL},     {"exterior", NULL},       {"sample_emitters", NULL},
+               {"fov_axis", NULL},        {"face_normals", NULL}, {"flip_normals", NULL},   {"distribution", NULL}};
+    const char *value = koksma__xml_attribute(n, "value");
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (koksma__xml_alike(all[i].name, name) && (!all[i].value || (value && !strcmp(value, all[i].value)))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Names the properties that nothing has asked for of the nodes that are shown as the file describes them. */
+static koksma_status name_unused(reader *r)
+{
+    for (size_t i = 0; i < r->xml.n; i++) {
+        const node *parent = &r->xml.nodes[i];
+        for (const node *c = r->read[i] ? first_of(r, parent) : NULL; c; c = next_of(r, c)) {
+            const char *name = koksma__xml_attribute(c, "name");
+            if (!name || r->used[c - r->xml.nodes] || is_harmless(c, name)) {
+                continue;
+            }
+            const node *to = resolve(r, c);
+            const bool counts = !is(to, "bsdf") && !is(to, "emitter") && !is(to, "medium");
+            KOKSMA__TRY(counts ? koksma__import_unknown(r->im, c->place, "'%s' of %s '%s' is ignored", name,
+                                                        parent->tag, type_of(parent))
+                               : KOKSMA_OK);
+        }
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status read_root(reader *r)
 {
     const node *root = r->xml.n ? r->xml.nodes : NULL;
@@ -876,7 +962,8 @@ static koksma_status read_root(reader *r)
                     : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)
                                                                           : KOKSMA_OK);
     }
-    return r->has_sensor ? set_medium(r) : koksma__import_fail(root->place, "no <sensor>");
+    KOKSMA__TRY(r->has_sensor ? set_medium(r) : koksma__import_fail(root->place, "no <sensor>"));
+    return name_unused(r);
 }
 
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t size)
@@ -886,13 +973,15 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
     koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
     if (!status) {
         r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);
-        status = r.materials ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
+        r.used = calloc(r.xml.n + 1, sizeof *r.used);
+        r.read = calloc(r.xml.n + 1, sizeof *r.read);
+        status = r.materials && r.used && r.read ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
         for (size_t i = 0; r.materials && i < r.xml.n; i++) {
             r.materials[i] = -2;
         }
     }
     status = status ? status : read_root(&r);
-    free(r.materials);
+    KOKSMA__FREE(r.materials, r.used, r.read);
     koksma__xml_fini(&r.xml);
     return status;
 }

@@ -64,6 +64,7 @@ typedef struct reader {
     object *open;    /* the object to which shapes are added, or NULL */
     double times[2]; /* when motions start and end */
     koksma__pbrt_parameters *parameters;
+    bool used[KOKSMA__MAX_PBRT_PARAMETERS]; /* of the parameters */
     /* The camera, completed when the aspect ratio of the film is known. */
     bool has_camera;
     koksma__text_place camera_place;
@@ -620,46 +621,79 @@ static koksma_status take_include(reader *r, source *s)
 static const struct {
     const char *name;
     koksma_status (*take)(reader *r, source *s);
-} directives[] = {{"ActiveTransform", take_active},
-                  {"AreaLightSource", take_area_light},
-                  {"Accelerator", take_options},
-                  {"Attribute", take_attribute},
-                  {"AttributeBegin", push},
-                  {"AttributeEnd", take_attribute_end},
-                  {"Camera", take_camera},
-                  {"ColorSpace", take_options},
-                  {"ConcatTransform", take_concat},
-                  {"CoordSysTransform", take_coordinate_transform},
-                  {"CoordinateSystem", take_coordinate_system},
-                  {"Film", take_film},
-                  {"Identity", take_identity},
-                  {"Import", take_include},
-                  {"Include", take_include},
-                  {"Integrator", take_options},
-                  {"LightSource", take_light},
-                  {"LookAt", take_look_at},
-                  {"MakeNamedMaterial", take_make_material},
-                  {"MakeNamedMedium", take_medium},
-                  {"Material", take_material},
-                  {"MediumInterface", take_interface},
-                  {"NamedMaterial", take_named_material},
-                  {"ObjectBegin", take_object_begin},
-                  {"ObjectEnd", take_object_end},
-                  {"ObjectInstance", take_instance},
-                  {"Option", take_nothing},
-                  {"PixelFilter", take_options},
-                  {"ReverseOrientation", take_reverse},
-                  {"Rotate", take_rotate},
-                  {"Sampler", take_options},
-                  {"Scale", take_scale},
-                  {"Shape", take_shape},
-                  {"Texture", take_texture},
-                  {"Transform", take_transform},
-                  {"TransformBegin", push},
-                  {"TransformEnd", take_transform_end},
-                  {"TransformTimes", take_times},
-                  {"Translate", take_translate},
-                  {"WorldBegin", take_world}};
+    bool describes; /* its parameters describe the scene: those that are not used are named */
+} directives[] = {{"ActiveTransform", take_active, false},
+                  {"AreaLightSource", take_area_light, true},
+                  {"Accelerator", take_options, false},
+                  {"Attribute", take_attribute, false},
+                  {"AttributeBegin", push, false},
+                  {"AttributeEnd", take_attribute_end, false},
+                  {"Camera", take_camera, true},
+                  {"ColorSpace", take_options, false},
+                  {"ConcatTransform", take_concat, false},
+                  {"CoordSysTransform", take_coordinate_transform, false},
+                  {"CoordinateSystem", take_coordinate_system, false},
+                  {"Film", take_film, false},
+                  {"Identity", take_identity, false},
+                  {"Import", take_include, false},
+                  {"Include", take_include, false},
+                  {"Integrator", take_options, false},
+                  {"LightSource", take_light, true},
+                  {"LookAt", take_look_at, false},
+                  {"MakeNamedMaterial", take_make_material, true},
+                  {"MakeNamedMedium", take_medium, true},
+                  {"Material", take_material, true},
+                  {"MediumInterface", take_interface, false},
+                  {"NamedMaterial", take_named_material, false},
+                  {"ObjectBegin", take_object_begin, false},
+                  {"ObjectEnd", take_object_end, false},
+                  {"ObjectInstance", take_instance, false},
+                  {"Option", take_nothing, false},
+                  {"PixelFilter", take_options, false},
+                  {"ReverseOrientation", take_reverse, false},
+                  {"Rotate", take_rotate, false},
+                  {"Sampler", take_options, false},
+                  {"Scale", take_scale, false},
+                  {"Shape", take_shape, true},
+                  {"Texture", take_texture, true},
+                  {"Transform", take_transform, false},
+                  {"TransformBegin", push, false},
+                  {"TransformEnd", take_transform_end, false},
+                  {"TransformTimes", take_times, false},
+                  {"Translate", take_translate, false},
+                  {"WorldBegin", take_world, false}};
+
+/* The number of places of all warnings so far. */
+static size_t count_unknown(const reader *r)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < r->im->scene->n_unknown; i++) {
+        n += r->im->scene->unknown[i].n;
+    }
+    return n;
+}
+
+/* Names the parameters of a directive that nothing has asked for, except those that change no picture here. */
+static koksma_status name_unused(reader *r, const char *directive)
+{
+    static const struct {
+        const char *name, *value; /* value NULL: any */
+    } harmless[] = {{"type", NULL},          {"S", NULL},        {"faceIndices", NULL}, {"filter", NULL},
+                    {"maxanisotropy", NULL}, {"wrap", "repeat"}, {"encoding", "sRGB"},  {"mapping", "uv"},
+                    {"invert", "false"}};
+    const koksma__pbrt_parameters *p = r->parameters;
+    for (size_t i = 0; i < p->n; i++) {
+        bool named = r->used[i];
+        for (size_t k = 0; k < sizeof harmless / sizeof *harmless; k++) {
+            named |= !strcmp(p->items[i].name, harmless[k].name) &&
+                     (!harmless[k].value || !strcmp(p->items[i].text, harmless[k].value));
+        }
+        KOKSMA__TRY(named ? KOKSMA_OK
+                          : koksma__import_unknown(r->im, p->place, "parameter '%s' of %s is ignored",
+                                                   p->items[i].name, directive));
+    }
+    return KOKSMA_OK;
+}
 
 static koksma_status read_source(reader *r, source *s)
 {
@@ -678,7 +712,12 @@ static koksma_status read_source(reader *r, source *s)
             return koksma__import_fail(s->place, "'%.*s' is not a directive of pbrt-v4",
                                        t.length < 40 ? (int)t.length : 40, t.at);
         }
-        const koksma_status status = directives[i].take(r, s);
+        const size_t before = directives[i].describes ? count_unknown(r) : 0;
+        memset(r->used, 0, sizeof r->used);
+        koksma_status status = directives[i].take(r, s);
+        if (!status && directives[i].describes && before == count_unknown(r)) { /* else it was replaced already */
+            status = name_unused(r, directives[i].name);
+        }
         koksma__pbrt_parameters_fini(r->parameters);
         KOKSMA__TRY(status);
     }
@@ -806,6 +845,7 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     r.parameters = calloc(1, sizeof *r.parameters);
     KOKSMA__REQUIRE_MEMORY(r.parameters, sizeof *r.parameters);
     r.parameters->place = s.place;
+    r.parameters->used = r.used;
     koksma_status status = take_identity(&r, &s);
     status = status ? status : name_space(&r, "world", (const double(*)[12])r.now.matrix);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);

@@ -581,6 +581,60 @@ static void media_of_mitsuba_are_read(void **state)
                  (double[]){.25, .25, .25}, (double[]){.75, .75, .75}, 0, -1);
 }
 
+/* ---- Textures of pbrt ---------------------------------------------------------------------------------------------- */
+
+/* pbrt-v4's UVMapping looks an image up at (su u + du, sv v + dv), beyond its edges by the wrap mode (Pharr, Jakob and
+   Humphreys 2023, sections 10.2 and 10.4.2): an image of four columns on a square under parallel light. */
+static void images_are_mapped_as_in_pbrt(void **state)
+{
+    static const struct {
+        const char *parameters;
+        double scale, delta;
+        bool clamps;
+    } cases[] = {{"", 1, 0, false},
+                 {"\"float uscale\" 2 \"float udelta\" 0.3", 2, 0.3, false},
+                 {"\"float uscale\" 2 \"float udelta\" -0.4 \"string wrap\" \"clamp\"", 2, -0.4, true},
+                 {"\"float udelta\" 0.3 \"string wrap\" \"repeat\"", 1, 0.3, false}};
+    char path[128];
+    koksma_image columns, image;
+    (void)state;
+    assert_ok(koksma_image_init(&columns, 4, 2, 1));
+    for (int i = 0; i < 8; i++) {
+        columns.pixels[i] = 0.125f + 0.25f * (float)(i % 4);
+    }
+    snprintf(path, sizeof path, "%s/columns.pfm", folder);
+    assert_ok(koksma_image_write(path, &columns, NULL));
+    koksma_image_fini(&columns);
+    for (size_t i = 0; koksma_mesh_tracer() && i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "Scale -1 1 1 LookAt 0 0 5  0 0 0  0 1 0 Camera \"orthographic\" \"float screenwindow\" [-1 1 -0.75 "
+            "0.75] Film "
+            "\"rgb\" " SIZE
+            " WorldBegin LightSource \"distant\" \"rgb L\" [1 1 1] \"point3 from\" [0 0 1] \"point3 to\" "
+            "[0 0 0] Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"columns.pfm\" \"string filter\" "
+            "\"point\" %s Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"trianglemesh\" \"integer "
+            "indices\" "
+            "[0 1 2 0 2 3] \"point3 P\" [-1 -1 0  1 -1 0  1 1 0  -1 1 0] \"point2 uv\" [0 0 1 0 1 1 0 1]",
+            cases[i].parameters);
+        koksma_scene *scene = opened("columns.pbrt", text);
+        koksma_render_options options = options_of(scene, "regular", "direct", 1, 40);
+        options.height = 30;
+        assert_int_equal(scene->n_unknown, 0);
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        for (int x = 0; x < 40; x++) {
+            const double s = cases[i].scale * (x + 0.5) / 40 + cases[i].delta;
+            const double at = cases[i].clamps ? fmin(fmax(s, 0), 0.999) : s - floor(s);
+            assert_near((double)image.pixels[(size_t)(40 * 15 + x) * (size_t)image.channels],
+                        (0.125 + 0.25 * floor(4 * at)) / M_PI, 1e-6);
+        }
+        koksma_image_fini(&image);
+        koksma_scene_close(scene);
+    }
+    unlink(path);
+}
+
 /* ---- Lights with two sides ------------------------------------------------------------------------------------------ */
 
 /* A square light, with a surface that reflects or without, seen from behind. */
@@ -697,6 +751,16 @@ static const struct {
     {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"wrinkled\" Shape \"sphere\"", "a.pbrt:2: texture 'wrinkled'"},
     {"a.pbrt", PBRT "Shape \"plymesh\" \"string filename\" \"a.ply.bz2\"",
      "a.pbrt:2: the mesh a.ply.bz2 has an unsupported format"},
+    {"a.pbrt", PBRT "Material \"diffuse\"\nShape \"sphere\" \"float radios\" 2",
+     "a.pbrt:3: parameter 'radios' of Shape"},
+    {"a.pbrt", PBRT "Material \"none\" AreaLightSource \"diffuse\" \"string filename\" \"a.png\" Shape \"disk\"",
+     "a.pbrt:2: parameter 'filename' of AreaLightSource"},
+    {"a.pbrt", PBRT "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" \"bool invert\" true",
+     "a.pbrt:2: parameter 'invert' of Texture"},
+    {"a.pbrt",
+     PBRT "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\" \"string wrap\" \"repeat\" \"string "
+          "filter\" \"trilinear\"",
+     NULL},
     {"a.pbrt", PBRT "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All LightSource \"point\"",
      "a.pbrt:2: a moving light stays"},
     {"a.pbrt",
@@ -725,6 +789,10 @@ static const struct {
      "Translate 0 1 0 ObjectInstance \"o\"",
      "a.pbrt:2: motion within an object whose instance moves"},
     {"a.xml", BALL("<bsdf type=\"diffuse\"/>"), NULL},
+    {"a.xml", BALL("<bsdf type=\"diffuse\"/>\n<float name=\"radios\" value=\"2\"/>"),
+     "a.xml:3: 'radios' of shape 'sphere'"},
+    {"a.xml", BALL("<bsdf type=\"conductor\">\n<float name=\"gloss\" value=\"2\"/></bsdf>"),
+     "a.xml:3: 'gloss' of bsdf 'conductor'"},
     {"a.xml",
      MITSUBA("<shape type=\"sphere\">\n<animation name=\"to_world\"><transform time=\"0\"><translate "
              "x=\"1\"/></transform>"
@@ -739,6 +807,8 @@ static const struct {
     {"a.xml", FOGGY("<phase type=\"rayleigh\"/>", "<shape type=\"sphere\"/>"), "a.xml:1: phase function 'rayleigh'"},
     {"a.xml", FOGGY("<volume name=\"albedo\" type=\"gridvolume\"/>", "<shape type=\"sphere\"/>"),
      "a.xml:1: volume 'gridvolume'"},
+    {"a.xml", FOGGY("<rgb name=\"emission\" value=\"1\"/>", "<shape type=\"sphere\"/>"),
+     "a.xml:1: 'emission' of medium"},
     {"a.xml", MITSUBA("<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\"/></shape>"),
      "a.xml:2: a medium in a shape"},
     {"a.xml", MITSUBA("<shape type=\"cube\"><medium name=\"interior\" type=\"heterogeneous\"/></shape>"),
@@ -977,6 +1047,7 @@ int main(void)
         cmocka_unit_test(cameras_move_as_in_pbrt),
         cmocka_unit_test(shutters_outlast_motions),
         cmocka_unit_test(media_of_mitsuba_are_read),
+        cmocka_unit_test(images_are_mapped_as_in_pbrt),
         cmocka_unit_test(lights_of_pbrt_may_have_two_sides),
         cmocka_unit_test(both_sides_light_alike),
         cmocka_unit_test(lights_of_pbrt_have_luminance_1),
