@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads the materials of a glTF file: factors of colour, metal and roughness, normals, emission and alpha, each with
- * its texture and its texture's transform (KHR_texture_transform); emissive strength and index of refraction.
+ * its texture and its texture's transform (KHR_texture_transform); emissive strength and index of refraction; whether
+ * the back is seen.
  * Occlusion is not read, because the renderer computes it. A mesh keeps only the set of texture coordinates that the
  * first texture of its material uses; textures with another set are counted for a warning. Specification: Khronos,
  * "glTF 2.0" (2021), section 3.9, and the specifications of the extensions.
@@ -205,6 +206,7 @@ static koksma_status take_material(koksma__gltf *g, size_t i, koksma__file_mater
     if (koksma__gltf_find(&f, normal, &found)) {
         KOKSMA__TRY(koksma__json_get_number(&found, "scale", false, -WIDEST, WIDEST, &scale));
     }
+    KOKSMA__TRY(koksma__json_get_flag(&f, "doubleSided", false, &m->two_sided));
     KOKSMA__TRY(koksma__json_get_text(&f, "alphaMode", false, &alpha));
     KOKSMA__TRY(koksma__json_get_number(&f, "alphaCutoff", false, 0, WIDEST, &cutoff));
     m->normal_map.scale = (float)scale;

@@ -272,9 +272,75 @@ koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[
         out[j] = c * q[j] + s * q[i];
         memcpy(p.rotation, out, sizeof out);
         p.translate[k] = translate[k];
-        p.scale[k] = scale[k];
+        p.stretch[4 * k] = scale[k];
     }
     return p;
+}
+
+/* The cofactors of a matrix of 3 x 3 numbers, which are its determinant times the transpose of its inverse; returns
+   the determinant. */
+static double cofactors(const double m[9], double out[9])
+{
+    for (int i = 0; i < 9; i++) {
+        const int r1 = (i / 3 + 1) % 3, r2 = (i / 3 + 2) % 3, c1 = (i + 1) % 3, c2 = (i + 2) % 3;
+        out[i] = m[3 * r1 + c1] * m[3 * r2 + c2] - m[3 * r1 + c2] * m[3 * r2 + c1];
+    }
+    return m[0] * out[0] + m[1] * out[1] + m[2] * out[2];
+}
+
+/* The unit quaternion of a rotation. The largest of its components is found first, so that none is divided by a small
+   number (Shepperd 1978). */
+static void quaternion_of(const double m[9], double q[4])
+{
+    const double trace = m[0] + m[4] + m[8], squares[4] = {trace, m[0], m[4], m[8]};
+    int largest = 0;
+    for (int i = 1; i < 4; i++) {
+        largest = squares[i] > squares[largest] ? i : largest;
+    }
+    const double most = sqrt(fmax(largest ? 1 + 2 * squares[largest] - trace : 1 + trace, 0)) / 2;
+    const double from_w[3] = {m[7] - m[5], m[2] - m[6], m[3] - m[1]};
+    q[largest] = most;
+    for (int k = 0; k < 3; k++) {
+        if (!largest) {
+            q[1 + k] = from_w[k] / (4 * most);
+        } else if (k == largest - 1) {
+            q[0] = from_w[k] / (4 * most);
+        } else {
+            q[1 + k] = (m[3 * k + largest - 1] + m[3 * (largest - 1) + k]) / (4 * most);
+        }
+    }
+}
+
+bool koksma__pose_of_matrix(const double matrix[12], koksma__pose *out)
+{
+    double m[9], q[9], c[9], change = 1;
+    for (int i = 0; i < 9; i++) {
+        q[i] = m[i] = matrix[i / 3 * 4 + i % 3];
+    }
+    const bool mirrors = cofactors(m, c) < 0;
+    for (int i = 0; i < 9; i++) { /* the nearest orthogonal matrix to -m is a rotation */
+        q[i] = mirrors ? -q[i] : q[i];
+    }
+    for (int round = 0; round < 100 && change > 1e-14; round++) { /* Q <- (Q + transpose of its inverse) / 2 */
+        const double determinant = cofactors(q, c);
+        if (!isnormal(determinant)) {
+            return false;
+        }
+        change = 0;
+        for (int i = 0; i < 9; i++) {
+            const double next = (q[i] + c[i] / determinant) / 2;
+            change = fmax(change, fabs(next - q[i]));
+            q[i] = next;
+        }
+    }
+    quaternion_of(q, out->rotation);
+    for (int i = 0; i < 9; i++) {
+        out->stretch[i] = q[i / 3] * m[i % 3] + q[3 + i / 3] * m[3 + i % 3] + q[6 + i / 3] * m[6 + i % 3];
+    }
+    for (int k = 0; k < 3; k++) {
+        out->translate[k] = matrix[4 * k + 3];
+    }
+    return change <= 1e-14;
 }
 
 /* The angle between two unit quaternions along the shorter arc, which is half the angle of the rotation from one to
@@ -311,10 +377,22 @@ void koksma__poses_at(const koksma__pose poses[2], double t, double m[12])
                             2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
     for (int k = 0; k < 3; k++) {
         for (int j = 0; j < 3; j++) {
-            m[4 * k + j] = turn[3 * k + j] * ((1 - t) * poses[0].scale[j] + t * poses[1].scale[j]);
+            m[4 * k + j] = 0;
+            for (int i = 0; i < 3; i++) {
+                m[4 * k + j] +=
+                    turn[3 * k + i] * ((1 - t) * poses[0].stretch[3 * i + j] + t * poses[1].stretch[3 * i + j]);
+            }
         }
         m[4 * k + 3] = (1 - t) * poses[0].translate[k] + t * poses[1].translate[k];
     }
+}
+
+void koksma__placement_at(const koksma__placement *placement, double t, double matrix[12])
+{
+    double pose[12], inner[12];
+    koksma__poses_at(placement->poses, t, pose);
+    koksma__matrix_multiply(pose, placement->before, inner);
+    koksma__matrix_multiply(placement->after, inner, matrix);
 }
 
 int koksma__pose_steps(const koksma__pose poses[2])

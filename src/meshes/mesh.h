@@ -21,22 +21,24 @@ typedef struct koksma__mesh {
     size_t n_degenerate; /* triangles without area */
 } koksma__mesh;
 
-/* x -> translate + rotation (scale x), with the rotation as a unit quaternion (w, x, y, z). */
+/* x -> translate + rotation (stretch x), with the rotation as a unit quaternion (w, x, y, z) and the stretch as a
+   matrix of three rows. */
 typedef struct koksma__pose {
-    double translate[3], rotation[4], scale[3];
+    double translate[3], rotation[4], stretch[9];
 } koksma__pose;
 
 /* The map x -> matrix x; the matrix has three rows of four numbers. At time t each position is moved by t motion; or,
-   if steps > 0, the matrix is that of koksma__poses_at at the times i / steps, and linear between them. */
+   if steps > 0, the matrix is that of koksma__placement_at at the times i / steps, and linear between them. */
 typedef struct koksma__placement {
     int mesh;
     double matrix[12], motion[3];
     int steps;
-    koksma__pose poses[2];  /* at the times 0 and 1, if steps > 0 */
-    double low[3], high[3]; /* a box around the placed mesh at time 0 */
-    int material;           /* -1 for a light's own surface, which reflects nothing */
-    int light;              /* the light whose surface this is, or -1 */
-    bool smooth;            /* normals are interpolated over the triangles */
+    koksma__pose poses[2];        /* at the times 0 and 1, if steps > 0 */
+    double before[12], after[12]; /* matrices that are applied before and after the pose between the two */
+    double low[3], high[3];       /* a box around the placed mesh at time 0 */
+    int material;                 /* -1 for a light's own surface, which reflects nothing */
+    int light;                    /* the light whose surface this is, or -1 */
+    bool smooth;                  /* normals are interpolated over the triangles */
 } koksma__placement;
 
 /* Allocates a mesh of this size, zeroed but for the sizes. Errors: MALFORMED (too many), MEMORY. */
@@ -76,9 +78,15 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
 /* The pose with the same rotation as koksma__placement_matrix. */
 koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[3], const double scale[3]);
 
-/* The matrix of the pose between two, at time t of 0 to 1: translation and scale are interpolated linearly, the
-   rotation along the shortest arc at constant speed (slerp, Shoemake 1985). */
+/* The matrix of the pose between two, at time t of 0 to 1: translation and stretch are interpolated linearly, the
+   rotation along the shortest arc at constant speed (slerp, Shoemake 1985). koksma__placement_at multiplies it by the
+   placement's matrices before and after it. */
 void koksma__poses_at(const koksma__pose poses[2], double t, double matrix[12]);
+void koksma__placement_at(const koksma__placement *placement, double t, double matrix[12]);
+
+/* The pose with this matrix, by the polar decomposition (Shoemake and Duff 1992): the rotation is the nearest to the
+   matrix, the stretch is symmetric. Returns false if the matrix has no inverse. */
+bool koksma__pose_of_matrix(const double matrix[12], koksma__pose *out);
 
 /* The number of steps, 1 to KOKSMA__MAX_STEPS, for which the rotation in each step is at most 1.5 degrees. With
    matrices that are linear within a step, a point leaves its circle around the axis by at most 1e-4 of the radius. */

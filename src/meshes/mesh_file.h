@@ -43,6 +43,7 @@ typedef struct koksma__file_material {
     /* principled: a material of glTF, with metallic and roughness values and further textures */
     /* blends: alpha and the transparency of colour_map apply; tinted: vertex colours apply */
     bool principled, blends, tinted;
+    bool two_sided;            /* its back is seen, and emits, too */
     double ior, alpha, cutoff; /* cutoff 0: alpha is the fraction of the rays that meet the surface */
     koksma__file_texture surface_map, normal_map;
 } koksma__file_material;

@@ -77,6 +77,7 @@ typedef struct koksma__material {
        at least the cutoff */
     bool see_through;
     double alpha, cutoff;
+    bool one_sided; /* of meshes: rays from the camera pass through the back, all others meet it */
     /* warnings about a material of a model file; empty if there is none */
     char lost[256]; /* why the texture is ignored */
     char dark[256]; /* why the emission is ignored */
@@ -107,6 +108,7 @@ typedef struct koksma__light {
     bool visible;                      /* camera rays see the light; a flat light or sphere then also has a shape */
     double angle_rad;                  /* rotation of the environment's image about y */
     int placement;                     /* of a mesh */
+    bool two_sided;                    /* of a mesh: its back emits as its front does */
     koksma_image *image;               /* the environment's image in latitude and longitude, or NULL */
 } koksma__light;
 
@@ -123,8 +125,9 @@ typedef struct koksma__camera {
        corner 0 is at this angle from `right` towards up. */
     int blades;
     double blade_angle_rad;
-    double shutter[2]; /* the times when it opens and closes */
-    double motion[3];  /* at time t the eye is eye + t motion */
+    double
+        shutter[2];   /* the times when it opens and closes; rays before 0 and after 1 see what is there at 0 and 1 */
+    double motion[3]; /* at time t the eye is eye + t motion */
 } koksma__camera;
 
 /* Data that the renderer derives from a scene and that all its images share: made under the lock when first needed,

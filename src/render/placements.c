@@ -27,6 +27,9 @@ koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement
     *out = koksma__add_one(&scene->placements, &scene->n_placements, sizeof **out);
     KOKSMA__TRY(*out ? KOKSMA_OK : KOKSMA_MEMORY);
     (*out)->light = (*out)->material = -1;
+    for (int k = 0; k < 3; k++) {
+        (*out)->before[5 * k] = (*out)->after[5 * k] = 1;
+    }
     return KOKSMA_OK;
 }
 

@@ -268,6 +268,7 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
         swap_rows(m->image);
     }
     if (m->image) {
+        m->mapping = from->mapping;
         koksma__material_mean(m);
     }
     return KOKSMA_OK;

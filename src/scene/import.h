@@ -33,6 +33,7 @@ typedef struct koksma__import {
 typedef struct koksma__import_colour {
     double rgb[3];
     char image[KOKSMA__MAX_PATH]; /* path of the image; "": no image */
+    koksma__mapping mapping;      /* how the image is mapped */
     bool is_checker;
     double second[3], period;
 } koksma__import_colour;
@@ -50,6 +51,7 @@ typedef struct koksma__import_surface {
     int material;       /* -1: no surface, light passes through */
     bool emits, turned; /* turned: the front and back sides are swapped */
     bool hidden;        /* the surface is a light, which no ray can hit */
+    bool two_sided;     /* a light that emits from both sides */
     double radiance[3];
 } koksma__import_surface;
 
@@ -64,11 +66,19 @@ typedef enum koksma__form {
     KOKSMA__FORM_CYLINDER
 } koksma__form;
 
-/* A shape with its matrix and surface, before it is added to the scene. */
+/* A motion by two poses, of the shape `before` (meshes/mesh.h): its matrix at time t is the pose's times `before`. */
+typedef struct koksma__import_motion {
+    bool moves;
+    koksma__pose poses[2];
+    double before[12];
+} koksma__import_motion;
+
+/* A shape with its matrix (at time 0) and surface, before it is added to the scene. */
 typedef struct koksma__import_item {
     koksma__form form;
     int mesh; /* the mesh, if form is KOKSMA__FORM_MESH */
     double matrix[12];
+    koksma__import_motion motion;
     koksma__import_surface surface;
     koksma__text_place place;
 } koksma__import_item;

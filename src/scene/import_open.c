@@ -16,7 +16,7 @@
 
 /* A number in the hash by which stored studies find a scene; it is raised when a change of the code makes another
    scene of the same files. */
-enum { READER_REVISION = 1 };
+enum { READER_REVISION = 2 };
 
 static bool is_pbrt(const char *path)
 {

@@ -287,8 +287,36 @@ static koksma_status plain(koksma__import *im, koksma__text_place place, int *ma
                                   "a texture on a mesh without texture coordinates is replaced by its mean colour");
 }
 
-static koksma_status put_mesh(koksma__import *im, const koksma__import_item *item, int mesh, const double matrix[12])
+/* The matrices of a shape: at time 0, and, if it moves, those of its placement. */
+typedef struct placed {
+    double matrix[12];
+    bool moves;
+    koksma__pose poses[2];
+    double before[12], after[12];
+} placed;
+
+/* Sets the motion of a placement. Its box at time 1 is checked by the caller's bounds. */
+static koksma_status set_mesh_motion(koksma_scene *scene, const koksma__import_item *item, const placed *at,
+                                     koksma__placement *p)
 {
+    koksma__placement end = *p;
+    memcpy(p->poses, at->poses, sizeof p->poses);
+    memcpy(p->before, at->before, sizeof p->before);
+    memcpy(p->after, at->after, sizeof p->after);
+    p->steps = koksma__pose_steps(p->poses);
+    koksma__placement_at(p, 1, end.matrix);
+    koksma__placement_box(&scene->meshes[p->mesh], &end);
+    for (int k = 0; k < 3; k++) {
+        if (!(end.low[k] >= -FAR && end.high[k] <= FAR)) {
+            return koksma__import_fail(item->place, "a mesh moves beyond 1e6");
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status put_mesh(koksma__import *im, const koksma__import_item *item, int mesh, const placed *at)
+{
+    const double *matrix = at->matrix;
     koksma_scene *scene = im->scene;
     koksma__import_surface surface = item->surface;
     koksma__placement *p = NULL;
@@ -314,11 +342,16 @@ static koksma_status put_mesh(koksma__import *im, const koksma__import_item *ite
             return koksma__import_fail(item->place, "a mesh reaches beyond 1e6");
         }
     }
+    KOKSMA__TRY(at->moves ? set_mesh_motion(scene, item, at, p) : KOKSMA_OK);
     koksma__import_radiance(im, surface.radiance);
     KOKSMA__TRY(surface.hidden ? koksma__import_unknown(im, item->place, "an invisible light of triangles is visible")
                                : KOKSMA_OK);
-    return surface.emits ? koksma__import_fail_at(item->place, koksma__scene_add_glow(scene, p, surface.radiance))
-                         : KOKSMA_OK;
+    if (!surface.emits) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__import_fail_at(item->place, koksma__scene_add_glow(scene, p, surface.radiance)));
+    scene->lights[p->light].two_sided = surface.two_sided;
+    return KOKSMA_OK;
 }
 
 /* Finds the lengths of a matrix's columns, and whether the columns are perpendicular. */
@@ -353,12 +386,70 @@ static const koksma__shape_type *shape_type(const char *name)
     return koksma__shape_types[i];
 }
 
-/* The type of Koksma's own shape for an item; NULL if the matrix, a texture or the emitting side needs a mesh
-   instead. */
-static const koksma__shape_type *own_shape(const koksma__import *im, const koksma__import_item *item,
-                                           const double matrix[12], double length[3])
+/* Whether a motion is one that Koksma's own shapes have: a shift, a rotation about one axis, a growth that is the same in
+   all directions. */
+static bool turns_evenly(const placed *at)
 {
-    const bool square = is_square(matrix, length);
+    const double *a = at->poses[0].stretch, *b = at->poses[1].stretch;
+    double largest = 0, length[3];
+    int k = 0;
+    for (int i = 0; i < 9; i++) {
+        k = fabs(a[i]) > largest ? i : k;
+        largest = fmax(largest, fabs(a[i]));
+    }
+    bool even = is_square(at->after, length) && is_close(length[0], length[1]) && is_close(length[0], length[2]);
+    for (int i = 0; i < 9; i++) {
+        even &= fabs(b[i] - a[i] * (b[k] / a[k])) <= 1e-5 * fabs(b[k]);
+    }
+    return even;
+}
+
+/* Sets the motion of one of Koksma's own shapes, about the point that is the origin of the poses. */
+static koksma_status set_own_motion(const koksma__import_item *item, const placed *at, koksma__shape *shape)
+{
+    const double *a = at->poses[0].rotation, *b = at->poses[1].rotation, *from = at->poses[0].translate;
+    const double *stretch[2] = {at->poses[0].stretch, at->poses[1].stretch};
+    const double w = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+    double axis[3], square = 0, off[3];
+    int largest = 0;
+    for (int k = 0; k < 3; k++) { /* the vector part of b times the conjugate of a, on the shorter arc */
+        const int i = 1 + (k + 1) % 3, j = 1 + (k + 2) % 3;
+        axis[k] = (w < 0 ? -1 : 1) * (a[0] * b[1 + k] - b[0] * a[1 + k] - b[i] * a[j] + b[j] * a[i]);
+        square += axis[k] * axis[k];
+    }
+    for (int i = 1; i < 9; i++) {
+        largest = fabs(stretch[0][i]) > fabs(stretch[0][largest]) ? i : largest;
+    }
+    shape->turn.turns = true;
+    shape->turn.scale = stretch[1][largest] / stretch[0][largest];
+    shape->turn.angle_rad = 2 * atan2(sqrt(square), fabs(w));
+    const double side = koksma__matrix_mirrors(at->after) ? -1 : 1;
+    for (int k = 0; k < 3; k++) {
+        const double *row = at->after + 4 * k;
+        const double move[3] = {at->poses[1].translate[0] - from[0], at->poses[1].translate[1] - from[1],
+                                at->poses[1].translate[2] - from[2]};
+        shape->motion[k] = koksma__dot(row, move);
+        shape->turn.pivot[k] = koksma__dot(row, from) + row[3];
+        shape->turn.axis[k] = square > 0 ? side * koksma__dot(row, axis) : k == 1;
+        off[k] = shape->centre[k] - shape->turn.pivot[k];
+    }
+    koksma__normalise(shape->turn.axis);
+    const double reach = shape->turn.scale * (sqrt(koksma__dot(off, off)) + hypot(shape->half[0], shape->half[1]));
+    for (int k = 0; k < 3; k++) {
+        if (!(fabs(shape->turn.pivot[k] + shape->motion[k]) + reach <= FAR)) {
+            return koksma__import_fail(item->place, "a shape moves beyond 1e6");
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* The type of Koksma's own shape for an item; NULL if the matrix, the motion, a texture or the emitting side needs a
+   mesh instead. */
+static const koksma__shape_type *own_shape(const koksma__import *im, const koksma__import_item *item,
+                                           const placed *at, double length[3])
+{
+    const bool square = is_square(at->matrix, length) && !(at->moves && !turns_evenly(at)) &&
+                        !(item->surface.emits && item->surface.two_sided);
     const koksma__material *m = item->surface.material < 0 ? NULL : &im->scene->materials[item->surface.material];
     if (!square || (m && !item->surface.emits && (m->image || m->checker))) {
         return NULL;
@@ -380,8 +471,9 @@ static const koksma__shape_type *own_shape(const koksma__import *im, const koksm
 
 /* Adds a shape of Koksma's own type with this matrix, and its light if it emits. */
 static koksma_status put_own(koksma__import *im, const koksma__import_item *item, const koksma__shape_type *type,
-                             const double m[12], const double length[3])
+                             const placed *at, const double length[3])
 {
+    const double *m = at->matrix;
     const bool sphere = type == shape_type("sphere"), disk = type == shape_type("disk");
     const double side =
         item->surface.turned ? -1 : 1; /* u is reversed with the normal, so that the axes remain right-handed */
@@ -403,6 +495,7 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
     koksma__cross(shape.axis_u, shape.axis_v, shape.normal);
     shape.half[0] = length[0];
     shape.half[1] = disk || sphere ? length[0] : length[1];
+    KOKSMA__TRY(at->moves ? set_own_motion(item, at, &shape) : KOKSMA_OK);
     if (item->surface.emits) {
         koksma__light light = {.kind = sphere ? &koksma__light_sphere
                                        : disk ? &koksma__light_disk
@@ -434,9 +527,37 @@ static bool is_black(const koksma__material *m)
            m->albedo[0][0] + m->albedo[0][1] + m->albedo[0][2] <= 0 && !m->checker;
 }
 
-koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12])
+/* Finds the matrices of an item within another transformation, and its motion or the other's. */
+static koksma_status place(koksma__import *im, const koksma__import_item *item, const double outer[12],
+                           const koksma__pose poses[2], placed *at)
 {
-    double matrix[12], length[3];
+    const double *first = outer ? outer : koksma__import_identity;
+    koksma__matrix_multiply(first, item->matrix, at->matrix);
+    for (int i = 0; i < 12; i++) {
+        if (!(fabs(at->matrix[i]) <= 1e9)) {
+            return koksma__import_fail(item->place, "a matrix has an entry beyond 1e9");
+        }
+    }
+    at->moves = poses || item->motion.moves;
+    if (at->moves && item->surface.emits) {
+        at->moves = false;
+        return koksma__import_unknown(im, item->place, "a moving light stays where it is at the start");
+    }
+    if (at->moves) {
+        memcpy(at->poses, poses ? poses : item->motion.poses, sizeof at->poses);
+        memcpy(at->before, poses ? item->matrix : item->motion.before, sizeof at->before);
+        memcpy(at->after, poses ? koksma__import_identity : first, sizeof at->after);
+    }
+    return poses && item->motion.moves
+               ? koksma__import_unknown(im, item->place, "motion within an object whose instance moves is ignored")
+               : KOKSMA_OK;
+}
+
+koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12],
+                                 const koksma__pose poses[2])
+{
+    placed at;
+    double length[3];
     int mesh = item->mesh;
     if (item->surface.material < 0 && !item->surface.emits) {
         return KOKSMA_OK; /* no surface: light passes through */
@@ -445,20 +566,15 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
         is_black(&im->scene->materials[item->surface.material])) {
         koksma__import_item dark = *item;
         dark.surface.material = -1; /* a light that reflects nothing becomes one of Koksma's own lights */
-        return koksma__import_put(im, &dark, outer);
+        return koksma__import_put(im, &dark, outer, poses);
     }
-    koksma__matrix_multiply(outer ? outer : koksma__import_identity, item->matrix, matrix);
-    for (int i = 0; i < 12; i++) {
-        if (!(fabs(matrix[i]) <= 1e9)) {
-            return koksma__import_fail(item->place, "a matrix has an entry beyond 1e9");
-        }
-    }
-    const koksma__shape_type *own = item->form == KOKSMA__FORM_MESH ? NULL : own_shape(im, item, matrix, length);
+    KOKSMA__TRY(place(im, item, outer, poses, &at));
+    const koksma__shape_type *own = item->form == KOKSMA__FORM_MESH ? NULL : own_shape(im, item, &at, length);
     if (own) {
         if (item->surface.emits && item->surface.material >= 0) {
             KOKSMA__TRY(koksma__import_unknown(im, item->place, "the reflection of a round light is left out"));
         }
-        return put_own(im, item, own, matrix, length);
+        return put_own(im, item, own, &at, length);
     }
     if (item->form != KOKSMA__FORM_MESH) {
         KOKSMA__TRY(find_form(im, item->place, item->form, &mesh));
@@ -468,5 +584,5 @@ koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *
             im, item->place, "a cylinder, or a stretched or textured round shape, becomes a mesh with %d sides",
             SIDES));
     }
-    return mesh < 0 ? KOKSMA_OK : put_mesh(im, item, mesh, matrix);
+    return mesh < 0 ? KOKSMA_OK : put_mesh(im, item, mesh, &at);
 }

@@ -2,8 +2,8 @@
 /*
  * Reads scenes of Mitsuba 3 (Jakob et al. 2022), and of earlier versions that differ only in names. xml.c parses
  * the text into a tree, whose sensors, shapes, emitters and BSDFs are converted here. A BSDF is converted when a
- * shape first refers to it. Media, volumes and motion are not read; integrators and samplers
- * are ignored, because the program's own options choose them.
+ * shape first refers to it. One homogeneous medium is read, of the sensor or of a cube along the axes; volumes and motion
+ * are not read. Integrators and samplers are ignored, because the program's own options choose them.
  * The file is long because all of Mitsuba's names are in one place.
  */
 #include "scene/mitsuba.h"
@@ -14,9 +14,12 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/capacity.h"
 #include "core/vector.h"
 #include "render/fields.h"
 #include "render/lights/lights.h"
+#include "render/materials/materials.h"
+#include "render/medium.h"
 #include "scene/import_shapes.h"
 #include "scene/import_spectrum.h"
 #include "scene/xml.h"
@@ -28,8 +31,11 @@ typedef koksma__xml_node node;
 typedef struct reader {
     koksma__import *im;
     koksma__xml xml;
-    int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
+    int *materials;    /* index of the material of each node; -2: not converted yet, -1: light passes through */
+    bool *used, *read; /* of each node: its parent's reader has asked for it; its children describe what is shown */
     bool has_sensor;
+    const node *medium, *box; /* the only medium that is read, and the cube that bounds it; or NULL */
+    double low[3], high[3];   /* the bounds, if `box` */
 } reader;
 
 /* ---- Properties -------------------------------------------------------------------------------------------- */
@@ -61,10 +67,17 @@ static const node *property(const reader *r, const node *n, const char *name)
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const char *has = koksma__xml_attribute(c, "name");
         if (has && koksma__xml_alike(has, name)) {
+            r->used[c - r->xml.nodes] = true;
             return c;
         }
     }
     return NULL;
+}
+
+/* Notes that a node is shown as the file describes it, so that all its properties count. */
+static void set_read(const reader *r, const node *n)
+{
+    r->read[n - r->xml.nodes] = true;
 }
 
 static const char *text(const reader *r, const node *n, const char *name, const char *otherwise)
@@ -190,6 +203,10 @@ static koksma_status transform(const reader *r, const node *n, const char *name,
 {
     const node *t = property(r, n, name);
     memcpy(out, koksma__import_identity, sizeof koksma__import_identity);
+    if (t && is(t, "animation")) {
+        KOKSMA__TRY(koksma__import_unknown(r->im, t->place, "motion is ignored: all is as at the first time"));
+        t = first_of(r, t);
+    }
     for (const node *c = t ? first_of(r, t) : NULL; c; c = next_of(r, c)) {
         double by[12], product[12];
         KOKSMA__TRY(operation(c, by));
@@ -267,15 +284,44 @@ static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth);
 
+/* Reads how an image is mapped. Of the transform the third row and column count for nothing. */
+static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
+{
+    static const struct {
+        const char *name;
+        koksma__wrap wrap;
+    } wraps[] = {{"repeat", KOKSMA__WRAP_REPEAT}, {"clamp", KOKSMA__WRAP_CLAMP}, {"mirror", KOKSMA__WRAP_MIRROR}};
+    const char *wrap = text(r, n, "wrap_mode", "repeat");
+    double m[12];
+    for (size_t i = 0; i < sizeof wraps / sizeof *wraps; i++) {
+        to->wrap[0] = to->wrap[1] = !strcmp(wraps[i].name, wrap) ? wraps[i].wrap : to->wrap[0];
+    }
+    to->nearest = !strcmp(text(r, n, "filter_type", "bilinear"), "nearest");
+    to->moved = property(r, n, "to_uv");
+    KOKSMA__TRY(transform(r, n, "to_uv", m));
+    for (int i = 0; i < 6; i++) {
+        to->matrix[i] = (float)m[i / 3 * 4 + i % 3];
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status texture(reader *r, const node *n, koksma__import_colour *out, int depth)
 {
     const char *type = type_of(n);
     double m[12];
     if (!strcmp(type, "bitmap") && *text(r, n, "filename", "")) {
-        return koksma__import_path(r->im, n->place, text(r, n, "filename", ""), out->image);
+        const char *name = text(r, n, "filename", ""), *dot = strrchr(name, '.');
+        const bool linear = dot && (koksma__xml_alike(dot, ".exr") || koksma__xml_alike(dot, ".pfm"));
+        set_read(r, n);
+        KOKSMA__TRY(flag(r, n, "raw", false) && !linear
+                        ? koksma__import_unknown(r->im, n->place, "a texture's 'raw' is ignored: its levels are sRGB")
+                        : KOKSMA_OK);
+        KOKSMA__TRY(set_mapping(r, n, &out->mapping));
+        return koksma__import_path(r->im, n->place, name, out->image);
     }
     if (!strcmp(type, "checkerboard")) {
         koksma__import_colour second;
+        set_read(r, n);
         KOKSMA__TRY(colour(r, n, "color0", 0.4, out, depth + 1));
         KOKSMA__TRY(colour(r, n, "color1", 0.2, &second, depth + 1));
         KOKSMA__TRY(transform(r, n, "to_uv", m));
@@ -417,6 +463,9 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
     }
+    if (!found->instead && found->kind != KOKSMA__COATED) {
+        set_read(r, n);
+    }
     if (found->instead) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "BSDF '%s': %s here", type, found->instead));
     }
@@ -454,6 +503,7 @@ static koksma_status find_bsdf(reader *r, const node *n, int *out)
 static koksma_status area_light(reader *r, const node *n, koksma__import_surface *surface)
 {
     koksma__import_colour radiance;
+    set_read(r, n);
     KOKSMA__TRY(colour(r, n, "radiance", 1, &radiance, 0));
     memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
     surface->emits = true;
@@ -474,8 +524,6 @@ static koksma_status surface_of(reader *r, const node *n, koksma__import_surface
             has_bsdf = true;
         } else if (is(to, "emitter")) {
             KOKSMA__TRY(area_light(r, to, out));
-        } else if (is(to, "medium")) {
-            KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "media are ignored"));
         }
     }
     if (!has_bsdf && !out->emits) {
@@ -542,6 +590,153 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
     return KOKSMA_OK;
 }
 
+/* ---- Media -------------------------------------------------------------------------------------------------- */
+
+/* The medium of a sensor or shape: the child whose name is `name`, or any if that is NULL; NULL if there is none. */
+static const node *medium_of(const reader *r, const node *n, const char *name)
+{
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        const char *has = koksma__xml_attribute(c, "name");
+        if (is(resolve(r, c), "medium") && (!name || (has && koksma__xml_alike(has, name)))) {
+            return resolve(r, c);
+        }
+    }
+    return NULL;
+}
+
+/* Finds the bounds of a cube under a matrix; returns false if its edges are not along the axes. */
+static bool find_bounds(const double m[12], double low[3], double high[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const double *row = m + 4 * k, size = fabs(row[0]) + fabs(row[1]) + fabs(row[2]);
+        const double largest = fmax(fmax(fabs(row[0]), fabs(row[1])), fabs(row[2]));
+        low[k] = row[3] - size;
+        high[k] = row[3] + size;
+        if (!(size > TINY && size - largest <= 1e-6 * size && fabs(low[k]) <= FAR && fabs(high[k]) <= FAR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Finds the medium to read: that of the first sensor, everywhere or in the first cube that holds it; or that of the first
+   cube that has one. */
+static koksma_status find_medium(reader *r, const node *root)
+{
+    const node *sensor = first_of(r, root);
+    while (sensor && !is(sensor, "sensor")) {
+        sensor = next_of(r, sensor);
+    }
+    r->medium = sensor ? medium_of(r, sensor, NULL) : NULL;
+    for (const node *n = first_of(r, root); n && !r->box; n = next_of(r, n)) {
+        const bool cube = is(n, "shape") && !strcmp(type_of(n), "cube");
+        const node *inside = cube ? medium_of(r, n, "interior") : NULL;
+        double m[12];
+        if (inside && (!r->medium || inside == r->medium) && !strcmp(type_of(inside), "homogeneous")) {
+            KOKSMA__TRY(transform(r, n, "to_world", m));
+            if (find_bounds(m, r->low, r->high)) {
+                r->medium = inside;
+                r->box = n;
+            }
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Names the media of a shape that are not read. */
+static koksma_status name_media(reader *r, const node *n, int material)
+{
+    const node *inside = medium_of(r, n, "interior"), *outside = medium_of(r, n, "exterior");
+    if (inside && strcmp(type_of(inside), "homogeneous") != 0) {
+        return koksma__import_unknown(r->im, n->place, "media that vary are ignored");
+    }
+    if (inside && n != r->box) {
+        return koksma__import_unknown(
+            r->im, n->place,
+            "a medium in a shape is ignored: only one is read, of the sensor or of a cube along the axes");
+    }
+    if (outside && outside != r->medium) {
+        return koksma__import_unknown(r->im, n->place, "a medium around a shape is ignored: only one is read");
+    }
+    const koksma__bsdf *bsdf = material < 0 ? NULL : r->im->scene->materials[material].bsdf;
+    const bool glass = bsdf == &koksma__bsdf_dielectric || bsdf == &koksma__bsdf_rough_dielectric;
+    return outside && !inside && glass
+               ? koksma__import_unknown(r->im, n->place, "glass in a medium is filled by the medium")
+               : KOKSMA_OK;
+}
+
+/* Reads a colour of a medium, which may stand in a constant volume. */
+static koksma_status medium_colour(reader *r, const node *n, const char *name, double otherwise, double rgb[3])
+{
+    const node *found = property(r, n, name);
+    koksma__import_colour c = {.rgb = {otherwise, otherwise, otherwise}};
+    found = found ? resolve(r, found) : NULL;
+    if (found && is(found, "volume") && strcmp(type_of(found), "constvolume") != 0) {
+        KOKSMA__TRY(
+            koksma__import_unknown(r->im, found->place, "volume '%s' is replaced by %g", type_of(found), otherwise));
+    } else {
+        KOKSMA__TRY(found && is(found, "volume") ? colour(r, found, "value", 1, &c, 0)
+                                                 : colour(r, n, name, otherwise, &c, 0));
+    }
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = c.rgb[k] > 0 ? fmin(c.rgb[k], FAR) : 0;
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status phase_of(reader *r, const node *n, double *g)
+{
+    *g = 0;
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        const node *phase = resolve(r, c);
+        if (is(phase, "phase") && !strcmp(type_of(phase), "hg")) {
+            *g = fmax(-0.999, fmin(number(r, phase, "g", 0.8), 0.999));
+        } else if (is(phase, "phase") && strcmp(type_of(phase), "isotropic") != 0) {
+            return koksma__import_unknown(r->im, phase->place, "phase function '%s' is replaced by the isotropic",
+                                          type_of(phase));
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* Sets the scene's medium. Its coefficients are those of extinction times the albedo and the rest, or, as before Mitsuba 2,
+   of scattering and absorption; all times a scale. */
+static koksma_status set_medium(reader *r)
+{
+    const node *n = r->medium;
+    koksma__medium *to = &r->im->scene->medium;
+    double a[3], b[3], g;
+    if (!n) {
+        return KOKSMA_OK;
+    }
+    if (strcmp(type_of(n), "homogeneous") != 0 || property(r, n, "material")) {
+        return koksma__import_unknown(r->im, n->place,
+                                      "media that vary, or have the name of a material, are ignored");
+    }
+    set_read(r, n);
+    const bool old = property(r, n, "sigma_s") || property(r, n, "sigma_a");
+    const double scale = fmin(fmax(number(r, n, "scale", 1), 0), FAR);
+    KOKSMA__TRY(medium_colour(r, n, old ? "sigma_s" : "albedo", old ? 0 : 0.75, b));
+    KOKSMA__TRY(medium_colour(r, n, old ? "sigma_a" : "sigma_t", old ? 0 : 1, a));
+    KOKSMA__TRY(phase_of(r, n, &g));
+    for (int k = 0; k < 3; k++) {
+        const double extinction = scale * (old ? a[k] + b[k] : a[k]);
+        b[k] = old ? scale * b[k] : extinction * fmin(b[k], 1);
+        a[k] = extinction - b[k];
+    }
+    koksma__medium_init(to, a, b, g);
+    if (r->box) {
+        memcpy(to->low, r->low, sizeof to->low);
+        memcpy(to->high, r->high, sizeof to->high);
+    }
+    if (koksma__medium_check(r->im->scene)) {
+        to->is_there = false;
+        return koksma__import_unknown(
+            r->im, n->place, "the sensor's medium is ignored, because it would absorb all light of distant lights");
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status shape(reader *r, const node *n, const double outer[12], int depth);
 
 /* Adds the shapes of the group to which an instance refers. */
@@ -576,10 +771,12 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
     if (item.form == KOKSMA__FORM_MESH && item.mesh < 0) {
         return KOKSMA_OK;
     }
+    set_read(r, n);
     KOKSMA__TRY(surface_of(r, n, &item.surface));
+    KOKSMA__TRY(name_media(r, n, item.surface.material));
     KOKSMA__TRY(transform(r, n, "to_world", to_world));
     koksma__matrix_multiply(to_world, form, item.matrix);
-    return koksma__import_put(r->im, &item, outer);
+    return koksma__import_put(r->im, &item, outer, NULL);
 }
 
 /* ---- Emitters and sensors ------------------------------------------------------------------------------------ */
@@ -591,6 +788,9 @@ static koksma_status emitter(reader *r, const node *n)
     double m[12], along[3] = {0, 0, 1};
     const char *type = type_of(n);
     const bool far = !strcmp(type, "directional"), around = !strcmp(type, "constant");
+    if (far || around || !strcmp(type, "envmap") || !strcmp(type, "spot") || !strcmp(type, "point")) {
+        set_read(r, n);
+    }
     KOKSMA__TRY(transform(r, n, "to_world", m));
     KOKSMA__TRY(colour(r, n, around ? "radiance" : far ? "irradiance" : "intensity", 1, &c, 0));
     memcpy(light.radiance, c.rgb, sizeof c.rgb);
@@ -688,6 +888,7 @@ static koksma_status sensor(reader *r, const node *n)
                                    "sensor '%s' is not read; 'perspective', 'thinlens' and 'orthographic' are", type);
     }
     r->has_sensor = true;
+    set_read(r, n);
     KOKSMA__TRY(film(r, n));
     KOKSMA__TRY(transform(r, n, "to_world", m));
     const double width = r->im->scene->width, height = r->im->scene->height;
@@ -709,6 +910,44 @@ static koksma_status sensor(reader *r, const node *n)
 
 /* ---- The whole scene ---------------------------------------------------------------------------------------- */
 
+/* Whether a property changes no picture here. */
+static bool is_harmless(const node *n, const char *name)
+{
+    static const struct {
+        const char *name, *value; /* value NULL: any */
+    } all[] = {{"near_clip", NULL},       {"far_clip", NULL},     {"focus_distance", NULL}, {"sample_visible", NULL},
+               {"sampling_weight", NULL}, {"shutter_open", NULL}, {"shutter_close", NULL},  {"accel", NULL},
+               {"to_world", NULL},        {"interior", NULL},     {"exterior", NULL},       {"sample_emitters", NULL},
+               {"fov_axis", NULL},        {"face_normals", NULL}, {"flip_normals", NULL},   {"distribution", NULL}};
+    const char *value = koksma__xml_attribute(n, "value");
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (koksma__xml_alike(all[i].name, name) && (!all[i].value || (value && !strcmp(value, all[i].value)))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Names the properties that nothing has asked for of the nodes that are shown as the file describes them. */
+static koksma_status name_unused(reader *r)
+{
+    for (size_t i = 0; i < r->xml.n; i++) {
+        const node *parent = &r->xml.nodes[i];
+        for (const node *c = r->read[i] ? first_of(r, parent) : NULL; c; c = next_of(r, c)) {
+            const char *name = koksma__xml_attribute(c, "name");
+            if (!name || r->used[c - r->xml.nodes] || is_harmless(c, name)) {
+                continue;
+            }
+            const node *to = resolve(r, c);
+            const bool counts = !is(to, "bsdf") && !is(to, "emitter") && !is(to, "medium");
+            KOKSMA__TRY(counts ? koksma__import_unknown(r->im, c->place, "'%s' of %s '%s' is ignored", name,
+                                                        parent->tag, type_of(parent))
+                               : KOKSMA_OK);
+        }
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status read_root(reader *r)
 {
     const node *root = r->xml.n ? r->xml.nodes : NULL;
@@ -716,14 +955,15 @@ static koksma_status read_root(reader *r)
         return koksma__import_fail((koksma__text_place){r->im->path, 1},
                                    "no <scene>: the file is not a Mitsuba scene");
     }
+    KOKSMA__TRY(find_medium(r, root));
     for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
         KOKSMA__TRY(is(n, "sensor")                                       ? sensor(r, n)
                     : is(n, "shape")                                      ? shape(r, n, NULL, 0)
                     : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)
-                    : is(n, "medium") ? koksma__import_unknown(r->im, n->place, "media are ignored")
-                                      : KOKSMA_OK);
+                                                                          : KOKSMA_OK);
     }
-    return r->has_sensor ? KOKSMA_OK : koksma__import_fail(root->place, "no <sensor>");
+    KOKSMA__TRY(r->has_sensor ? set_medium(r) : koksma__import_fail(root->place, "no <sensor>"));
+    return name_unused(r);
 }
 
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t size)
@@ -733,13 +973,15 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
     koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
     if (!status) {
         r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);
-        status = r.materials ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
+        r.used = calloc(r.xml.n + 1, sizeof *r.used);
+        r.read = calloc(r.xml.n + 1, sizeof *r.read);
+        status = r.materials && r.used && r.read ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
         for (size_t i = 0; r.materials && i < r.xml.n; i++) {
             r.materials[i] = -2;
         }
     }
     status = status ? status : read_root(&r);
-    free(r.materials);
+    KOKSMA__FREE(r.materials, r.used, r.read);
     koksma__xml_fini(&r.xml);
     return status;
 }

@@ -26,7 +26,7 @@
 
 /* A version number in the hash of scenes from mesh files; it is raised when a change of the code alters their
    images. */
-#define MODEL_REVISION 2
+#define MODEL_REVISION 3
 
 /* Finds the sphere around the bounding box of all meshes; returns its radius. *low_y is the lowest height of the
    box. */

@@ -173,7 +173,7 @@ static void take_glow_map(builder *build, const koksma__file_texture *from, doub
     }
 }
 
-/* Sets the properties that only glTF's materials have: metallic and roughness textures, normals, alpha. */
+/* Sets the properties that only glTF's materials have: metallic and roughness textures, normals, alpha, sides. */
 static void take_principled(builder *build, const koksma__file_material *from, koksma__material *m)
 {
     const struct {
@@ -202,6 +202,7 @@ static void take_principled(builder *build, const koksma__file_material *from, k
     m->cutoff = from->cutoff;
     m->see_through = from->blends && (m->alpha < 1 || m->maps[KOKSMA__MAP_ALPHA].image);
     m->tinted = from->tinted;
+    m->one_sided = !from->two_sided;
 }
 
 static void build_material(builder *build, size_t i)
@@ -301,7 +302,7 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
 
 /* Makes a placed mesh a light that also reflects. Leaves space in the list of lights for the file's other lights and
    for the two that model.c may add. */
-static koksma_status add_glow(builder *build, koksma__placement *p, const double glow[3])
+static koksma_status add_glow(builder *build, koksma__placement *p, const double glow[3], bool two_sided)
 {
     koksma_scene *scene = build->scene;
     if (scene->n_lights + build->file->lights.n + 2 >= KOKSMA__MAX_LIGHTS) {
@@ -309,7 +310,9 @@ static koksma_status add_glow(builder *build, koksma__placement *p, const double
                    ? KOKSMA_OK
                    : koksma__scene_note(scene, "more meshes emit light than a scene can have lights: some are dark");
     }
-    return koksma__scene_add_glow(scene, p, glow);
+    KOKSMA__TRY(koksma__scene_add_glow(scene, p, glow));
+    scene->lights[p->light].two_sided = two_sided;
+    return KOKSMA_OK;
 }
 
 static koksma_status place(builder *build, const koksma__file_placement *from)
@@ -337,7 +340,9 @@ static koksma_status place(builder *build, const koksma__file_placement *from)
     if (scene->materials[material].image && !scene->meshes[mesh].uvs) {
         return koksma__fail(KOKSMA_MALFORMED, "a mesh with a texture has no texture coordinates");
     }
-    return glow[0] > 0 || glow[1] > 0 || glow[2] > 0 ? add_glow(build, p, glow) : KOKSMA_OK;
+    return glow[0] > 0 || glow[1] > 0 || glow[2] > 0
+               ? add_glow(build, p, glow, koksma__file_material_at(build->file, material)->two_sided)
+               : KOKSMA_OK;
 }
 
 static void transform(const double m[12], const double v[3], double w, double out[3])

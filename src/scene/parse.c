@@ -256,6 +256,9 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
 
 /* ---- The medium ------------------------------------------------------------------------------------------- */
 
+/* A number in the hash of scenes with a medium; it is raised when a change of the code alters their images. */
+enum { MEDIUM_REVISION = 1 };
+
 /* Reads the medium, after the lights, because not every light passes a medium without bounds. */
 static koksma_status parse_medium(const field *root, koksma_scene *scene)
 {
@@ -278,6 +281,7 @@ static koksma_status parse_medium(const field *root, koksma_scene *scene)
     }
     KOKSMA__JSON_FAIL_IF(is_empty, &f, "'sigma_a' or 'sigma_s' must be above 0");
     koksma__medium_init(&scene->medium, absorption, scattering, g);
+    scene->hash += MEDIUM_REVISION;
     if (koksma__json_has(&f, "low") || koksma__json_has(&f, "high")) {
         status = koksma__parse_point(&f, "low", low);
         status = status ? status : koksma__parse_point(&f, "high", high);

@@ -2,8 +2,9 @@
 /*
  * Reads scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4). A scene is a list of
  * directives, each with a text and parameters, that change a graphics state or use it to add a shape or light.
- * pbrt_values.c converts parameters to colours, materials and meshes. Motion and curves are not read; the only medium
- * read is a homogeneous one that contains the camera. Directives that do not describe the scene (Sampler, Integrator,
+ * pbrt_values.c converts parameters to colours, materials and meshes. There are two current matrices, for the start and
+ * for the end of the motion; where they differ, a shape moves, or the camera, which can't turn here. Curves are not read;
+ * the only medium read is a homogeneous one that contains the camera. Directives that do not describe the scene (Sampler, Integrator,
  * ...) are ignored, because the program's own options choose them.
  * The file is long because all of pbrt's directives are in one place.
  */
@@ -16,6 +17,7 @@
 
 #include "core/capacity.h"
 #include "core/vector.h"
+#include "render/description_build.h"
 #include "render/fields.h"
 #include "render/lights/lights.h"
 #include "render/medium.h"
@@ -24,15 +26,18 @@
 
 enum { MOST_INCLUDED = 16, MOST_STATES = 1024 };
 
+enum { START = 1, END = 2 };
+
 typedef struct graphics {
-    double matrix[12];
+    double matrix[2][12]; /* at the start and at the end of the motion */
+    unsigned active;      /* which of the two the directives change: START, END or both */
     koksma__import_surface surface;
     char outside[256]; /* name of the medium outside the shapes that follow */
 } graphics;
 
 typedef struct named_space {
     char name[64];
-    double matrix[12];
+    double matrix[2][12];
 } named_space;
 
 typedef struct named_medium {
@@ -56,14 +61,15 @@ typedef struct reader {
     object *objects;
     named_medium *media;
     size_t n_spaces, n_objects, n_media;
-    object *open; /* the object to which shapes are added, or NULL */
-    bool fixed;   /* the directives that follow give transforms for the end time only, which are ignored */
+    object *open;    /* the object to which shapes are added, or NULL */
+    double times[2]; /* when motions start and end */
     koksma__pbrt_parameters *parameters;
+    bool used[KOKSMA__MAX_PBRT_PARAMETERS]; /* of the parameters */
     /* The camera, completed when the aspect ratio of the film is known. */
     bool has_camera;
     koksma__text_place camera_place;
     char camera_medium[256];
-    double camera[12], fov_deg, lens_radius, focus_distance;
+    double camera[2][12], fov_deg, lens_radius, focus_distance, shutter[2];
     bool orthographic, has_window;
     double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
     double frame;     /* width / height of the screen window if the file has no `window`; 0: the image's */
@@ -74,21 +80,28 @@ typedef struct koksma__pbrt_source source;
 
 /* ---- Transforms -------------------------------------------------------------------------------------------- */
 
-static koksma_status concat(reader *r, const double by[12])
+/* Multiplies the active matrices by another, or, if `replaces`, replaces them. */
+static koksma_status change(reader *r, const double by[12], bool replaces)
 {
-    double product[12];
-    if (!r->fixed) {
-        koksma__matrix_multiply(r->now.matrix, by, product);
-        memcpy(r->now.matrix, product, sizeof product);
+    for (unsigned i = 0; i < 2; i++) {
+        double product[12];
+        if (r->now.active >> i & 1) {
+            koksma__matrix_multiply(replaces ? koksma__import_identity : r->now.matrix[i], by, product);
+            memcpy(r->now.matrix[i], product, sizeof product);
+        }
     }
     return KOKSMA_OK;
+}
+
+static koksma_status concat(reader *r, const double by[12])
+{
+    return change(r, by, false);
 }
 
 static koksma_status take_identity(reader *r, source *s)
 {
     (void)s;
-    memcpy(r->now.matrix, koksma__import_identity, sizeof r->now.matrix);
-    return KOKSMA_OK;
+    return change(r, koksma__import_identity, true);
 }
 
 static koksma_status take_translate(reader *r, source *s)
@@ -150,8 +163,7 @@ static koksma_status take_transform(reader *r, source *s)
 {
     double m[12];
     KOKSMA__TRY(take_matrix(s, m));
-    memcpy(r->now.matrix, r->fixed ? r->now.matrix : m, sizeof m);
-    return KOKSMA_OK;
+    return change(r, m, true);
 }
 
 static koksma_status take_concat(reader *r, source *s)
@@ -161,7 +173,7 @@ static koksma_status take_concat(reader *r, source *s)
     return concat(r, m);
 }
 
-static koksma_status name_space(reader *r, const char *name, const double matrix[12])
+static koksma_status name_space(reader *r, const char *name, const double matrix[2][12])
 {
     named_space *to = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
@@ -174,7 +186,7 @@ static koksma_status take_coordinate_system(reader *r, source *s)
 {
     char name[64];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    return name_space(r, name, r->now.matrix);
+    return name_space(r, name, (const double(*)[12])r->now.matrix);
 }
 
 static koksma_status take_coordinate_transform(reader *r, source *s)
@@ -192,17 +204,41 @@ static koksma_status take_coordinate_transform(reader *r, source *s)
 
 static koksma_status take_active(reader *r, source *s)
 {
+    static const struct {
+        const char *name;
+        unsigned active;
+    } all[] = {{"All", START | END}, {"StartTime", START}, {"EndTime", END}};
     koksma__pbrt_token t;
     KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
-    r->fixed = t.length == 7 && !memcmp(t.at, "EndTime", 7);
-    return r->fixed ? koksma__import_unknown(r->im, s->place, "motion by ActiveTransform is ignored") : KOKSMA_OK;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (t.kind == KOKSMA__PBRT_WORD && t.length == strlen(all[i].name) && !memcmp(t.at, all[i].name, t.length)) {
+            r->now.active = all[i].active;
+            return KOKSMA_OK;
+        }
+    }
+    return koksma__import_fail(s->place, "ActiveTransform is StartTime, EndTime or All");
 }
 
 static koksma_status take_times(reader *r, source *s)
 {
-    double times[2];
-    (void)r;
-    return koksma__pbrt_numbers(s, 2, times);
+    return koksma__pbrt_numbers(s, 2, r->times);
+}
+
+/* Whether something placed by the two matrices moves. */
+static bool moves(const double matrix[2][12])
+{
+    return memcmp(matrix[0], matrix[1], sizeof matrix[0]) != 0;
+}
+
+/* Finds the poses at the start and the end of a motion; returns false, with a warning, if there are none. */
+static koksma_status find_poses(reader *r, koksma__text_place place, const double matrix[2][12],
+                                koksma__pose poses[2], bool *found)
+{
+    *found = koksma__matrix_mirrors(matrix[0]) == koksma__matrix_mirrors(matrix[1]) &&
+             koksma__pose_of_matrix(matrix[0], &poses[0]) && koksma__pose_of_matrix(matrix[1], &poses[1]);
+    return *found ? KOKSMA_OK
+                  : koksma__import_unknown(r->im, place,
+                                           "a motion that mirrors, or by a matrix without inverse, is ignored");
 }
 
 /* ---- States ------------------------------------------------------------------------------------------------ */
@@ -218,7 +254,7 @@ static koksma_status push(reader *r, source *s)
     return KOKSMA_OK;
 }
 
-/* Restores the state or matrix on top of the stack. The stack keeps its memory, because koksma__add_one() computes
+/* Restores the state or matrices on top of the stack. The stack keeps its memory, because koksma__add_one() computes
    the capacity from nothing but the number of items. */
 static koksma_status pop(reader *r, source *s, bool matrix_alone)
 {
@@ -228,6 +264,7 @@ static koksma_status pop(reader *r, source *s, bool matrix_alone)
     const graphics *from = &r->stack[--r->n_stack];
     if (matrix_alone) {
         memcpy(r->now.matrix, from->matrix, sizeof from->matrix);
+        r->now.active = from->active;
     } else {
         r->now = *from;
     }
@@ -253,7 +290,7 @@ static koksma_status take_reverse(reader *r, source *s)
 
 static koksma_status take_world(reader *r, source *s)
 {
-    r->fixed = false;
+    r->now.active = START | END;
     return take_identity(r, s);
 }
 
@@ -288,8 +325,13 @@ static koksma_status take_instance(reader *r, source *s)
     for (size_t i = r->n_objects; i-- > 0;) {
         const object *o = &r->objects[i];
         if (o != r->open && !strcmp(o->name, name)) {
+            koksma__pose poses[2];
+            bool moving = moves((const double(*)[12])r->now.matrix);
+            if (moving) {
+                KOKSMA__TRY(find_poses(r, s->place, (const double(*)[12])r->now.matrix, poses, &moving));
+            }
             for (size_t k = 0; k < o->n; k++) {
-                KOKSMA__TRY(koksma__import_put(r->im, &o->items[k], r->now.matrix));
+                KOKSMA__TRY(koksma__import_put(r->im, &o->items[k], r->now.matrix[0], moving ? poses : NULL));
             }
             return KOKSMA_OK;
         }
@@ -302,7 +344,7 @@ static koksma_status take_instance(reader *r, source *s)
 static koksma_status put(reader *r, const koksma__import_item *item)
 {
     if (!r->open) {
-        return koksma__import_put(r->im, item, NULL);
+        return koksma__import_put(r->im, item, NULL, NULL);
     }
     koksma__import_item *to = koksma__add_one(&r->open->items, &r->open->n, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
@@ -324,7 +366,12 @@ static koksma_status take_shape(reader *r, source *s)
     }
     memcpy(form, koksma__import_identity, sizeof form);
     KOKSMA__TRY(koksma__pbrt_shape(&r->values, type, r->parameters, &item, form, &is_there));
-    koksma__matrix_multiply(r->now.matrix, form, item.matrix);
+    koksma__matrix_multiply(r->now.matrix[0], form, item.matrix);
+    if (is_there && moves((const double(*)[12])r->now.matrix)) {
+        memcpy(item.motion.before, form, sizeof form);
+        KOKSMA__TRY(
+            find_poses(r, item.place, (const double(*)[12])r->now.matrix, item.motion.poses, &item.motion.moves));
+    }
     return is_there ? put(r, &item) : KOKSMA_OK;
 }
 
@@ -335,6 +382,7 @@ static koksma_status take_area_light(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     surface->emits = true;
+    surface->two_sided = koksma__pbrt_flag(r->parameters, "twosided", false);
     return koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
 }
 
@@ -365,11 +413,14 @@ static koksma_status take_light(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
     KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, far || around ? "L" : "I", light.radiance));
+    KOKSMA__TRY(moves((const double(*)[12])r->now.matrix)
+                    ? koksma__import_unknown(r->im, p->place, "a moving light stays where it is at the start")
+                    : KOKSMA_OK);
     point_of(p, "from", 0, from);
     point_of(p, "to", 1, to);
     if (around && *koksma__pbrt_word(p, "filename", "")) {
         return koksma__import_sky(r->im, p->place, koksma__pbrt_word(p, "filename", ""), true, light.radiance,
-                                  r->now.matrix);
+                                  r->now.matrix[0]);
     }
     if (around) {
         light.kind = &koksma__light_environment;
@@ -377,16 +428,16 @@ static koksma_status take_light(reader *r, source *s)
     } else if (far) {
         light.kind = &koksma__light_directional;
         koksma__subtract(to, from, to);
-        move_point(r->now.matrix, to, 0, light.normal);
+        move_point(r->now.matrix[0], to, 0, light.normal);
         if (!koksma__normalise(light.normal)) {
             return koksma__import_fail(p->place, "a distant light without a direction");
         }
     } else {
-        move_point(r->now.matrix, from, 1, light.centre);
+        move_point(r->now.matrix[0], from, 1, light.centre);
         if (!strcmp(type, "spot")) {
             const double outer = koksma__pbrt_number(p, "coneangle", 30);
             koksma__subtract(to, from, to);
-            move_point(r->now.matrix, to, 0, along);
+            move_point(r->now.matrix[0], to, 0, along);
             KOKSMA__TRY(koksma__import_spot(p->place, along, outer - koksma__pbrt_number(p, "conedeltaangle", 5),
                                             outer, KOKSMA__FALLOFF_SMOOTH, &light));
         } else if (strcmp(type, "point") != 0) {
@@ -407,7 +458,8 @@ static koksma_status take_camera(reader *r, source *s)
     if (!r->orthographic && strcmp(type, "perspective") != 0) {
         return koksma__import_fail(p->place, "camera '%s' is not read; 'perspective' and 'orthographic' are", type);
     }
-    if (!koksma__import_invert(r->now.matrix, r->camera)) {
+    if (!koksma__import_invert(r->now.matrix[0], r->camera[0]) ||
+        !koksma__import_invert(r->now.matrix[1], r->camera[1])) {
         return koksma__import_fail(p->place, "the camera's matrix has no inverse");
     }
     r->has_camera = true;
@@ -416,6 +468,8 @@ static koksma_status take_camera(reader *r, source *s)
     r->fov_deg = koksma__pbrt_number(p, "fov", 90);
     r->lens_radius = koksma__pbrt_number(p, "lensradius", 0);
     r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
+    r->shutter[0] = koksma__pbrt_number(p, "shutteropen", 0);
+    r->shutter[1] = koksma__pbrt_number(p, "shutterclose", 1);
     const koksma__pbrt_parameter *window = koksma__pbrt_find(p, "screenwindow");
     r->has_window = window && window->n == 4;
     if (window && !r->has_window) {
@@ -425,7 +479,7 @@ static koksma_status take_camera(reader *r, source *s)
         memcpy(r->window, window->numbers, sizeof r->window);
     }
     r->frame = fmax(koksma__pbrt_number(p, "frameaspectratio", 0), 0);
-    return name_space(r, "camera", r->camera);
+    return name_space(r, "camera", (const double(*)[12])r->camera);
 }
 
 static koksma_status take_film(reader *r, source *s)
@@ -567,46 +621,79 @@ static koksma_status take_include(reader *r, source *s)
 static const struct {
     const char *name;
     koksma_status (*take)(reader *r, source *s);
-} directives[] = {{"ActiveTransform", take_active},
-                  {"AreaLightSource", take_area_light},
-                  {"Accelerator", take_options},
-                  {"Attribute", take_attribute},
-                  {"AttributeBegin", push},
-                  {"AttributeEnd", take_attribute_end},
-                  {"Camera", take_camera},
-                  {"ColorSpace", take_options},
-                  {"ConcatTransform", take_concat},
-                  {"CoordSysTransform", take_coordinate_transform},
-                  {"CoordinateSystem", take_coordinate_system},
-                  {"Film", take_film},
-                  {"Identity", take_identity},
-                  {"Import", take_include},
-                  {"Include", take_include},
-                  {"Integrator", take_options},
-                  {"LightSource", take_light},
-                  {"LookAt", take_look_at},
-                  {"MakeNamedMaterial", take_make_material},
-                  {"MakeNamedMedium", take_medium},
-                  {"Material", take_material},
-                  {"MediumInterface", take_interface},
-                  {"NamedMaterial", take_named_material},
-                  {"ObjectBegin", take_object_begin},
-                  {"ObjectEnd", take_object_end},
-                  {"ObjectInstance", take_instance},
-                  {"Option", take_nothing},
-                  {"PixelFilter", take_options},
-                  {"ReverseOrientation", take_reverse},
-                  {"Rotate", take_rotate},
-                  {"Sampler", take_options},
-                  {"Scale", take_scale},
-                  {"Shape", take_shape},
-                  {"Texture", take_texture},
-                  {"Transform", take_transform},
-                  {"TransformBegin", push},
-                  {"TransformEnd", take_transform_end},
-                  {"TransformTimes", take_times},
-                  {"Translate", take_translate},
-                  {"WorldBegin", take_world}};
+    bool describes; /* its parameters describe the scene: those that are not used are named */
+} directives[] = {{"ActiveTransform", take_active, false},
+                  {"AreaLightSource", take_area_light, true},
+                  {"Accelerator", take_options, false},
+                  {"Attribute", take_attribute, false},
+                  {"AttributeBegin", push, false},
+                  {"AttributeEnd", take_attribute_end, false},
+                  {"Camera", take_camera, true},
+                  {"ColorSpace", take_options, false},
+                  {"ConcatTransform", take_concat, false},
+                  {"CoordSysTransform", take_coordinate_transform, false},
+                  {"CoordinateSystem", take_coordinate_system, false},
+                  {"Film", take_film, false},
+                  {"Identity", take_identity, false},
+                  {"Import", take_include, false},
+                  {"Include", take_include, false},
+                  {"Integrator", take_options, false},
+                  {"LightSource", take_light, true},
+                  {"LookAt", take_look_at, false},
+                  {"MakeNamedMaterial", take_make_material, true},
+                  {"MakeNamedMedium", take_medium, true},
+                  {"Material", take_material, true},
+                  {"MediumInterface", take_interface, false},
+                  {"NamedMaterial", take_named_material, false},
+                  {"ObjectBegin", take_object_begin, false},
+                  {"ObjectEnd", take_object_end, false},
+                  {"ObjectInstance", take_instance, false},
+                  {"Option", take_nothing, false},
+                  {"PixelFilter", take_options, false},
+                  {"ReverseOrientation", take_reverse, false},
+                  {"Rotate", take_rotate, false},
+                  {"Sampler", take_options, false},
+                  {"Scale", take_scale, false},
+                  {"Shape", take_shape, true},
+                  {"Texture", take_texture, true},
+                  {"Transform", take_transform, false},
+                  {"TransformBegin", push, false},
+                  {"TransformEnd", take_transform_end, false},
+                  {"TransformTimes", take_times, false},
+                  {"Translate", take_translate, false},
+                  {"WorldBegin", take_world, false}};
+
+/* The number of places of all warnings so far. */
+static size_t count_unknown(const reader *r)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < r->im->scene->n_unknown; i++) {
+        n += r->im->scene->unknown[i].n;
+    }
+    return n;
+}
+
+/* Names the parameters of a directive that nothing has asked for, except those that change no picture here. */
+static koksma_status name_unused(reader *r, const char *directive)
+{
+    static const struct {
+        const char *name, *value; /* value NULL: any */
+    } harmless[] = {{"type", NULL},          {"S", NULL},        {"faceIndices", NULL}, {"filter", NULL},
+                    {"maxanisotropy", NULL}, {"wrap", "repeat"}, {"encoding", "sRGB"},  {"mapping", "uv"},
+                    {"invert", "false"}};
+    const koksma__pbrt_parameters *p = r->parameters;
+    for (size_t i = 0; i < p->n; i++) {
+        bool named = r->used[i];
+        for (size_t k = 0; k < sizeof harmless / sizeof *harmless; k++) {
+            named |= !strcmp(p->items[i].name, harmless[k].name) &&
+                     (!harmless[k].value || !strcmp(p->items[i].text, harmless[k].value));
+        }
+        KOKSMA__TRY(named ? KOKSMA_OK
+                          : koksma__import_unknown(r->im, p->place, "parameter '%s' of %s is ignored",
+                                                   p->items[i].name, directive));
+    }
+    return KOKSMA_OK;
+}
 
 static koksma_status read_source(reader *r, source *s)
 {
@@ -625,7 +712,12 @@ static koksma_status read_source(reader *r, source *s)
             return koksma__import_fail(s->place, "'%.*s' is not a directive of pbrt-v4",
                                        t.length < 40 ? (int)t.length : 40, t.at);
         }
-        const koksma_status status = directives[i].take(r, s);
+        const size_t before = directives[i].describes ? count_unknown(r) : 0;
+        memset(r->used, 0, sizeof r->used);
+        koksma_status status = directives[i].take(r, s);
+        if (!status && directives[i].describes && before == count_unknown(r)) { /* else it was replaced already */
+            status = name_unused(r, directives[i].name);
+        }
         koksma__pbrt_parameters_fini(r->parameters);
         KOKSMA__TRY(status);
     }
@@ -657,6 +749,29 @@ static koksma_status check_window(reader *r, double aspect)
                : KOKSMA_OK;
 }
 
+/* Sets the camera's motion, which is straight here: a camera that turns as well stands still. */
+static koksma_status set_motion(reader *r, double motion[3])
+{
+    double largest = 0;
+    bool turns = false;
+    for (int i = 0; i < 12; i++) {
+        largest = fmax(largest, i % 4 < 3 ? fabs(r->camera[0][i]) : 0);
+    }
+    for (int i = 0; i < 12; i++) {
+        const double change = r->camera[1][i] - r->camera[0][i];
+        turns |= i % 4 < 3 && fabs(change) > 1e-6 * largest;
+        motion[i / 4] = i % 4 == 3 ? change : 0;
+        if (i % 4 == 3 && !(fabs(r->camera[1][i]) <= FAR)) {
+            return koksma__import_fail(r->camera_place, "the camera moves beyond 1e6");
+        }
+    }
+    if (turns) {
+        memset(motion, 0, 3 * sizeof *motion);
+        return koksma__import_unknown(r->im, r->camera_place, "the camera turns or zooms: it stays as at the start");
+    }
+    return KOKSMA_OK;
+}
+
 /* Sets the camera. pbrt's angle of view is that of a screen window of -1 to 1. */
 static koksma_status set_camera(reader *r)
 {
@@ -669,15 +784,35 @@ static koksma_status set_camera(reader *r)
         default_window(r, aspect);
     }
     KOKSMA__TRY(check_window(r, aspect));
+    KOKSMA__TRY(set_motion(r, camera.motion));
     if (r->orthographic) {
         camera.height = w[3] - w[2];
         for (int k = 0; k < 3; k++) { /* moves the camera to the middle of the window */
-            r->camera[4 * k + 3] += (w[0] + w[1]) / 2 * r->camera[4 * k] + (w[2] + w[3]) / 2 * r->camera[4 * k + 1];
+            double *row = r->camera[0] + 4 * k;
+            row[3] += (w[0] + w[1]) / 2 * row[0] + (w[2] + w[3]) / 2 * row[1];
         }
     } else {
         camera.fov_rad = 2 * atan(tan(r->fov_deg * TURN / 720) * (w[3] - w[2]) / 2);
     }
-    return koksma__import_camera(r->im, r->camera_place, r->camera, 1, &camera);
+    return koksma__import_camera(r->im, r->camera_place, r->camera[0], 1, &camera);
+}
+
+/* Sets the times at which the shutter opens and closes, as fractions of the motion's. */
+static koksma_status set_shutter(reader *r)
+{
+    koksma_scene *scene = r->im->scene;
+    const double length = r->times[1] - r->times[0];
+    koksma__scene_finish(scene);
+    if (!scene->moves) {
+        return KOKSMA_OK;
+    }
+    if (!(length > 0 && r->shutter[0] <= r->shutter[1])) {
+        return koksma__import_fail(r->camera_place, "TransformTimes or the shutter end before they begin");
+    }
+    for (int i = 0; i < 2; i++) {
+        scene->camera.shutter[i] = fmin(fmax((r->shutter[i] - r->times[0]) / length, -FAR), FAR);
+    }
+    return KOKSMA_OK;
 }
 
 /* Fills the scene with the medium that contains the camera. */
@@ -702,19 +837,22 @@ static koksma_status set_medium(reader *r)
 
 koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t size)
 {
-    reader r = {.im = im, .values = {.im = im}, .now.surface.material = -2};
+    reader r = {
+        .im = im, .values = {.im = im}, .now.surface.material = -2, .now.active = START | END, .times = {0, 1}};
     source s = {.at = text, .end = text + size, .place = {im->path, 1}};
     im->scene->width = 1280;
     im->scene->height = 720;
     r.parameters = calloc(1, sizeof *r.parameters);
     KOKSMA__REQUIRE_MEMORY(r.parameters, sizeof *r.parameters);
     r.parameters->place = s.place;
-    memcpy(r.now.matrix, koksma__import_identity, sizeof r.now.matrix);
-    koksma_status status = name_space(&r, "world", koksma__import_identity);
+    r.parameters->used = r.used;
+    koksma_status status = take_identity(&r, &s);
+    status = status ? status : name_space(&r, "world", (const double(*)[12])r.now.matrix);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
     status = status ? status : read_source(&r, &s);
     status = status ? status : set_camera(&r);
     status = status ? status : set_medium(&r);
+    status = status ? status : set_shutter(&r);
     for (size_t i = 0; i < r.n_objects; i++) {
         free(r.objects[i].items);
     }

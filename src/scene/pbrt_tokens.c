@@ -202,6 +202,9 @@ const koksma__pbrt_parameter *koksma__pbrt_find(const koksma__pbrt_parameters *p
 {
     for (size_t i = 0; i < p->n; i++) {
         if (!strcmp(p->items[i].name, name)) {
+            if (p->used) {
+                p->used[i] = true;
+            }
             return &p->items[i];
         }
     }

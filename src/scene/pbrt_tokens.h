@@ -37,6 +37,7 @@ typedef struct koksma__pbrt_parameter {
 typedef struct koksma__pbrt_parameters {
     koksma__pbrt_parameter items[KOKSMA__MAX_PBRT_PARAMETERS];
     size_t n;
+    bool *used; /* for each parameter, whether koksma__pbrt_find has found it; or NULL */
     koksma__text_place place;
 } koksma__pbrt_parameters;
 

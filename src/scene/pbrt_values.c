@@ -134,7 +134,7 @@ static koksma_status find_colour(koksma__pbrt_scene *scene, const koksma__pbrt_p
 koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
                                     double rgb[3])
 {
-    static const char *const unknown[] = {"power", "illuminance", "portal", "alpha", "twosided"};
+    static const char *const unknown[] = {"power", "illuminance", "portal", "alpha"};
     koksma__import_colour colour;
     KOKSMA__TRY(read_colour(scene, p, name, 1, true, &colour));
     for (int k = 0; k < 3; k++) {
@@ -157,6 +157,27 @@ static void mean_of(const koksma__import_colour *a, const koksma__import_colour 
     }
 }
 
+/* Reads how an image is mapped: (u, v) are scaled, then moved. The wrap mode "black" is named as unused. */
+static void set_mapping(const koksma__pbrt_parameters *p, koksma__mapping *to)
+{
+    const double scale[2] = {koksma__pbrt_number(p, "uscale", 1), koksma__pbrt_number(p, "vscale", 1)};
+    const double move[2] = {koksma__pbrt_number(p, "udelta", 0), koksma__pbrt_number(p, "vdelta", 0)};
+    const koksma__pbrt_parameter *wrap = NULL;
+    for (size_t i = 0; i < p->n; i++) {
+        wrap = !strcmp(p->items[i].name, "wrap") ? &p->items[i] : wrap;
+    }
+    if (wrap && !strcmp(wrap->text, "clamp")) {
+        koksma__pbrt_find(p, "wrap");
+        to->wrap[0] = to->wrap[1] = KOKSMA__WRAP_CLAMP;
+    }
+    to->nearest = !strcmp(koksma__pbrt_word(p, "filter", ""), "point");
+    to->moved = scale[0] != 1 || scale[1] != 1 || move[0] != 0 || move[1] != 0;
+    for (int k = 0; k < 2; k++) {
+        to->matrix[4 * k] = (float)scale[k];
+        to->matrix[3 * k + 2] = (float)move[k];
+    }
+}
+
 koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *kind,
                                    const koksma__pbrt_parameters *p)
 {
@@ -172,8 +193,8 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
     grey(0.5, c->rgb);
     if (!strcmp(kind, "imagemap")) {
         status = koksma__import_path(scene->im, p->place, koksma__pbrt_word(p, "filename", ""), c->image);
-        if (!status && (koksma__pbrt_number(p, "uscale", 1) != 1 || koksma__pbrt_number(p, "vscale", 1) != 1 ||
-                        koksma__pbrt_number(p, "scale", 1) != 1)) {
+        set_mapping(p, &c->mapping);
+        if (!status && koksma__pbrt_number(p, "scale", 1) != 1) {
             status = koksma__import_unknown(scene->im, p->place, "an image's scale is ignored");
         }
     } else if (!strcmp(kind, "constant")) {
@@ -231,6 +252,7 @@ static koksma_status metal(koksma__pbrt_scene *scene, const koksma__pbrt_paramet
     snprintf(eta_name, sizeof eta_name, "%seta", prefix);
     snprintf(k_name, sizeof k_name, "%sk", prefix);
     const koksma__pbrt_parameter *eta = koksma__pbrt_find(p, eta_name);
+    koksma__pbrt_find(p, k_name); /* a metal by its name has its reflectance from the name of eta */
     m->kind = KOKSMA__METAL;
     if (koksma__pbrt_find(p, "reflectance")) {
         return find_colour(scene, p, "reflectance", 1, &m->colour);

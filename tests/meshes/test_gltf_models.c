@@ -421,6 +421,74 @@ static void mirrored_squares_glow_in_front(void **state)
     }
 }
 
+/* Without doubleSided only front-facing triangles are seen, with it both sides are (glTF 2.0, section 3.9.6): of a
+   square that emits 1, before a lamp-lit one whose winding the node's scale, mirroring or not, decides (3.7.4). The camera
+   sees through a back to what is behind. As instances of one mesh, and alone. */
+static void backs_are_seen_as_the_file_says(void **state)
+{
+    (void)state;
+    need_meshes();
+    static const struct {
+        const char *node;
+        bool front;
+    } nodes[] = {{"", true},
+                 {", \"scale\": [1, 1, -1]", false},
+                 {", \"scale\": [-1, 1, -1]", false},
+                 {", \"scale\": [-1, -1, -1]", false},
+                 {", \"rotation\": [0, 1, 0, 0]", false},
+                 {", \"scale\": [-1, 1, 1], \"rotation\": [0, 1, 0, 0]", false},
+                 {", \"scale\": [1, 1, -1], \"rotation\": [0, 1, 0, 0]", true},
+                 {", \"scale\": [-2, 1, 1]", true}};
+    for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++) {
+        for (int two = 0; two < 2; two++) {
+            const char *material =
+                two ? "\"emissiveFactor\": [1, 1, 1], \"doubleSided\": true" : "\"emissiveFactor\": [1, 1, 1]";
+            char text[256];
+            snprintf(text, sizeof text, "{\"mesh\": 0%s}, {" LAMP("0") "}", nodes[i].node);
+            assert_near(lit(text, "0, 1, 2", material, DARK), two || nodes[i].front ? M_PI : 0, 1e-5);
+            snprintf(text, sizeof text,
+                     "{\"mesh\": 0%s}, {" LAMP("0") "}, {\"mesh\": 0%s, \"translation\": [9, 0, 0]}", nodes[i].node,
+                     nodes[i].node);
+            assert_near(lit(text, "0, 1, 2, 3", material, DARK), two || nodes[i].front ? M_PI : 0, 1e-5);
+        }
+    }
+    /* the camera, at z = 3, sees a square at 0 through the back of one at 1, which casts its shadow: a lamp beyond it leaves
+       the square at 0 dark, one between them does not */
+#define BETWEEN "{\"mesh\": 0}, {\"mesh\": 0, \"translation\": [0, 0, 1], \"rotation\": [0, 1, 0, 0]}, "
+    assert_near(lit(BETWEEN LAMP_AT("0", "3"), "0, 1, 2, 3", plain, NULL), 0, 0);
+    assert_near(lit(BETWEEN LAMP_AT("0", "0.6"), "0, 1, 2, 3", plain, "{\"type\": \"point\", \"intensity\": 0.09}"),
+                0.25 * seen(1, 1), 1e-4);
+    assert_near(lit(BETWEEN LAMP_AT("0", "3"), "0, 1, 2, 3",
+                    "\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, \"doubleSided\": true", NULL),
+                9.0 / 4 * seen(1, 1), 1e-4);
+}
+
+/* A material of glTF that emits and is double-sided lights what is behind it as what is before it. */
+static void double_sided_glow_lights_both_sides(void **state)
+{
+    (void)state;
+    need_meshes();
+    double got[2][2];
+    for (int two = 0; two < 2; two++) {
+        for (int turned = 0; turned < 2;
+             turned++) { /* the glowing square is beyond the camera, and turned to it or away */
+            char nodes[512];
+            snprintf(
+                nodes, sizeof nodes,
+                "{\"mesh\": 0, \"scale\": [0.01, 0.01, 0.01]}, {\"mesh\": 0, \"translation\": [0, 0, 4]%s}, {" LAMP(
+                    "0") "}",
+                turned ? ", \"rotation\": [0, 1, 0, 0]" : "");
+            got[two][turned] = lit(
+                nodes, "0, 1, 2, 3",
+                two ? "\"emissiveFactor\": [1, 1, 1], \"doubleSided\": true" : "\"emissiveFactor\": [1, 1, 1]", DARK);
+        }
+    }
+    assert_near(got[0][0], M_PI, 1e-5); /* the back gives no light: only what the small square emits */
+    assert_true(got[0][1] > M_PI + 0.01);
+    assert_true(got[1][0] > M_PI + 0.01);
+    assert_true(got[1][1] > M_PI + 0.01);
+}
+
 /* Triangles run counterclockwise about their normals, whatever the node's matrix, in a scene of the bare file (where
    the placement mirrors) and as one mesh (where the file's reader does). */
 static void mirrored_normals_stay_outside(void **state)
@@ -482,6 +550,8 @@ int main(void)
         cmocka_unit_test(what_is_not_read_is_said),
         cmocka_unit_test(every_node_with_a_light_has_one),
         cmocka_unit_test(mirrored_squares_glow_in_front),
+        cmocka_unit_test(backs_are_seen_as_the_file_says),
+        cmocka_unit_test(double_sided_glow_lights_both_sides),
         cmocka_unit_test(mirrored_normals_stay_outside),
         cmocka_unit_test(textures_are_moved),
         cmocka_unit_test(glow_is_sampled_by_its_texture),

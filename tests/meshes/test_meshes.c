@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Meshes against the analytic shapes that they approach, closed forms, and themselves. Without Embree the
-   tests are skipped. */
+   tests are skipped. Long because all of them share the shapes and their pictures. */
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -338,6 +338,39 @@ static void rotation_covers_its_share_of_time(void **state)
     unlink("half.ply");
 }
 
+/* A matrix is its pose's again, and the pose's stretch is symmetric, of positive or, where the matrix mirrors, negative
+   eigenvalues: that is the polar decomposition, and there is one only. */
+static void poses_are_polar_decompositions(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 400; i++) {
+        double m[12], back[12], largest = 0;
+        koksma__pose pose[2];
+        for (int k = 0; k < 12; k++) {
+            double u[2];
+            koksma__random_pair(4, 0, i, (uint32_t)k, u);
+            m[k] = i < 4 ? (k % 5 == 0 ? (k == 5 || i == 3 ? -1 : 1) * (double)(1 + i) : 0) : 20 * u[0] - 10;
+            largest = fmax(largest, fabs(m[k]));
+        }
+        assert_true(koksma__pose_of_matrix(m, &pose[0]));
+        pose[1] = pose[0];
+        koksma__poses_at(pose, 0.3, back);
+        const double *s = pose[0].stretch, sign = koksma__matrix_mirrors(m) ? -1 : 1;
+        for (int k = 0; k < 12; k++) {
+            assert_near(back[k], m[k], 1e-11 * largest);
+        }
+        for (int k = 0; k < 9; k++) {
+            assert_near(s[k], s[k / 3 + k % 3 * 3], 1e-11 * largest);
+        }
+        const double minor = s[0] * s[4] - s[1] * s[3]; /* Sylvester's criterion */
+        const double whole = s[0] * (s[4] * s[8] - s[5] * s[7]) - s[1] * (s[3] * s[8] - s[5] * s[6]) +
+                             s[2] * (s[3] * s[7] - s[4] * s[6]);
+        assert_true(sign * s[0] > 0 && minor > 0 && sign * whole > 0);
+    }
+    koksma__pose pose;
+    assert_false(koksma__pose_of_matrix((const double[12]){1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0}, &pose));
+}
+
 /* The poses at both ends have the matrices of their angles; half of the rotation twice is the whole one, and all
    positions between go straight. */
 static void poses_turn_evenly(void **state)
@@ -364,7 +397,7 @@ static void poses_turn_evenly(void **state)
             }
         }
         for (int k = 0; k < 3; k++) {
-            poses[0].scale[k] = poses[1].scale[k] = 1;
+            poses[0].stretch[4 * k] = poses[1].stretch[4 * k] = 1;
         }
         for (int t = 0; t < 3; t++) {
             koksma__poses_at(poses, t / 2.0, m[t]);
@@ -577,6 +610,7 @@ int main(void)
         cmocka_unit_test(motion_covers_its_share_of_time),
         cmocka_unit_test(rotation_covers_its_share_of_time),
         cmocka_unit_test(poses_turn_evenly),
+        cmocka_unit_test(poses_are_polar_decompositions),
         cmocka_unit_test(poses_are_placements),
         cmocka_unit_test(threads_and_modes_leave_no_trace),
         cmocka_unit_test(pictures_of_a_scene_share_its_tree),

@@ -241,10 +241,15 @@ class Agreement(unittest.TestCase):
         """An image on a floor, seen from above, whose four corners differ."""
         y, x = np.mgrid[0:64, 0:64] / 64
         mi.util.write_bitmap(self.path("floor.exr"), np.stack([.1 + .8 * x, .1 + .8 * y, .5 + .4 * (x > .5) * (y > .5)], 2).astype(np.float32), write_async=False)
-        texture = ('<bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value="floor.exr"/>'
-                   '<boolean name="raw" value="true"/></texture></bsdf>')
-        self.of_text(scene(rectangle(texture, '<scale value="1.5"/>', turn("x", -90)) + '<emitter type="constant"/>' +
-                           ball(diffuse("0.5")), eye="0.5, 5, 2", target="0, 0, 0"))
+        for name, mapping in (("plain", ""), ("moved", f'<transform name="to_uv"><scale x="2.5" y="1.5"/>{turn("z", 20)}</transform>'),
+                              ("mirrored", '<transform name="to_uv"><scale value="2.5"/></transform><string name="wrap_mode" value="mirror"/>'),
+                              ("clamped", '<transform name="to_uv"><scale value="2.5"/></transform><string name="wrap_mode" value="clamp"/>'
+                                          '<string name="filter_type" value="nearest"/>')):
+            texture = ('<bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value="floor.exr"/>'
+                       f'<boolean name="raw" value="true"/>{mapping}</texture></bsdf>')
+            with self.subTest(mapping=name):
+                self.of_text(scene(rectangle(texture, '<scale value="1.5"/>', turn("x", -90)) + '<emitter type="constant"/>' +
+                                   ball(diffuse("0.5")), eye="0.5, 5, 2", target="0, 0, 0"))
 
     def test_medium(self):
         """A box of haze around a ball on a floor, before a light in it, one outside and a sky, as our JSON and as Mitsuba's cube
@@ -272,6 +277,19 @@ class Agreement(unittest.TestCase):
             pathlib.Path(path).write_text(json.dumps(ours), encoding="utf-8")
             with self.subTest(light=name):
                 self.agree(mi.load_string(text), path, depth=depth)
+            with self.subTest(light=name, scene="Mitsuba's, read by us"):
+                self.of_text(text, depth=depth)
+
+    def test_medium_of_the_sensor(self):
+        """A cube of haze around the sensor, which names it, and most of a room. The light is outside: near a light in haze samples
+        have no finite variance."""
+        haze = (f'<medium type="homogeneous" id="haze">{rgb("sigma_t", "0.3, 0.4, 0.5")}{rgb("albedo", "0.9, 0.7, 0.5")}'
+                '<float name="scale" value="0.5"/></medium>')
+        cube = (f'<shape type="cube"><transform name="to_world"><scale x="4" y="4" z="7"/>{move(y=-2)}</transform><bsdf type="null"/>'
+                '<ref name="interior" id="haze"/></shape>')
+        light = f'<emitter type="point"><point name="position" x="0.4" y="3.4" z="1"/>{rgb("intensity", "9, 8, 7")}</emitter>'
+        text = scene(ROOM + light + ball(diffuse("0.6")) + cube, depth=6).replace('"path"', '"volpath"')
+        self.of_text(text.replace("<sensor", haze + "<sensor").replace("<film", '<ref id="haze"/><film'), depth=4)
 
 
 if __name__ == "__main__":

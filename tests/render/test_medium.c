@@ -208,6 +208,36 @@ static void single_scattering_is_its_integral(void **state)
     }
 }
 
+/* Beyond a wall that has the light on its other side haze is dark, although nothing else is there for a shadow; and beside
+   the same wall it is as bright as without. The ray of scattered_once() runs along -z at x = y = 0. */
+static void haze_lies_in_the_shadow_of_a_wall(void **state)
+{
+    (void)state;
+    static const struct {
+        double height; /* of the wall, between the ray and the light */
+        bool lit;
+    } walls[] = {{0.5, false}, {-0.5, true}, {1.5, true}};
+    for (size_t w = 0; w < sizeof walls / sizeof *walls; w++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            EYE("0.01") "\"medium\": {\"sigma_a\": 0.05, \"sigma_s\": 0.1, \"low\": [-9, -9, -3], \"high\": [9, 9, "
+                        "4]}, " LAMBERT
+                        "\"shapes\": [{\"kind\": \"rectangle\", \"centre\": [0, %g, 0], \"normal\": [0, "
+                        "1, 0], \"half\": [90, 90], \"material\": \"m\"}], \"lights\": [{\"kind\": \"point\", "
+                        "\"centre\": [0, 1, 2], \"intensity\": 2}]}",
+            walls[w].height);
+        koksma_scene *scene = scene_of(text);
+        koksma_render_options options = options_of(scene, "random", "path", 64, 32);
+        double mean[3], error[3];
+        options.depth = 0;
+        render_means(scene, &options, mean, error);
+        assert_mean(mean[0], error[0], walls[w].lit ? scattered_once(0.05, 0.1, 0) : 0);
+        assert_true(walls[w].lit || mean[0] == 0);
+        koksma_scene_close(scene);
+    }
+}
+
 /* For any weights of a path: of the rays of length 3 the mean weight of those that pass is the transmittance, that of those that are
    scattered the part b / (a + b) of the rest, and that before the length 1 likewise; and the sum of the path's weights never
    grows. */
@@ -504,6 +534,7 @@ int main(void)
         cmocka_unit_test(absorption_is_exponential),
         cmocka_unit_test(unscattered_light_is_exponential),
         cmocka_unit_test(single_scattering_is_its_integral),
+        cmocka_unit_test(haze_lies_in_the_shadow_of_a_wall),
         cmocka_unit_test(samples_are_unbiased_for_any_weights),
         cmocka_unit_test(white_furnaces_are_white),
         cmocka_unit_test(emitting_enclosures_are_white),

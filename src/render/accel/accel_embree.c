@@ -5,8 +5,8 @@
  * traced in packets of 16 if the machine supports them, otherwise of 8; a hit's position and normal are computed from
  * its triangle, not from the ray, so that they are as exact as the vertices.
  *
- * Triangles that are transparent to some rays (glTF's alpha) are skipped by a filter function, which Embree calls at
- * each hit. The file is long because only one file may include Embree's header.
+ * Triangles that are transparent to some rays (glTF's alpha), or whose back the camera does not see, are skipped by a
+ * filter function, which Embree calls at each hit. The file is long because only one file may include Embree's header.
  *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
  * threads, but not between versions of Embree or the instruction sets that Embree selects. The floating-point mode is
@@ -31,6 +31,7 @@
 #define HOST ((const koksma__mesh_host *)koksma__own_host->functions)
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
+#define FROM_CAMERA 1u            /* the id of rays that start at the camera, for the filter function */
 #define SHADOW_END (1 - 0x1p-16f) /* the same value as KOKSMA__SHADOW_END, which the analytic shapes use */
 
 /* ---- Triangles of placed meshes ----------------------------------------------------------------------------- */
@@ -48,6 +49,9 @@ typedef struct part {
     int32_t first; /* index of its first triangle among all primitives */
     /* its material, if some rays may pass through its triangles; otherwise NULL */
     const koksma__material *see_through;
+    /* 0: both sides are seen; otherwise rays from the camera pass through the back: this number times the dot product of
+       the ray's direction and the triangle's normal, in the coordinates of Embree's triangles, is positive there */
+    float front;
 } part;
 
 static void place(const float matrix[12], const float v[3], float out[3])
@@ -288,7 +292,7 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
    to 0. */
 #define PACKETS(WIDTH)                                                                                               \
     static int intersect_##WIDTH(const embree *e, const starts *s, const koksma__rays *rays, int start,              \
-                                 bool coherent, const koksma__hits *hits, koksma__landings *on)                      \
+                                 bool from_camera, const koksma__hits *hits, koksma__landings *on)                   \
     {                                                                                                                \
         _Alignas(64) int valid[WIDTH];                                                                               \
         struct RTCRayHit##WIDTH packet;                                                                              \
@@ -304,11 +308,12 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
             valid[i] = -1;                                                                                           \
             packet.ray.tnear[i] = 0;                                                                                 \
             packet.ray.mask[i] = ~0u;                                                                                \
-            packet.ray.id[i] = packet.ray.flags[i] = 0;                                                              \
+            packet.ray.id[i] = from_camera ? FROM_CAMERA : 0;                                                        \
+            packet.ray.flags[i] = 0;                                                                                 \
             packet.ray.time[i] = e->moves ? rays->time[start + i] : 0;                                               \
             packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;                                \
         }                                                                                                            \
-        CONTEXT(coherent);                                                                                           \
+        CONTEXT(from_camera); /* which are coherent */                                                               \
         INTERSECT(WIDTH, valid, e, &packet);                                                                         \
         memcpy(on->t + start, packet.ray.tfar, sizeof packet.ray.tfar);                                              \
         memcpy(on->u + start, packet.hit.u, sizeof packet.hit.u);                                                    \
@@ -520,16 +525,30 @@ static bool is_there(const part *p, uint32_t t, float u, float v)
     return (float)(hash >> 8) * 0x1p-24f < share;
 }
 
-/* The filter function that Embree calls. Embree stores a hit of N rays as arrays of N numbers: the normal (three
-   arrays), u, v, the triangle, and others; its C interface has no names for the arrays. */
+/* Whether ray i of n comes from the camera and meets a back that the camera does not see. */
+static bool is_hidden(const part *p, const float *ray, const float *normal, unsigned n, unsigned i)
+{
+    enum { DIRECTION = 4, ID = 10 };
+    const float *d = ray + DIRECTION * n;
+    uint32_t id;
+    memcpy(&id, ray + ID * n + i, sizeof id);
+    return id == FROM_CAMERA &&
+           p->front * (d[i] * normal[i] + d[n + i] * normal[n + i] + d[2 * n + i] * normal[2 * n + i]) > 0;
+}
+
+/* The filter function that Embree calls. Embree stores n rays as arrays of n numbers: the origin (three arrays), tnear,
+   the direction, the time, tfar, the mask, the id and the flags; and their hits likewise: the normal, u, v, the triangle,
+   and others. Its C interface has no names for the arrays. */
 static void pass_by(const struct RTCFilterFunctionNArguments *a)
 {
     const part *p = a->geometryUserPtr;
-    const float *numbers = (const float *)(const void *)a->hit;
+    const float *numbers = (const float *)(const void *)a->hit, *ray = (const float *)(const void *)a->ray;
     for (unsigned i = 0; i < a->N; i++) {
         uint32_t triangle;
         memcpy(&triangle, numbers + 5 * a->N + i, sizeof triangle);
-        if (a->valid[i] == -1 && !is_there(p, triangle, numbers[3 * a->N + i], numbers[4 * a->N + i])) {
+        if (a->valid[i] == -1 &&
+            (is_hidden(p, ray, numbers, a->N, i) ||
+             (p->see_through && !is_there(p, triangle, numbers[3 * a->N + i], numbers[4 * a->N + i])))) {
             a->valid[i] = 0;
         }
     }
@@ -582,6 +601,7 @@ static part make_part(const koksma_scene *scene, const koksma__placement *from, 
     double normals[9];
     const koksma__material *material = from->material < 0 ? NULL : &scene->materials[from->material];
     p.see_through = material && material->see_through ? material : NULL;
+    p.front = material && material->one_sided ? 1 : 0;
     HOST->normal_matrix(from->matrix, normals);
     for (int i = 0; i < 12; i++) {
         p.matrix[i] = (float)from->matrix[i];
@@ -603,9 +623,11 @@ static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGe
 {
     const koksma__mesh *m = p->mesh;
     RTCGeometry g = *out = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    if (p->see_through) {
+    if (p->see_through || p->front != 0) {
         rtcSetGeometryUserData(g, p);
         rtcSetGeometryIntersectFilterFunction(g, pass_by);
+    }
+    if (p->see_through) { /* backs block shadow rays */
         rtcSetGeometryOccludedFilterFunction(g, pass_by);
     }
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, m->indices, 0, 3 * sizeof *m->indices,
@@ -659,7 +681,7 @@ static koksma_status make_keys(const koksma__placement *from, part *p)
     }
     for (int i = 0; p->steps && i <= p->steps; i++) {
         double matrix[12];
-        HOST->poses_at(from->poses, (double)i / p->steps, matrix);
+        HOST->placement_at(from, (double)i / p->steps, matrix);
         for (int k = 0; k < 12; k++) {
             p->keys[i][k] = (float)matrix[k];
         }
@@ -670,6 +692,7 @@ static koksma_status make_keys(const koksma__placement *from, part *p)
 static koksma_status make_instance(embree *e, const koksma__placement *from, part *p, size_t m, RTCGeometry *out)
 {
     const unsigned steps = p->steps ? (unsigned)p->steps : p->moves;
+    p->front *= HOST->matrix_mirrors(from->matrix) ? -1.0f : 1.0f;
     KOKSMA__TRY(make_shared(e, p, m));
     KOKSMA__TRY(make_keys(from, p));
     RTCGeometry g = *out = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_INSTANCE);

@@ -6,7 +6,8 @@
 #include "modules/module.h"
 #include "render/accel/accel_shapes.h"
 
-static const koksma__mesh_host host = {koksma__accel_shapes, koksma__batch, koksma__normal_matrix, koksma__poses_at};
+static const koksma__mesh_host host = {koksma__accel_shapes, koksma__batch, koksma__normal_matrix,
+                                       koksma__placement_at, koksma__matrix_mirrors};
 static const koksma__module module = {"embree", "Embree", {koksma__fail, koksma__fail_memory, &host}};
 
 const char *koksma_mesh_tracer(void)

@@ -16,7 +16,8 @@ typedef struct koksma__mesh_host {
     koksma_status (*shapes)(const koksma_scene *scene, koksma__geometry *out); /* koksma__accel_shapes */
     const koksma__batch_table *(*batch)(void);
     void (*normal_matrix)(const double matrix[12], double out[9]);
-    void (*poses_at)(const koksma__pose poses[2], double t, double matrix[12]);
+    void (*placement_at)(const koksma__placement *placement, double t, double matrix[12]);
+    bool (*matrix_mirrors)(const double matrix[12]);
 } koksma__mesh_host;
 
 /* Makes the geometry of the scene's shapes and meshes. Errors: UNSUPPORTED (the module is missing), ARGUMENT, MEMORY,

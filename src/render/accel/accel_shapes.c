@@ -2,7 +2,7 @@
 /*
  * The geometry of scenes with only analytic shapes, without a tree: every shape is intersected with every block of
  * rays. A flat shape casts no shadow if all other shapes and all lights lie on one side of it, because that side is
- * convex; shadow rays therefore skip, for example, a floor.
+ * convex; shadow rays therefore skip, for example, a floor. In a medium they may start on the other side.
  */
 #include "render/accel/accel_shapes.h"
 
@@ -79,7 +79,7 @@ static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat
 {
     static const double none[3] = {0, 0, 0};
     const double tiny = 1e-9;
-    bool all = flat->type->is_flat && !scene->moves;
+    bool all = flat->type->is_flat && !scene->moves && !scene->medium.is_there;
     for (size_t i = 0; all && i < scene->n_shapes; i++) {
         const koksma__shape *s = &scene->shapes[i];
         const double radius = s->type->radius ? s->type->radius(s) : s->half[0];

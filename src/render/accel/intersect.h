@@ -24,7 +24,7 @@ typedef struct koksma__geometry {
        NULL */
     const koksma__batch_shapes *shapes, *occluders;
     /* Finds the closest hits of n rays and returns the number of lanes with a hit. from: the primitive on which each
-       ray starts (-1: none), or NULL if no ray starts on a primitive. */
+       ray starts (-1: none), or NULL for rays from the camera, which pass through backs of one-sided meshes. */
     int (*closest)(const struct koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
                    koksma__hits *hits);
     /* Sets the light of shadow rays that are blocked to 0; hits->time is the time of each ray. */

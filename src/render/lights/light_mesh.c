@@ -4,7 +4,7 @@
  * in proportion to its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that
  * positions are uniform over the whole area. With an image of the emission, the weight of a triangle is its emission,
  * estimated at 16 positions, plus a twentieth of the mean emission, so that every emitting triangle can be chosen;
- * the image is looked up at the position chosen. A shadow ray ends before the triangle by 2^-20 of the position's
+ * the image is looked up at the position chosen. A two-sided mesh emits the same from both sides. A shadow ray ends before the triangle by 2^-20 of the position's
  * largest coordinate (rays that leave a triangle start at the same distance from it, batch_triangles.c); otherwise
  * rounding could make the ray hit the light at which it is aimed.
  */
@@ -115,8 +115,9 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
         square += half * half;
     }
     light->half[0] = light->half[1] = (float)sqrt(square);
+    light->two_sided = from->two_sided;
     koksma__emitter_open(light, area, light->half[0]);
-    light->power *= (float)mean;
+    light->power *= (float)mean * (light->two_sided ? 2 : 1);
     return light->area > 0 ? KOKSMA_OK : koksma__fail(KOKSMA_MALFORMED, "a luminous mesh without area");
 }
 
@@ -154,7 +155,11 @@ static bool sample(const koksma__shading_light *light, const float p[3], const f
     }
     const float square = koksma__dot3(out->d, out->d), length = sqrtf(square);
     koksma__unit3(n);
-    const float at_light = -koksma__dot3(n, out->d);
+    float at_light = -koksma__dot3(n, out->d);
+    if (light->two_sided && at_light < 0) {
+        at_light = -at_light;
+        n[0] = -n[0], n[1] = -n[1], n[2] = -n[2];
+    }
     if (!(at_light > 0)) {
         return false; /* no light: p is behind the triangle, or the triangle has no area */
     }
@@ -185,10 +190,11 @@ static float met(const koksma__shading_light *light, uint32_t triangle, const fl
     return m->map ? m->densities[triangle] : 1 / light->area;
 }
 
-/* On average over directions, the projected area of a convex body is a quarter of its surface (Cauchy). */
+/* On average over directions, the projected area of a convex body is a quarter of its surface (Cauchy), and that of a
+   two-sided sheet half of its area. */
 static bool centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
 {
-    if (!koksma__point_beam(light, p, light->area / 4, out)) {
+    if (!koksma__point_beam(light, p, light->area / (light->two_sided ? 2 : 4), out)) {
         return false;
     }
     for (int k = 0; k < 3; k++) { /* the ray ends before it reaches the mesh */

@@ -18,7 +18,7 @@
 /* A light in floats, as the renderer reads it. */
 typedef struct koksma__shading_light {
     const struct koksma__light_kind *kind;
-    bool visible;
+    bool visible, two_sided; /* two_sided: a mesh that emits from its back, too */
     float centre[3], axis_u[3], axis_v[3], normal[3], half[2];
     float radiance[3];
     float values[KOKSMA__MAX_VALUES]; /* values of the kind's parameters */

@@ -33,6 +33,13 @@ void BATCH_NAME(to_disk)(int n, float *restrict x, float *restrict y)
     }
 }
 
+/* The time of a ray: before and after the motion, which lasts from 0 to 1, all stand as at its start or end. */
+INLINE float time_of(const struct koksma__lens *lens, float u)
+{
+    const float time = lens->open + lens->interval * u, late = time < 1 ? time : 1;
+    return late > 0 ? late : 0;
+}
+
 void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__lens *lens, const float *restrict xy,
                        const float *x, const float *y, const float *u, int n, struct koksma__paths *restrict to)
 {
@@ -48,7 +55,7 @@ void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__
         LANES_APART
         for (int i = 0; i < STEP(n); i++) {
             const float shift = l.radius * (lens_x[i] * l.right[k] + lens_y[i] * l.down[k]);
-            const float time = l.open + l.interval * times[i];
+            const float time = time_of(&l, times[i]);
             ok[i] = c.eye[k] + time * l.motion[k] + shift;
             dk[i] = c.base[k] + xy[2 * i] * c.step_x[k] + xy[2 * i + 1] * c.step_y[k] - shift * inverse;
             to->beta[k][i] = 1;
@@ -57,7 +64,7 @@ void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__
     }
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        to->rays.time[i] = l.open + l.interval * times[i];
+        to->rays.time[i] = time_of(&l, times[i]);
         to->pdf[i] = 0;
         to->from[i] = -1;
     }

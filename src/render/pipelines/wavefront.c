@@ -179,7 +179,7 @@ static void add_emission(const koksma__frame *frame, koksma__vertices *v, int i)
     const koksma__rays *rays = &v->paths->rays;
     const size_t light = (size_t)frame->geometry.light(&frame->geometry, hits->primitive[i]);
     const koksma__shading_light *l = &frame->lights.lights[light];
-    if (!hits->back[i]) {
+    if (!hits->back[i] || l->two_sided) {
         const float o[3] = {rays->ox[i], rays->oy[i], rays->oz[i]}, n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
         const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]}, length = sqrtf(koksma__dot3(d, d));
         float w[3];
@@ -199,14 +199,14 @@ static void add_glow(const koksma__frame *frame, koksma__vertices *v, int i)
     const float p[3] = {hits->px[i], hits->py[i], hits->pz[i]}, uv[2] = {hits->u[i], hits->v[i]};
     const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]};
     koksma__triangle triangle;
-    if (light < 0 || hits->back[i] ||
+    if (light < 0 || (hits->back[i] && !frame->lights.lights[light].two_sided) ||
         !frame->geometry.triangle(&frame->geometry, hits->primitive[i], p, rays->time[i], &triangle)) {
         return;
     }
     const koksma__shading_light *l = &frame->lights.lights[light];
     const float length = sqrtf(koksma__dot3(d, d)), t = hits->t[i] * length;
     float radiance[3];
-    const float cosine = -koksma__dot3(triangle.normal, d) / length;
+    const float cosine = -koksma__dot3(triangle.normal, d) / (l->two_sided && hits->back[i] ? -length : length);
     const float density = l->kind->met(l, triangle.number, uv, radiance);
     const float pdf = cosine > 0 ? t * t * density / cosine : 0;
     add_scaled(v, i, radiance, met_weight(frame, v->paths, i, (size_t)light, pdf));
