@@ -363,8 +363,8 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     Notes
     -----
     density and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk",
-    "poisson-disk-maximal" and "gaussian-blue-noise". Equal arguments give equal bits, and the same as `koksma
-    generate`.
+    "poisson-disk-maximal" and "gaussian-blue-noise"; the last two also with order=progressive. Equal arguments give
+    equal bits, and the same as `koksma generate`.
 
     Examples
     --------

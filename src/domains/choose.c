@@ -13,8 +13,9 @@
  *                          of dart_grid.c rejects a candidate that is nearer than the best one so far; the few others
  *                          are compared with all points: with c candidates a point in O(n (c + n log c)) in the plane
  *
- * poisson-disk-maximal and dart-throwing (maximal.c), and gaussian-blue-noise (gaussian.c), work differently. Each part of
- * a domain has a unit of distance; the distance of two points is measured in the smaller of their two units.
+ * poisson-disk-maximal and dart-throwing (maximal.c), and gaussian-blue-noise (gaussian.c), work differently. With
+ * order=progressive the elimination orders their finished sets. Each part of a domain has a unit of distance; the
+ * distance of two points is measured in the smaller of their two units.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -44,69 +45,105 @@ static koksma_status choose_first(const choice *c)
 
 /* ---- Elimination ----------------------------------------------------------------------------------------- */
 
-/* The candidates that are not eliminated yet, and a copy of them that the elimination reads. */
-typedef struct candidates {
-    double *xs, *units, *old_xs, *old_units;
-    uint64_t *who, *old_who;
-    uint32_t *order;
-} candidates;
-
-/* Keeps `keep` of `count` candidates and moves them to the front. */
-static koksma_status eliminate(const choice *c, candidates *a, size_t count, size_t keep, double d_max, double d_min)
+/* Returns d_max of n points. */
+static double radius_of(const koksma__point_domain *domain, size_t n)
 {
-    const size_t dim = (size_t)c->domain->dim;
-    memcpy(a->old_xs, a->xs, count * dim * sizeof *a->xs);
-    memcpy(a->old_units, a->units, count * sizeof *a->units);
-    memcpy(a->old_who, a->who, count * sizeof *a->who);
-    KOKSMA__TRY(koksma__eliminate_scaled(count, c->domain->dim, a->old_xs, c->domain->varies ? a->old_units : NULL,
-                                         c->domain->torus, keep, d_max, d_min, c->run, a->order));
-    for (size_t i = 0; i < count; i++) {
-        memcpy(a->xs + i * dim, a->old_xs + a->order[i] * dim, dim * sizeof *a->xs);
-        a->units[i] = a->old_units[a->order[i]];
-        a->who[i] = a->old_who[a->order[i]];
-    }
+    return koksma__elimination_radius(n, 2) * sqrt(domain->area);
+}
+
+/* Positions and units of distance of points, and an order of them. */
+typedef struct layout {
+    double *xs, *units; /* units: NULL if all are 1 */
+    uint32_t *order;
+} layout;
+
+static koksma_status layout_init(layout *l, const koksma__point_domain *domain, size_t n)
+{
+    const size_t dim = (size_t)domain->dim, bytes = n * ((dim + 1) * sizeof *l->xs + sizeof *l->order);
+    l->xs = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(l->xs, bytes);
+    l->units = domain->varies ? l->xs + n * dim : NULL;
+    l->order = (uint32_t *)(l->xs + n * (dim + 1));
     return KOKSMA_OK;
 }
 
-/* Chooses `length` of factor * length candidates; c->points receives the first n of them. */
-static koksma_status choose_from(const choice *c, size_t length, size_t factor, bool progressive)
+static void lay_out(layout *l, const koksma__point_domain *domain, size_t i, const koksma__domain_point *point)
 {
-    const size_t dim = (size_t)c->domain->dim, most = KOKSMA_MAX_COORDINATES / dim / factor, all = factor * length;
-    KOKSMA__FAIL_IF(length > most, KOKSMA_N, "%s: n = %zu is too large; n = %zu or less would do", c->pattern->name,
-                    length, most);
-    const size_t bytes = all * (2 * (dim + 2) * sizeof(double) + sizeof(uint32_t));
-    candidates a = {.xs = malloc(bytes)};
-    KOKSMA__REQUIRE_MEMORY(a.xs, bytes);
-    a.old_xs = a.xs + all * dim;
-    a.units = a.old_xs + all * dim;
-    a.old_units = a.units + all;
-    a.who = (uint64_t *)(a.old_units + all);
-    a.old_who = a.who + all;
-    a.order = (uint32_t *)(a.old_who + all);
+    domain->place(domain->data, point, l->xs + i * (size_t)domain->dim);
+    if (l->units) {
+        l->units[i] = domain->unit_of(domain->data, point->part);
+    }
+}
+
+/* Puts n points into progressive order; d_max and d_min are those of the whole set. */
+static koksma_status order_progressively(const koksma__point_domain *domain, size_t n, double d_max, double d_min,
+                                         const koksma_run *run, koksma__domain_point *points)
+{
+    layout l = {0};
+    koksma__domain_point *before = malloc(n * sizeof *before);
+    KOKSMA__REQUIRE_MEMORY(before, n * sizeof *before);
+    memcpy(before, points, n * sizeof *before);
+    koksma_status status = layout_init(&l, domain, n);
+    for (size_t i = 0; i < n && !status; i++) {
+        lay_out(&l, domain, i, &before[i]);
+    }
+    status = status ? status
+                    : koksma__progressive_order(n, domain->dim, l.xs, l.units, domain->torus, 2, d_max, d_min, run,
+                                                l.order);
+    for (size_t i = 0; i < n && !status; i++) {
+        points[i] = before[l.order[i]];
+    }
+    free(l.xs);
+    free(before);
+    return status;
+}
+
+/* Chooses `length` of factor * length candidates. */
+static koksma_status choose_from(const choice *c, size_t length, size_t factor, double d_max, double d_min,
+                                 koksma__domain_point *chosen)
+{
+    const koksma__point_domain *domain = c->domain;
+    const size_t all = factor * length;
+    layout l = {0};
+    KOKSMA__TRY(layout_init(&l, domain, all));
     for (size_t i = 0; i < all; i++) {
         koksma__domain_point point;
-        c->domain->draw(c->domain->data, c->seed, i, &point);
-        c->domain->place(c->domain->data, &point, a.xs + i * dim);
-        a.units[i] = c->domain->unit_of(c->domain->data, point.part);
-        a.who[i] = i;
+        domain->draw(domain->data, c->seed, i, &point);
+        lay_out(&l, domain, i, &point);
     }
-    double d_max = koksma__elimination_radius(length, 2) * sqrt(c->domain->area);
-    const double d_min = d_max * koksma__elimination_limit(length, all);
-    koksma_status status = eliminate(c, &a, all, length, d_max, d_min);
-    for (size_t left = length; progressive && left >= 3 && !status; left /= 2) {
-        d_max *= sqrt(2);
-        status = eliminate(c, &a, left, left / 2, d_max, d_min);
+    const koksma_status status = koksma__eliminate_scaled(all, domain->dim, l.xs, l.units, domain->torus, length,
+                                                          d_max, d_min, c->run, l.order);
+    for (size_t i = 0; i < length && !status; i++) {
+        domain->draw(domain->data, c->seed, l.order[i], &chosen[i]);
     }
-    for (size_t i = 0; i < c->n; i++) {
-        c->domain->draw(c->domain->data, c->seed, a.who[i], &c->points[i]);
+    free(l.xs);
+    return status;
+}
+
+/* Eliminates all but `length` candidates; c->points receives the first n of them, in progressive order if desired. */
+static koksma_status eliminate(const choice *c, size_t length, size_t factor, bool progressive)
+{
+    const size_t most = KOKSMA_MAX_COORDINATES / (size_t)c->domain->dim / factor;
+    KOKSMA__FAIL_IF(length > most, KOKSMA_N, "%s: n = %zu is too large; n = %zu or less would do", c->pattern->name,
+                    length, most);
+    const double d_max = radius_of(c->domain, length),
+                 d_min = d_max * koksma__elimination_limit(length, factor * length);
+    koksma__domain_point *chosen = malloc(length * sizeof *chosen);
+    KOKSMA__REQUIRE_MEMORY(chosen, length * sizeof *chosen);
+    koksma_status status = choose_from(c, length, factor, d_max, d_min, chosen);
+    if (!status && progressive) {
+        status = order_progressively(c->domain, length, d_max, d_min, c->run, chosen);
     }
-    free(a.xs);
+    if (!status) {
+        memcpy(c->points, chosen, c->n * sizeof *chosen);
+    }
+    free(chosen);
     return status;
 }
 
 static koksma_status choose_eliminated(const choice *c)
 {
-    return choose_from(c, c->n, (size_t)c->params[0], false);
+    return eliminate(c, c->n, (size_t)c->params[0], false);
 }
 
 static koksma_status choose_progressive(const choice *c)
@@ -115,7 +152,7 @@ static koksma_status choose_progressive(const choice *c)
     KOKSMA__FAIL_IF(c->n > length, KOKSMA_N,
                     "%s: length=%zu has %zu points, not %zu; n = %zu or less, or length=%zu, would do",
                     c->pattern->name, length, length, c->n, length, c->n);
-    return choose_from(c, length, (size_t)c->params[1], true);
+    return eliminate(c, length, (size_t)c->params[1], true);
 }
 
 /* ---- Darts ----------------------------------------------------------------------------------------------- */
@@ -221,20 +258,26 @@ static koksma_status choose_best(const choice *c)
 
 /* ---- The table ------------------------------------------------------------------------------------------- */
 
+static koksma_status order_finished(const choice *c)
+{
+    return order_progressively(c->domain, c->n, radius_of(c->domain, c->n), 0, c->run, c->points);
+}
+
 /* The patterns that can place points on a domain. A method reads the parameters by their order in the pattern's table
    of parameters. */
 static const struct {
     const char *pattern;
     koksma_status (*choose)(const choice *c);
+    size_t order; /* index of the parameter that asks for progressive order; 0: there is none */
 } methods[] = {
-    {"random", choose_first},
-    {"sample-elimination", choose_eliminated},
-    {"progressive-elimination", choose_progressive},
-    {"poisson-disk", choose_darts},
-    {"poisson-disk-maximal", koksma__choose_maximal},
-    {"dart-throwing", koksma__choose_fraction},
-    {"best-candidate", choose_best},
-    {"gaussian-blue-noise", koksma__choose_gaussian},
+    {"random", choose_first, 0},
+    {"sample-elimination", choose_eliminated, 0},
+    {"progressive-elimination", choose_progressive, 0},
+    {"poisson-disk", choose_darts, 0},
+    {"poisson-disk-maximal", koksma__choose_maximal, 1},
+    {"dart-throwing", koksma__choose_fraction, 0},
+    {"best-candidate", choose_best, 0},
+    {"gaussian-blue-noise", koksma__choose_gaussian, 3},
 };
 
 koksma_status koksma__domain_choose(const koksma__point_domain *domain, const koksma_spec *spec, uint64_t seed,
@@ -252,7 +295,8 @@ koksma_status koksma__domain_choose(const koksma__point_domain *domain, const ko
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (!strcmp(methods[i].pattern, p->name)) {
             const choice c = {domain, p, spec->params, seed, n, run, points};
-            return methods[i].choose(&c);
+            KOKSMA__TRY(methods[i].choose(&c));
+            return methods[i].order && spec->params[methods[i].order] > 0 ? order_finished(&c) : KOKSMA_OK;
         }
     }
     return koksma__fail(KOKSMA_UNSUPPORTED,

@@ -29,6 +29,9 @@
  * packing; from about 1.1 on, points that are close together feel nearly the same force, and many end at the same
  * position (in 20 sets of 100 points the smallest distance was 0.56 of the densest packing's at 1.05, 0.48 at 1.1,
  * 0.36 at 1.15).
+ *
+ * With order=progressive the finished set is put into Yuksel's progressive order (2015; shared/elimination.c): the points
+ * are the same, and every prefix is blue noise of its number. The plain order is random.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -38,6 +41,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/elimination.h"
 #include "patterns/shared/fill.h"
 #include "patterns/shared/space_forces.h"
 #include "patterns/shared/torus_rows.h"
@@ -203,11 +207,8 @@ static koksma_status generate_in_space(uint64_t seed, const koksma_args *args, k
     return status;
 }
 
-static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+static koksma_status generate_in_plane(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    if (out->dim > 2) {
-        return generate_in_space(seed, args, out);
-    }
     const size_t n = out->n;
     descent d = {.dim = 2, .n = n, .s = args->params[1] / sqrt((double)n), .step = args->params[2], .xs = out->xs};
     d.limit = TOLERANCE * d.s * d.s * (double)n; /* this limit is for the square root of the sum of n squares */
@@ -231,18 +232,28 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     return status;
 }
 
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const koksma_status status =
+        out->dim > 2 ? generate_in_space(seed, args, out) : generate_in_plane(seed, args, out);
+    return status || !(args->params[3] > 0) ? status : koksma__order_progressively(args->run, out);
+}
+
+static const char *const orders[] = {"plain", "progressive", NULL};
+
 static const koksma_param params[] = {
     {"steps", "number of steps of the descent; 0: until it has converged, at most 2000", 0, 0, 100000, NULL, true},
     {"sigma", "standard deviation of the Gaussian in units of 1/sqrt n (in 3 dimensions 1/cbrt n, and so on)", 1,
      0.15, 1.05, NULL, false},
     {"step", "distance that a point moves per unit of force", 0.4, 0.001, 1, NULL, false},
+    {"order", "order of the points: plain, or progressive (every prefix is blue noise, too)", 0, 0, 1, orders, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_gaussian_blue_noise = {
     .name = "gaussian-blue-noise",
     .title = "points that repel each other with Gaussian forces",
-    .cite = "ahmed2022 polyak1964",
+    .cite = "ahmed2022 polyak1964 yuksel2015",
     .min_dim = 2,
     .max_dim = KOKSMA__FORCE_DIMS,
     .claims = KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_BLUE | KOKSMA_CLAIM_UNBIASED,

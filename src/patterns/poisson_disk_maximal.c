@@ -13,6 +13,10 @@
  * volume of the unit ball: the saturation of random sequential addition (Zhang & Torquato 2013). Time and memory are
  * proportional to n and grow by a factor of 6 to 10 with each dimension: 400 points take 0.01, 0.2 and 2 s in 3, 4
  * and 5 dimensions.
+ *
+ * With order=progressive the finished set is put into Yuksel's progressive order (2015; shared/elimination.c): the points
+ * are the same, and every prefix is blue noise of its number. Prefixes of the plain order, that of the darts, are not: the
+ * first eighth of 512 points in the plane has a relative radius of 0.30, in progressive order 0.64.
  */
 #include <math.h>
 #include <string.h>
@@ -23,6 +27,7 @@
 #include "patterns/shared/ball_cover.h"
 #include "patterns/shared/dart_cover.h"
 #include "patterns/shared/dart_tiles.h"
+#include "patterns/shared/elimination.h"
 #include "patterns/shared/maximal_search.h"
 #include "patterns/shared/packing.h"
 
@@ -170,6 +175,11 @@ static bool is_possible(double d, size_t n, int dim)
     return dim == 2 ? area > 0.999 * 2 / sqrt(27) && area < 1.001 * 2 / sqrt(3) : packed > 0.999 && packed < 2.002;
 }
 
+static koksma_status finish(koksma_status status, const koksma_args *args, koksma_points *out)
+{
+    return status || !(args->params[1] > 0) ? status : koksma__order_progressively(args->run, out);
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const double d = args->params[0], expected = per_volume(out->dim) / pow(d, out->dim);
@@ -188,7 +198,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         memcpy(out->xs, *cover_xs(&c), (size_t)c.dim * out->n * sizeof *out->xs);
     }
     cover_fini(&c);
-    return status;
+    return finish(status, args, out);
 }
 
 static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points *out)
@@ -203,18 +213,21 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
         *cover_xs(&c) = NULL;
     }
     cover_fini(&c);
-    return status;
+    return finish(status, args, out);
 }
+
+static const char *const orders[] = {"plain", "progressive", NULL};
 
 static const koksma_param params[] = {
     {"d", "smallest distance; 0: the distance that gives n points", 0, 0, 8, NULL, false},
+    {"order", "order of the points: plain, or progressive (every prefix is blue noise, too)", 0, 0, 1, orders, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_poisson_disk_maximal = {
     .name = "poisson-disk-maximal",
     .title = "dart throwing on the torus until no further point fits",
-    .cite = "ebeida2012 cook1986 zhang2013",
+    .cite = "ebeida2012 cook1986 zhang2013 yuksel2015",
     .min_dim = 2,
     .max_dim = KOKSMA__BALL_DIMS,
     .claims = KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_MIN_DISTANCE | KOKSMA_CLAIM_MAXIMAL | KOKSMA_CLAIM_BLUE |

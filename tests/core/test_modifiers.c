@@ -230,41 +230,67 @@ static void digits_are_scrambled_by_definition(void **state)
     }
 }
 
-/* Owen's definition in base 3: images agree in as many leading digits as x and y do and differ in the next; that digit of x
-   goes to each value, and the pair to each of the six ordered pairs, equally often. A net in base 3 stays one. */
-static void digits_of_a_base_are_scrambled_by_definition(void **state)
+/* Fails unless all counts that `from` and `to` index are as equal as those of a uniform distribution, by chi-squared: at
+   most its quantile of 1 - 1e-5 (Wilson & Hilferty 1931). Without `same` only from != to are cells. */
+static void assert_uniform_pairs(const char *what, uint32_t base, bool same, const size_t (*seen)[8], size_t sum)
 {
-    (void)state;
-    enum { SEEDS = 3000 };
-    size_t at = 0;
-    modifier("owen-base", &at);
+    const double cells = base * (same ? base : base - 1.0), df = cells - 1, expected = (double)sum / cells;
+    const double cube = 1 - 2 / (9 * df) + 4.265 * sqrt(2 / (9 * df));
+    double squared = 0;
+    for (uint32_t i = 0; i < base; i++) {
+        for (uint32_t j = 0; j < base; j++) {
+            squared += same || i != j ? pow((double)seen[i][j] - expected, 2) / expected : 0;
+        }
+    }
+    if (!(squared < df * cube * cube * cube)) {
+        fail_msg("base %u, %s: chi-squared is %g with %g degrees of freedom", base, what, squared, df);
+    }
+}
+
+/* Owen's definition in a base: images agree in as many leading digits as x and y do and differ in the next; the pair of
+   digits there goes to each ordered pair of different digits equally often, so each digit to each value; the digits after
+   it are uniform and independent. */
+static void assert_scrambled_in(size_t at, uint32_t base)
+{
+    enum { SEEDS = 4000 };
     for (int common = 0; common < 6; common++) {
-        const double width = pow(3, -common - 1), x = floor(0.61 * pow(3, common)) * 3 * width, y = x + width;
-        size_t pairs[3][3] = {{0}};
+        const double parts = pow(base, common + 1), cell = floor(0.61 * pow(base, common)) * base;
+        const double x = cell / parts, y = (cell + 1) / parts;
+        size_t pairs[8][8] = {{0}}, next[8][8] = {{0}};
         for (uint64_t seed = 0; seed < SEEDS; seed++) {
             double xs[2] = {x, y}, values[KOKSMA_MAX_MODIFIERS] = {0};
             koksma_points points = {2, 1, xs};
-            values[at] = 3;
+            values[at] = base;
             koksma__modify(values, seed, &points);
-            const uint64_t a = (uint64_t)(xs[0] / width), b = (uint64_t)(xs[1] / width);
-            assert_int_equal(a / 3, b / 3);
-            pairs[a % 3][b % 3]++;
+            const uint64_t a = (uint64_t)(xs[0] * parts * base), b = (uint64_t)(xs[1] * parts * base);
+            assert_int_equal(a / base / base, b / base / base);
+            assert_int_not_equal(a / base % base, b / base % base);
+            pairs[a / base % base][b / base % base]++;
+            next[a % base][b % base]++;
         }
-        double chi = 0;
-        for (int i = 0; i < 3; i++) {
-            assert_int_equal(pairs[i][i], 0);
-            for (int j = 0; j < 3; j++) {
-                chi += i == j ? 0 : pow((double)pairs[i][j] - SEEDS / 6.0, 2) / (SEEDS / 6.0);
-            }
-        }
-        assert_true(chi < 20.5); /* five degrees of freedom, one in a thousand */
+        assert_uniform_pairs("the first digits that differ", base, false, (const size_t(*)[8])pairs, SEEDS);
+        assert_uniform_pairs("the digits after them", base, true, (const size_t(*)[8])next, SEEDS);
+    }
+}
+
+/* In bases 2 to 5 and 7; a net in the base stays one. */
+static void digits_of_a_base_are_scrambled_by_definition(void **state)
+{
+    (void)state;
+    static const uint32_t bases[] = {2, 3, 4, 5, 7};
+    size_t at = 0;
+    modifier("owen-base", &at);
+    for (size_t i = 0; i < sizeof bases / sizeof *bases; i++) {
+        assert_scrambled_in(at, bases[i]);
     }
     static const struct {
         const char *measure, *pattern;
         size_t n;
         int dim;
-    } nets[] = {
-        {"t-value:base=3", "faure", 243, 3}, {"t-value:base=5", "faure", 125, 5}, {"t-value:base=2", "sobol", 64, 2}};
+    } nets[] = {{"t-value:base=3", "faure", 243, 3}, {"t-value:base=5", "faure", 125, 5},
+                {"t-value:base=2", "sobol", 64, 2},  {"t-value:base=4", "sz", 256, 4},
+                {"t-value:base=4", "sz", 64, 4},     {"t-value:base=3", "ternary-quads", 243, 3},
+                {"t-value:base=7", "faure", 343, 7}};
     for (size_t i = 0; i < sizeof nets / sizeof *nets; i++) {
         koksma_spec spec, what;
         koksma_points points;

@@ -415,6 +415,101 @@ static void maximal_sets_cover_models(void **state)
     koksma_points_fini(&p);
 }
 
+/* ---- Progressive order ----------------------------------------------------------------------------------- */
+
+static size_t width; /* coordinates of a point in the sort */
+
+static int by_coordinates(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    int order = 0;
+    for (size_t k = 0; k < width && !order; k++) {
+        order = (x[k] > y[k]) - (x[k] < y[k]);
+    }
+    return order;
+}
+
+/* Fails unless both sets have the same points in different orders. Sorts them. */
+static void assert_same_points(koksma_points *a, koksma_points *b)
+{
+    width = (size_t)a->dim;
+    assert_memory_not_equal(a->xs, b->xs, a->n * width * sizeof *a->xs);
+    qsort(a->xs, a->n, width * sizeof *a->xs, by_coordinates);
+    qsort(b->xs, b->n, width * sizeof *b->xs, by_coordinates);
+    assert_memory_equal(a->xs, b->xs, a->n * width * sizeof *a->xs);
+}
+
+/* The least distance of two of the first n points, in the smaller unit of both, over that of the densest packing of n. */
+static double relative_radius(const koksma_points *p, size_t n)
+{
+    double d = INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < i; j++) {
+            const double *a = p->xs + 2 * i, *b = p->xs + 2 * j;
+            d = fmin(d, distance_of(a, b, 2, true) / fmin(unit_at(steps, a), unit_at(steps, b)));
+        }
+    }
+    return d / sqrt(2 / (sqrt(3) * (double)n));
+}
+
+static const char *const ordered[] = {"poisson-disk-maximal", "gaussian-blue-noise"};
+
+/* Prefixes follow the density, as blue noise of their number does; those of the plain order are random. */
+static void prefixes_follow_a_density(void **state)
+{
+    (void)state;
+    for (size_t s = 0; s < 2; s++) {
+        char text[64];
+        snprintf(text, sizeof text, "%s:order=progressive", ordered[s]);
+        koksma_points p = with_density(text, steps, 512, 1, 0), again = with_density(text, steps, 512, 1, 3);
+        koksma_points plain = with_density(ordered[s], steps, 512, 1, 0);
+        assert_memory_equal(p.xs, again.xs, 2 * p.n * sizeof *p.xs);
+        for (size_t n = 64; n <= 256; n *= 2) {
+            const koksma_points part = {.n = n, .dim = 2, .xs = p.xs}, random = {.n = n, .dim = 2, .xs = plain.xs};
+            const double radius = relative_radius(&p, n), radius_of_random = relative_radius(&plain, n);
+            const double power = deviation(&part, steps), power_of_random = deviation(&random, steps);
+            print_message("%s, first %zu of 512: relative radius %.3f (plain %.3f), power %.3f (plain %.3f)\n",
+                          ordered[s], n, radius, radius_of_random, power, power_of_random);
+            assert_true(radius > 0.57 && radius > radius_of_random + 0.02);
+            assert_true(power < 0.3 && power < 0.7 * power_of_random);
+        }
+        assert_same_points(&p, &plain);
+        koksma_points_fini(&p);
+        koksma_points_fini(&again);
+        koksma_points_fini(&plain);
+    }
+}
+
+/* The same on a model: distances, and counts in parts of equal area, of which independent points have a chi-squared of 16
+   on average. */
+static void prefixes_cover_models(void **state)
+{
+    (void)state;
+    for (size_t s = 0; s < 2; s++) {
+        char text[64];
+        snprintf(text, sizeof text, "%s:order=progressive", ordered[s]);
+        koksma_points p = on_model(text, 800, 1), plain = on_model(ordered[s], 800, 1);
+        for (size_t n = 100; n <= 400; n *= 2) {
+            const koksma_points part = {.n = n, .dim = 7, .xs = p.xs};
+            const double closest = sqrt(2 * total_area() / (sqrt(3) * (double)n));
+            double d = INFINITY, random = INFINITY;
+            for (size_t i = 0; i < n; i++) {
+                for (size_t j = 0; j < i; j++) {
+                    d = fmin(d, distance_of(p.xs + 7 * i, p.xs + 7 * j, 3, false));
+                    random = fmin(random, distance_of(plain.xs + 7 * i, plain.xs + 7 * j, 3, false));
+                }
+            }
+            print_message("%s, first %zu of 800: relative radius %.3f (plain %.3f), chi-squared %.2f\n", ordered[s],
+                          n, d / closest, random / closest, chi_squared(&part));
+            assert_true(d > 0.57 * closest && d > random + 0.02 * closest);
+            assert_true(chi_squared(&part) < 8);
+        }
+        assert_same_points(&p, &plain);
+        koksma_points_fini(&p);
+        koksma_points_fini(&plain);
+    }
+}
+
 static bool stop(void *context, double fraction)
 {
     (void)context;
@@ -447,6 +542,8 @@ int main(void)
         cmocka_unit_test(threads_have_no_effect),
         cmocka_unit_test(models_are_covered_evenly),
         cmocka_unit_test(maximal_sets_cover_models),
+        cmocka_unit_test(prefixes_follow_a_density),
+        cmocka_unit_test(prefixes_cover_models),
         cmocka_unit_test(calls_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, write_model, remove_model);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* interlaced-sobol, from Dick's definition digit by digit, and the orders of its errors for a smooth integrand: 2 and 3
    where Sobol' has 1, and half an order more when scrambled. */
+#include <stdlib.h>
+
 #include "test.h"
 
 static unsigned digit_of(double x, int digit)
@@ -73,11 +75,85 @@ static void errors_have_their_order(void **state)
     }
 }
 
+/* Of each subset of the first order * m rows of one coordinate's generator matrix, the first row in bit 0: the sum of the
+   rows, and the sum of the numbers of its `order` last rows, counted from 1: the weight of Dick 2008. */
+static void weigh(const koksma_points *points, int k, int m, int order, uint32_t *sums, uint32_t *weights)
+{
+    const int rows = order * m;
+    for (uint32_t set = 0; set < 1u << rows; set++) {
+        sums[set] = weights[set] = 0;
+        for (int row = rows, used = 0; row > 0; row--) {
+            if (set >> (row - 1) & 1) {
+                for (int c = 0; c < m; c++) { /* column c is point 2^c */
+                    sums[set] ^= digit_of(points->xs[((size_t)1 << c) * (size_t)points->dim + (size_t)k], row) << c;
+                }
+                weights[set] += used++ < order ? (uint32_t)row : 0;
+            }
+        }
+    }
+}
+
+/* The least t for which the first 2^m points are a digital (t, order, order * m x m, dim)-net: rows whose weights sum to at
+   most order * m - t are independent. The least weight of a set of rows whose sum is 0 is one more. */
+static int counted_t(const koksma_points *points, int m, int order)
+{
+    const size_t sets = (size_t)1 << (order * m);
+    uint32_t *sums = malloc(2 * sizeof *sums * 2 * sets), *weights = sums + 2 * sets, least = UINT32_MAX;
+    assert_non_null(sums);
+    for (int k = 0; k < points->dim; k++) {
+        weigh(points, k, m, order, sums + (size_t)k * sets, weights + (size_t)k * sets);
+    }
+    for (size_t a = 0; a < sets; a++) {
+        for (size_t b = 0; b < (points->dim == 2 ? sets : 1); b++) {
+            const uint32_t sum = sums[a] ^ (points->dim == 2 ? sums[sets + b] : 0);
+            const uint32_t weight = weights[a] + (points->dim == 2 ? weights[sets + b] : 0);
+            least = (a || b) && sum == 0 && weight < least ? weight : least;
+        }
+    }
+    free(sums);
+    const int t = order * m + 1 - (int)least;
+    return t > 0 ? t : 0;
+}
+
+/* Interlacing a digital (t, m, order dim)-net gives a net of higher order (Dick 2008). Its t, as above, is at most order t +
+   (order - 1) (dim order / 2 - 1): rows l_r of the coordinates r = 1 .. order become rows order (l_r - 1) + r of one, so
+   that a dependent set of the weight W, the sum of its largest l_r, of which each net has W > m - t, has a weight of at
+   least order W - (order - r) summed over all r and coordinates. */
+static void nets_are_of_higher_order(void **state)
+{
+    (void)state;
+    static const struct {
+        int order, dim, most;
+    } rows[] = {{1, 2, 8}, {2, 1, 8}, {2, 2, 5}, {3, 1, 6}, {3, 2, 3}, {4, 1, 4}, {5, 1, 3}};
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        const int order = rows[r].order, dim = rows[r].dim;
+        char text[64];
+        snprintf(text, sizeof text, "interlaced-sobol:order=%d", order);
+        for (int m = 1; m <= rows[r].most; m++) {
+            koksma_points points = test_points(text, (size_t)1 << m, dim, 0);
+            koksma_points base = test_points("sobol", (size_t)1 << m, order * dim, 0);
+            const int t = (int)test_measure("t-value", &base).value, found = counted_t(&points, m, order);
+            const int most = order * t + (order - 1) * dim * order / 2 - (order - 1);
+            if (found > most) {
+                fail_msg("order %d, %d dimensions, 2^%d points: t = %d, more than the %d of the theorem", order, dim,
+                         m, found, most);
+            }
+            koksma_points_fini(&points);
+            koksma_points_fini(&base);
+        }
+    }
+    /* Sobol' points are no such nets: 5 rows of small numbers are dependent */
+    koksma_points points = test_points("sobol", 32, 2, 0);
+    assert_true(counted_t(&points, 5, 2) > 2);
+    koksma_points_fini(&points);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(digits_alternate),
         cmocka_unit_test(errors_have_their_order),
+        cmocka_unit_test(nets_are_of_higher_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // node shaders.cjs PORTS glsl|wgsl FOLDER: runs the shader port in Chromium (WebGL 2, or WebGPU by a software adapter) for the draws of
-// tests/ports/vectors.c and compares hashes with PORTS/vectors.txt; then its example, which prints what all examples do. Exit code 77: Chromium, playwright-core or the interface is
-// not there. FOLDER has playwright-core.
+// tests/ports/vectors.c and compares hashes with PORTS/vectors.txt; then for draws in pairs of uses, pixels and frames, which are to
+// be independent; then its example, which prints what all examples do. Exit code 77: Chromium, playwright-core or the interface is not
+// there. FOLDER has playwright-core.
 const fs = require("fs");
 const [ports, language, modules] = process.argv.slice(2);
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
@@ -11,7 +12,36 @@ const skip = why => { console.log("skipped: " + why); process.exit(77); };
 if (!chromium || !playwright) skip((chromium ? "playwright-core" : "Chromium") + " is not installed (scripts/setup browser)");
 const source = fs.readFileSync(`${ports}/${language}/koksma_sampler.${language}`, "utf8");
 
-const fragment = `#version 300 es
+// Domain and index of draw k: of the vectors; and of sample 3 of 4,096 pixels, each in one use, in another, in the next pixel and in the
+// next frame.
+const glsl = {
+  hashesOf: `
+    uvec2 seed = koksma_seed_of_frame(uvec2(0x89abcdefu ^ k >> 18, 0x01234567u), k >> 16 & 3u);
+    uvec2 use = koksma_domain_of_use(koksma_domain_of_pixel(seed, k & 255u, k >> 8 & 255u), k % 5u);
+    uvec2 domain = koksma_domain_of_sample(use, k % 3u);
+    uint index = k * 2654435761u >> (k % 25u);`,
+  dependentOf: `
+    uint other = k >> 12 & 3u;
+    uvec2 seed = koksma_seed_of_frame(uvec2(1u, 0u), other == 3u ? 1u : 0u);
+    uvec2 pixel = koksma_domain_of_pixel(seed, (k & 63u) + (other == 2u ? 1u : 0u), k >> 6 & 63u);
+    uvec2 domain = koksma_domain_of_use(pixel, other == 1u ? 1u : 0u);
+    uint index = 3u;`,
+};
+const wgsl = {
+  hashesOf: `
+    let seed = koksma_seed_of_frame(vec2u(0x89abcdefu ^ (k >> 18u), 0x01234567u), (k >> 16u) & 3u);
+    let used = koksma_domain_of_use(koksma_domain_of_pixel(seed, k & 255u, (k >> 8u) & 255u), k % 5u);
+    let domain = koksma_domain_of_sample(used, k % 3u);
+    let index = (k * 2654435761u) >> (k % 25u);`,
+  dependentOf: `
+    let other = (k >> 12u) & 3u;
+    let seed = koksma_seed_of_frame(vec2u(1u, 0u), select(0u, 1u, other == 3u));
+    let pixel = koksma_domain_of_pixel(seed, (k & 63u) + select(0u, 1u, other == 2u), (k >> 6u) & 63u);
+    let domain = koksma_domain_of_use(pixel, select(0u, 1u, other == 1u));
+    let index = 3u;`,
+};
+
+const fragment = draw => `#version 300 es
 precision highp float;
 precision highp int;
 ${source}
@@ -20,33 +50,25 @@ layout(location = 1) out uvec4 second;
 layout(location = 2) out uvec4 third;
 void main()
 {
-    uint k = uint(gl_FragCoord.y) * 1024u + uint(gl_FragCoord.x);
-    uvec2 seed = koksma_seed_of_frame(uvec2(0x89abcdefu ^ k >> 18, 0x01234567u), k >> 16 & 3u);
-    uvec2 use = koksma_domain_of_use(koksma_domain_of_pixel(seed, k & 255u, k >> 8 & 255u), k % 5u);
-    uvec2 domain = koksma_domain_of_sample(use, k % 3u);
-    uint index = k * 2654435761u >> (k % 25u);
+    uint k = uint(gl_FragCoord.y) * 1024u + uint(gl_FragCoord.x);${draw}
     first = uvec4(domain, koksma_pmj02(domain, index));
     second = koksma_sobol(domain, index);
     third = koksma_white(domain, index);
 }`;
 
-const compute = `${source}
+const compute = draw => `${source}
 @group(0) @binding(0) var<storage, read_write> words: array<vec4u>;
 @group(0) @binding(1) var<uniform> first: vec4u;
 @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u)
 {
-    let k = first.x + id.x;
-    let seed = koksma_seed_of_frame(vec2u(0x89abcdefu ^ (k >> 18u), 0x01234567u), (k >> 16u) & 3u);
-    let used = koksma_domain_of_use(koksma_domain_of_pixel(seed, k & 255u, (k >> 8u) & 255u), k % 5u);
-    let domain = koksma_domain_of_sample(used, k % 3u);
-    let index = (k * 2654435761u) >> (k % 25u);
+    let k = first.x + id.x;${draw}
     words[3u * id.x] = vec4u(domain, koksma_pmj02(domain, index));
     words[3u * id.x + 1u] = koksma_sobol(domain, index);
     words[3u * id.x + 2u] = koksma_white(domain, index);
 }`;
 
-// In the page: all draws by WebGL, as [Uint32Array x 3], or a reason.
-function byWebGL(text) {
+// In the page: what hashesOf or dependentOf makes of all draws by WebGL, or a reason why there are none.
+function byWebGL(text, what) {
   const gl = document.createElement("canvas").getContext("webgl2");
   if (!gl) return { missing: "no WebGL 2" };
   const program = gl.createProgram();
@@ -78,10 +100,10 @@ function byWebGL(text) {
     gl.readPixels(0, 0, 1024, 1024, gl.RGBA_INTEGER, gl.UNSIGNED_INT, read);
     return read;
   });
-  return { hashes: hashesOf((k, w) => words[w >> 2][4 * k + (w & 3)]) };
+  return { found: window[what]((k, w) => words[w >> 2][4 * k + (w & 3)]) };
 }
 
-async function byWebGPU(text) {
+async function byWebGPU(text, what) {
   const adapter = navigator.gpu && await navigator.gpu.requestAdapter();
   if (!adapter) return { missing: "no WebGPU" };
   const device = await adapter.requestDevice();
@@ -109,7 +131,7 @@ async function byWebGPU(text) {
     words.set(new Uint32Array(read.getMappedRange()), 12 * (block << 14));
     read.destroy();
   }
-  return { hashes: hashesOf((k, w) => words[12 * k + w]) };
+  return { found: window[what]((k, w) => words[12 * k + w]) };
 }
 
 // In the page: for each block the hashes of domain, sobol, pmj02 and white. word(k, w) is word w of draw k.
@@ -126,16 +148,38 @@ function hashesOf(word) {
   return rows;
 }
 
+// In the page: the pairs of coordinates, here and in another domain, that are not uniform in 16 x 16 cells, by chi-square of 4,096 draws:
+// 255 degrees of freedom, 6 deviations of sqrt(510). The last line is the number of pairs.
+function dependentOf(word) {
+  const lines = [];
+  let pairs = 0;
+  for (const [name, of] of Object.entries({ sobol: [4, 5, 6, 7], pmj02: [2, 3], white: [8, 9, 10, 11] })) {
+    for (const other of [1, 2, 3]) {
+      for (const a of of) for (const b of of) {
+        const counts = new Array(256).fill(0);
+        for (let k = 0; k < 4096; k++) counts[(word(k, a) >>> 28) * 16 + (word(other << 12 | k, b) >>> 28)]++;
+        const squared = counts.reduce((sum, count) => sum + (count - 16) ** 2 / 16, 0);
+        if (Math.abs(squared - 255) > 6 * Math.sqrt(510)) lines.push(`${name}, ${["", "uses", "pixels", "frames"][other]}, words ${a} and ${b}: chi-square ${squared}`);
+        pairs++;
+      }
+    }
+  }
+  return [...lines, `${pairs} pairs`];
+}
+
 (async () => {
   const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader",
     "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan"] });
   const page = await browser.newPage();
   await page.route("https://koksma.invalid/", route => route.fulfill({ contentType: "text/html", body: "" })); /* WebGPU asks for https */
   await page.goto("https://koksma.invalid/");
-  await page.addScriptTag({ content: hashesOf.toString() });
-  const result = await page.evaluate(language === "glsl" ? `(${byWebGL})(${JSON.stringify(fragment)})` : `(${byWebGPU})(${JSON.stringify(compute)})`);
-  let shown = "";
-  if (result.hashes) {
+  await page.addScriptTag({ content: hashesOf.toString() + dependentOf });
+  const drawn = what => page.evaluate(language === "glsl" ? `(${byWebGL})(${JSON.stringify(fragment(glsl[what]))}, "${what}")`
+    : `(${byWebGPU})(${JSON.stringify(compute(wgsl[what]))}, "${what}")`);
+  const result = await drawn("hashesOf");
+  let shown = "", dependent;
+  if (result.found) {
+    dependent = (await drawn("dependentOf")).found;
     await page.route("https://koksma.invalid/*", route => route.fulfill({
       contentType: "text/html", body: fs.readFileSync(`${ports}/${language}/${new URL(route.request().url()).pathname}`, "utf8") }));
     await page.goto("https://koksma.invalid/example.html");
@@ -146,8 +190,9 @@ function hashesOf(word) {
   if (result.missing) skip(result.missing);
   if (result.wrong) { console.log(result.wrong); process.exit(1); }
   const expected = fs.readFileSync(`${ports}/vectors.txt`, "utf8").split("\n").filter(line => line && line[0] !== "#");
-  const different = expected.filter((line, k) => line !== result.hashes[k]);
+  const different = expected.filter((line, k) => line !== result.found[k]);
   console.log(`${different.length} of ${expected.length} blocks differ${different.length ? ", first: " + different[0] : ""}`);
   if (shown !== fs.readFileSync(`${ports}/example.txt`, "utf8")) { console.log("the example prints " + shown); process.exit(1); }
+  if (!dependent || dependent.join() !== "108 pairs") { console.log("two domains: " + (dependent || ["no draws"]).join("\n")); process.exit(1); }
   process.exit(different.length || expected.length !== 64 ? 1 : 0);
 })();

@@ -366,24 +366,62 @@ static void pick(size_t n, size_t dim, const double *from, const uint32_t *order
     }
 }
 
-/* Orders the first `count` points progressively: elimination halves them again and again, each time with a d_max that
-   grows with the volume available to each point, and puts the removed points after those that remain. d_min is always
-   that of the whole set, as in Yuksel's implementation. `spare` has capacity for `count` points. */
-static koksma_status order_progressively(size_t count, int dim, double d_max, double d_min, const koksma_run *run,
-                                         uint32_t *order, double *spare, double *xs)
+/* Each halving has a d_max that grows with the volume available to each point. d_min is always that of the whole set, as
+   in Yuksel's implementation. */
+koksma_status koksma__progressive_order(size_t count, int dim, const double *points, const double *scale, bool torus,
+                                        int volume_dim, double d_max, double d_min, const koksma_run *run,
+                                        uint32_t *order)
 {
     const size_t width = (size_t)dim;
-    const double growth = dim == 2 ? sqrt(2) : pow(2, 1.0 / dim);
+    const size_t bytes = count * ((width + 1) * sizeof *points + 2 * sizeof *order);
+    const double growth = volume_dim == 2 ? sqrt(2) : pow(2, 1.0 / volume_dim);
+    double *xs = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(xs, bytes);
+    double *units = xs + count * width;
+    uint32_t *before = (uint32_t *)(units + count), *picked = before + count;
+    for (size_t i = 0; i < count; i++) {
+        order[i] = (uint32_t)i;
+    }
     koksma_status status = KOKSMA_OK;
-    for (; count >= 3 && !status; count /= 2) {
+    for (size_t left = count; left >= 3 && !status; left /= 2) {
         d_max *= growth;
-        memcpy(spare, xs, count * width * sizeof *xs);
-        status = koksma__eliminate(count, dim, spare, count / 2, d_max, d_min, run, order);
-        if (!status) {
-            pick(count, width, spare, order, xs);
+        memcpy(before, order, left * sizeof *order);
+        pick(left, width, points, before, xs);
+        for (size_t i = 0; scale && i < left; i++) {
+            units[i] = scale[before[i]];
+        }
+        status =
+            koksma__eliminate_scaled(left, dim, xs, scale ? units : NULL, torus, left / 2, d_max, d_min, run, picked);
+        for (size_t i = 0; i < left && !status; i++) {
+            order[i] = before[picked[i]];
         }
     }
+    free(xs);
     return status;
+}
+
+/* Puts the points of a set on the torus into progressive order. */
+static koksma_status order_set(size_t n, int dim, double d_max, double d_min, const koksma_run *run, double *xs)
+{
+    const size_t width = (size_t)dim, bytes = n * (width * sizeof *xs + sizeof(uint32_t));
+    double *before = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(before, bytes);
+    uint32_t *order = (uint32_t *)(before + n * width);
+    memcpy(before, xs, n * width * sizeof *xs);
+    const koksma_status status = koksma__progressive_order(n, dim, before, NULL, true, dim, d_max, d_min, run, order);
+    if (!status) {
+        pick(n, width, before, order, xs);
+    }
+    free(before);
+    return status;
+}
+
+/* Points of a finished set that are close together should go first: there is no limit of weights. With the limit of 0.65
+   d_max the half of 64 points of gaussian-blue-noise in 6 dimensions had a relative radius of 0.54 in place of 0.66. */
+koksma_status koksma__order_progressively(const koksma_run *run, koksma_points *points)
+{
+    const double d_max = koksma__elimination_radius(points->n, points->dim);
+    return order_set(points->n, points->dim, d_max, 0, run, points->xs);
 }
 
 koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, int dim, size_t factor,
@@ -401,7 +439,7 @@ koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, 
         pick(n, width, drawn, order, xs);
     }
     if (!status && progressive) {
-        status = order_progressively(n, dim, d_max, d_min, run, order, drawn, xs);
+        status = order_set(n, dim, d_max, d_min, run, xs);
     }
     free(drawn);
     return status;

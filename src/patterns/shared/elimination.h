@@ -33,6 +33,20 @@ KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const 
                                                    bool torus, size_t keep, double d_max, double d_min,
                                                    const koksma_run *run, uint32_t *order);
 
+/* Puts points into Yuksel's progressive order, in which every prefix is blue noise: elimination halves the set again and
+   again, and each point comes after those that remain when it is removed.
+       volume_dim   dimension of what the points fill: 2 for those on a surface, else dim
+       d_max        that of the whole set
+       d_min        that of the whole set, for all halvings
+       order[k]     number of the k-th point in progressive order
+   Errors: MEMORY, INTERRUPTED. */
+KOKSMA__LAB koksma_status koksma__progressive_order(size_t count, int dim, const double *points, const double *scale,
+                                                    bool torus, int volume_dim, double d_max, double d_min,
+                                                    const koksma_run *run, uint32_t *order);
+
+/* Puts a finished set on the torus into progressive order. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__order_progressively(const koksma_run *run, koksma_points *points);
+
 /* Makes n points by elimination from factor * n uniform random points. They are in the order in which they were drawn
    or, with `progressive`, in Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the name of
    the pattern in error messages. */

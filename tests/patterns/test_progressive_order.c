@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * order=progressive of poisson-disk-maximal and gaussian-blue-noise in 2 to 6 dimensions: the points are those of the plain
+ * order, and every prefix is blue noise of its number, which a prefix of a random order is not. tests/domains/ has the same
+ * with a density and on models.
+ *
+ * A random part of a share f of a set whose power is P has the power f P + 1 - f, so at low frequencies, where P is small,
+ * it has 1 - f. The relative radius is the smallest distance on the torus over that of the densest known packing of as many
+ * points (hexagonal, fcc, D4, D5, E6): spheres that fill a share `filled` of the volume.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "sets.h"
+#include "test.h"
+
+enum { LEAST_DIM = 2, MOST_DIM = 6, SETS = 2 };
+
+/* Few steps of the descent take less time, and what is tested does not depend on rest. */
+static const char *const patterns[] = {"poisson-disk-maximal:", "gaussian-blue-noise:steps=60,"};
+enum { PATTERNS = sizeof patterns / sizeof *patterns };
+
+static const size_t counts[MOST_DIM + 1] = {0, 0, 512, 343, 256, 128, 64};
+
+/* Radius of the frequencies that are tested, in units of n^(1/dim); less would leave no frequency in small prefixes. */
+static const double reach[MOST_DIM + 1] = {0, 0, 0.6, 0.7, 0.75, 0.8, 0.8};
+
+static int width; /* coordinates of a point in the sort */
+
+static int by_coordinates(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    int order = 0;
+    for (int k = 0; k < width && !order; k++) {
+        order = (x[k] > y[k]) - (x[k] < y[k]);
+    }
+    return order;
+}
+
+static koksma_points in_order(const char *pattern, const char *order, size_t n, int dim, uint64_t seed)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%sorder=%s", pattern, order);
+    return test_points(text, n, dim, seed);
+}
+
+static void the_points_are_those_of_the_plain_order(void **state)
+{
+    (void)state;
+    for (size_t p = 0; p < PATTERNS; p++) {
+        for (int dim = LEAST_DIM; dim <= MOST_DIM; dim++) {
+            for (size_t n = 1; n <= 90; n = 3 * n - (n > 1)) { /* 1, 3, 8, 23, 68 */
+                koksma_points ordered = in_order(patterns[p], "progressive", n, dim, n);
+                koksma_points plain = in_order(patterns[p], "plain", n, dim, n);
+                const size_t bytes = n * (size_t)dim * sizeof *plain.xs;
+                assert_true(n < 23 || memcmp(ordered.xs, plain.xs, bytes));
+                width = dim;
+                qsort(ordered.xs, n, (size_t)dim * sizeof *plain.xs, by_coordinates);
+                qsort(plain.xs, n, (size_t)dim * sizeof *plain.xs, by_coordinates);
+                assert_memory_equal(ordered.xs, plain.xs, bytes);
+                koksma_points_fini(&ordered);
+                koksma_points_fini(&plain);
+            }
+        }
+    }
+}
+
+/* By distance, too: the number of points follows from d. */
+static void sets_by_distance_are_ordered(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        koksma_spec spec;
+        koksma_points plain, ordered;
+        assert_ok(koksma_pattern_spec("poisson-disk-maximal:d=0.15", &spec));
+        assert_ok(koksma_generate_whole(&spec, 4, NULL, dim, &plain));
+        assert_ok(koksma_pattern_spec("poisson-disk-maximal:d=0.15,order=progressive", &spec));
+        assert_ok(koksma_generate_whole(&spec, 4, NULL, dim, &ordered));
+        assert_int_equal(plain.n, ordered.n);
+        const size_t bytes = plain.n * (size_t)dim * sizeof *plain.xs;
+        assert_memory_not_equal(ordered.xs, plain.xs, bytes);
+        width = dim;
+        qsort(ordered.xs, plain.n, (size_t)dim * sizeof *plain.xs, by_coordinates);
+        qsort(plain.xs, plain.n, (size_t)dim * sizeof *plain.xs, by_coordinates);
+        assert_memory_equal(ordered.xs, plain.xs, bytes);
+        koksma_points_fini(&plain);
+        koksma_points_fini(&ordered);
+    }
+}
+
+static void seeds_and_threads(void **state)
+{
+    (void)state;
+    for (size_t p = 0; p < PATTERNS; p++) {
+        for (int dim = 2; dim <= 4; dim += 2) {
+            koksma_spec spec;
+            koksma_points one = in_order(patterns[p], "progressive", 100, dim, 5), many;
+            koksma_points other = in_order(patterns[p], "progressive", 100, dim, 6);
+            const size_t bytes = 100 * (size_t)dim * sizeof *one.xs;
+            char text[64];
+            snprintf(text, sizeof text, "%sorder=progressive", patterns[p]);
+            assert_ok(koksma_pattern_spec(text, &spec));
+            assert_ok(koksma_points_init(&many, 100, dim));
+            for (int threads = 1; threads <= 4; threads += 3) {
+                assert_ok(koksma_generate(&spec, 5, &(koksma_run){.threads = threads}, &many));
+                assert_memory_equal(many.xs, one.xs, bytes);
+            }
+            assert_memory_not_equal(other.xs, one.xs, bytes);
+            koksma_points_fini(&one);
+            koksma_points_fini(&other);
+            koksma_points_fini(&many);
+        }
+    }
+}
+
+static bool call_off(void *context, double done)
+{
+    (void)context;
+    (void)done;
+    return false;
+}
+
+static void a_long_order_is_interrupted(void **state)
+{
+    (void)state;
+    koksma_spec spec;
+    koksma_points points;
+    assert_ok(koksma_pattern_spec("poisson-disk-maximal:order=progressive", &spec));
+    assert_ok(koksma_points_init(&points, 1000, 2));
+    assert_int_equal(koksma_generate(&spec, 0, &(koksma_run){.keep_going = call_off}, &points), KOKSMA_INTERRUPTED);
+    koksma_points_fini(&points);
+}
+
+/* ---- Prefixes --------------------------------------------------------------------------------------------- */
+
+static double relative_radius(const koksma_points *p)
+{
+    static const double ball[] = {3.14159265358979, 4.18879020478639, 4.93480220054468, 5.26378901391432,
+                                  5.16771278004997};
+    static const double filled[] = {0.906899682117109, 0.740480489693061, 0.616850275068085, 0.465257613309259,
+                                    0.372947545582064};
+    const int c = p->dim - LEAST_DIM;
+    double least = INFINITY;
+    for (size_t i = 0; i < p->n; i++) {
+        for (size_t j = 0; j < i; j++) {
+            least = fmin(least, sets_torus_distance2(p->xs + i * (size_t)p->dim, p->xs + j * (size_t)p->dim, p->dim));
+        }
+    }
+    return sqrt(least) / (2 * pow(filled[c] / (ball[c] * (double)p->n), 1.0 / p->dim));
+}
+
+/* The mean power of all frequencies k with |k| < radius but 0, with the first coordinates k_0 = 0 .. most. */
+static double power_within(const koksma_points *p, double radius)
+{
+    const int most = (int)radius;
+    const size_t side = (size_t)(2 * most + 1);
+    size_t frequencies = 1;
+    double sum = 0, count = 0;
+    for (int k = 0; k < p->dim; k++) {
+        frequencies *= side;
+    }
+    for (size_t f = 0; f < frequencies / 2; f++) { /* one of k and -k; the middle one is 0 */
+        int k[MOST_DIM], square = 0;
+        size_t rest = f;
+        for (int d = 0; d < p->dim; d++, rest /= side) {
+            k[d] = (int)(rest % side) - most;
+            square += k[d] * k[d];
+        }
+        if (square < radius * radius) {
+            double re = 0, im = 0;
+            for (size_t i = 0; i < p->n; i++) {
+                double turns = 0;
+                for (int d = 0; d < p->dim; d++) {
+                    turns += k[d] * p->xs[i * (size_t)p->dim + (size_t)d];
+                }
+                re += cos(2 * M_PI * turns);
+                im += sin(2 * M_PI * turns);
+            }
+            sum += (re * re + im * im) / (double)p->n;
+            count++;
+        }
+    }
+    return sum / count;
+}
+
+enum { PREFIXES = 5 };
+
+/* Eighths of the set, and means over SETS sets of the relative radius and the power of that prefix. */
+static const size_t eighths[PREFIXES] = {1, 2, 3, 4, 6};
+
+typedef struct look {
+    double radius[PREFIXES], power[PREFIXES];
+} look;
+
+static look look_at(const char *pattern, bool progressive, int dim)
+{
+    look mean = {{0}, {0}};
+    for (uint64_t seed = 0; seed < SETS; seed++) {
+        koksma_points all = in_order(pattern, progressive ? "progressive" : "plain", counts[dim], dim, seed);
+        for (size_t e = 0; e < PREFIXES; e++) {
+            const koksma_points part = {.n = all.n * eighths[e] / 8, .dim = dim, .xs = all.xs};
+            mean.radius[e] += relative_radius(&part) / SETS;
+            mean.power[e] += power_within(&part, reach[dim] * pow((double)part.n, 1.0 / dim)) / SETS;
+        }
+        koksma_points_fini(&all);
+    }
+    return mean;
+}
+
+/* Yuksel 2015: in the plane prefixes of his program have relative radii of .63 to .65; the same is asked here of all
+   dimensions. Below reach n^(1/dim) random points have the power 1. */
+static void prefixes_are_blue_noise(void **state)
+{
+    (void)state;
+    int failed = 0;
+    for (size_t p = 0; p < PATTERNS; p++) {
+        for (int dim = LEAST_DIM; dim <= MOST_DIM; dim++) {
+            const look found = look_at(patterns[p], true, dim), plain = look_at(patterns[p], false, dim);
+            for (size_t e = 0; e < PREFIXES; e++) {
+                /* the whole set limits large prefixes: a random half of a maximal set in many dimensions keeps almost all
+                   of its distance */
+                const bool few = eighths[e] <= 2, half = eighths[e] <= 4;
+                const bool ok = found.radius[e] >= plain.radius[e] + (few ? 0.02 : -0.01) &&
+                                (!half || (found.radius[e] > 0.57 && found.power[e] < 0.4)) &&
+                                (!few || found.power[e] < 0.75 * plain.power[e]);
+                print_message("%s, %d dimensions, first %zu/8 of %zu: relative radius %.3f (plain %.3f), power %.3f "
+                              "(plain %.3f)\n",
+                              patterns[p], dim, eighths[e], counts[dim], found.radius[e], plain.radius[e],
+                              found.power[e], plain.power[e]);
+                failed += !ok;
+            }
+        }
+    }
+    assert_int_equal(failed, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_points_are_those_of_the_plain_order),
+        cmocka_unit_test(sets_by_distance_are_ordered),
+        cmocka_unit_test(seeds_and_threads),
+        cmocka_unit_test(a_long_order_is_interrupted),
+        cmocka_unit_test(prefixes_are_blue_noise),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
