@@ -137,7 +137,7 @@ class Pictures(unittest.TestCase):
     def test_convergence(self):
         results = [koksma.convergence(p, "star", [4, 16, 64], trials=2) for p in ("random", "sobol")]
         svg = koksma.plot_convergence(*results).svg
-        self.assertEqual(svg.count("<circle"), 2 * (3 + 1))
+        self.assertEqual([svg.count("<circle"), svg.count("<polygon")], [3 + 1, 3 + 1])  # each pattern has its mark
         for word in ("Convergence of star", "random: slope", "sobol: slope", ">16<", ">64<"):
             self.assertIn(word, svg)
         alone = koksma.plot_convergence(results[1], theme="light").svg
@@ -147,7 +147,8 @@ class Pictures(unittest.TestCase):
     def test_compare(self):
         patterns = ["random", "sobol:scramble=owen"]
         picture = koksma.plot_compare(*patterns, n=64, sizes=[16, 64], trials=3, seed=5)
-        self.assertEqual(picture.svg.count("<circle"), 2 * (64 + 2 + 1))  # points, means, and the legend's marks
+        # points, random's means and the legend's mark; sobol's, which are squares, and two bands of standard errors
+        self.assertEqual([picture.svg.count("<circle"), picture.svg.count("<polygon")], [2 * 64 + 2 + 1, 2 + 1 + 2])
         self.assertEqual(picture.svg.count("<image"), 2)
         for word in ("random, n = 64", "sobol:scramble=owen, n = 64", "Radial mean", "Convergence of l2-star", "sobol:scramble=owen: slope"):
             self.assertIn(word, picture.svg)

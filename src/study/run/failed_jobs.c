@@ -1,35 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * Lists the jobs that failed alone. The store has a text "failed" with one line for each task that has failed jobs:
- * label, n, number of failed trials, number of trials and reason, separated by tabs. For readers, lines of equal label
- * become one: "poisson-disk:d=0.3, N = 64 (100 of 100 trials), 256 (100 of 100 trials): reason". The text "left-out"
- * has these lines, behind those of the plan's blocks with `skip`.
- */
+/* Counts the jobs that failed alone, for each task, and makes the lines of the list in the store (left_out.c). */
 #include "study/run/failed_jobs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/capacity.h"
 #include "core/status.h"
 #include "study/plan/plan_owned.h"
-
-static const char failed_key[] = "failed", left_out_key[] = "left-out";
+#include "study/run/left_out.h"
 
 void koksma__failures_fini(koksma__failures *failures)
 {
     free(failures->tasks);
     koksma__texts_fini(&failures->lines);
-}
-
-static koksma_status add_text(koksma__texts *texts, const char *text)
-{
-    char **line = koksma__add_one(&texts->at, &texts->n, sizeof *line);
-    KOKSMA__TRY(line ? KOKSMA_OK : KOKSMA_MEMORY);
-    *line = strdup(text);
-    texts->n -= !*line;
-    return *line ? KOKSMA_OK : koksma__fail_memory(strlen(text));
 }
 
 /* ---- Counting ------------------------------------------------------------------------------------------ */
@@ -100,7 +84,7 @@ static koksma_status add_line(koksma__texts *lines, const koksma__task *t, const
         const bool separates = text[i] == '\n' || text[i] == '\r' || (text[i] == '\t' && i < label);
         text[i] = separates ? ' ' : text[i];
     }
-    status = status ? status : add_text(lines, text);
+    status = status ? status : koksma__texts_add(lines, text);
     free(text);
     return status;
 }
@@ -122,182 +106,26 @@ koksma_status koksma__failures_add(koksma__failures *run, const koksma__failures
     return status;
 }
 
-/* ---- The list for readers ------------------------------------------------------------------------------ */
-
-/* The fields of a line; false if it is not one. */
-typedef struct fields {
-    const char *label, *reason;
-    int label_length;
-    long long n, failed, trials;
-} fields;
-
-static bool read_line(const char *line, fields *out)
-{
-    int at = 0;
-    out->label = line;
-    out->label_length = (int)strcspn(line, "\t");
-    const char *numbers = line + out->label_length;
-    if (sscanf(numbers, "\t%lld\t%lld\t%lld%n", &out->n, &out->failed, &out->trials, &at) != 3 ||
-        numbers[at] != '\t') {
-        return false;
-    }
-    out->reason = numbers + at + 1;
-    return true;
-}
-
-static bool same_label(const fields *a, const fields *b)
-{
-    return a->label_length == b->label_length && !strncmp(a->label, b->label, (size_t)a->label_length);
-}
-
-/* Appends to `lines` one line for all tasks with the label of task `first`, and marks them as shown. */
-static koksma_status show(const fields *tasks, size_t n, size_t first, bool *shown, koksma__texts *lines)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *f = open_memstream(&text, &size);
-    KOKSMA__REQUIRE_MEMORY(f, 1);
-    fprintf(f, "%.*s, N =", tasks[first].label_length, tasks[first].label);
-    for (size_t i = first; i < n; i++) {
-        if (!shown[i] && same_label(&tasks[first], &tasks[i])) {
-            fprintf(f, "%s %lld (%lld of %lld trial%s)", i == first ? "" : ",", tasks[i].n, tasks[i].failed,
-                    tasks[i].trials, tasks[i].trials == 1 ? "" : "s");
-            shown[i] = true;
-        }
-    }
-    fprintf(f, ": %s", tasks[first].reason);
-    koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
-    status = status ? status : add_text(lines, text);
-    free(text);
-    return status;
-}
-
-/* Makes the readers' lines of the store's lines. */
-static koksma_status show_all(const koksma__texts *stored, koksma__texts *lines)
-{
-    fields *tasks = calloc(stored->n + 1, sizeof *tasks);
-    bool *shown = calloc(stored->n + 1, sizeof *shown);
-    koksma_status status = tasks && shown ? KOKSMA_OK : koksma__fail_memory(stored->n * sizeof *tasks);
-    size_t n = 0;
-    koksma__texts_fini(lines);
-    for (size_t i = 0; !status && i < stored->n; i++) {
-        n += read_line(stored->at[i], &tasks[n]);
-    }
-    for (size_t i = 0; !status && i < n; i++) {
-        status = shown[i] ? KOKSMA_OK : show(tasks, n, i, shown, lines);
-    }
-    KOKSMA__FREE(tasks, shown);
-    return status;
-}
-
-/* ---- The store ----------------------------------------------------------------------------------------- */
-
-static koksma_status recall(koksma_study *study, koksma__texts *stored)
-{
-    char *text = NULL;
-    koksma_status status = koksma__store_get_text(study->store, failed_key, &text);
-    for (char *line = text; !status && line && *line;) {
-        const size_t length = strcspn(line, "\n");
-        const bool last = !line[length];
-        line[length] = '\0';
-        status = add_text(stored, line);
-        line += length + !last;
-    }
-    free(text);
-    return status;
-}
-
-koksma_status koksma__failures_recall(koksma_study *study)
-{
-    koksma__texts stored = {0};
-    koksma_status status = recall(study, &stored);
-    status = status ? status : show_all(&stored, &study->failed);
-    koksma__texts_fini(&stored);
-    return status;
-}
-
-/* Writes a text unless the store has it; a store without the text is as one with an empty text. */
-static koksma_status set_text(koksma_study *study, const char *key, const char *value)
-{
-    char *before = NULL;
-    KOKSMA__TRY(koksma__store_get_text(study->store, key, &before));
-    const bool same = !strcmp(before ? before : "", value);
-    free(before);
-    return same ? KOKSMA_OK : koksma__store_set_text(study->store, key, value);
-}
-
-/* Writes the lines that line_at(context, 0 ..) returns as one text. */
-static koksma_status set_lines(koksma_study *study, const char *key, const char *(*line_at)(const void *, size_t),
-                               const void *context)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *f = open_memstream(&text, &size);
-    const char *line;
-    KOKSMA__REQUIRE_MEMORY(f, 1);
-    for (size_t i = 0; (line = line_at(context, i)); i++) {
-        fprintf(f, "%s\n", line);
-    }
-    koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
-    status = status ? status : set_text(study, key, text);
-    free(text);
-    return status;
-}
-
-static const char *text_at(const void *context, size_t i)
-{
-    const koksma__texts *texts = context;
-    return i < texts->n ? texts->at[i] : NULL;
-}
-
-static const char *left_out_at(const void *context, size_t i)
-{
-    return koksma_study_left_out_at(context, i);
-}
-
-/* Whether the lines have one of the same task with at least as many failed trials. A trial that failed fails again, so that
-   of two runs the one that tried more of them knows more. */
-static bool have_more(const koksma__texts *lines, const char *line)
-{
-    fields a, b;
-    bool more = !read_line(line, &a);
-    for (size_t i = 0; !more && i < lines->n; i++) {
-        more = read_line(lines->at[i], &b) && same_label(&a, &b) && a.n == b.n && b.failed >= a.failed;
-    }
-    return more;
-}
-
 koksma_status koksma__failures_record(koksma_study *study, const koksma__failures *run, bool all)
 {
-    koksma__texts before = {0}, lines = {0};
-    koksma_status status = all ? KOKSMA_OK : recall(study, &before);
+    koksma__texts before = {0}, stored = {0}, lines = {0};
+    const char *line;
+    koksma_status status = all ? KOKSMA_OK : koksma__left_out_recall(study->store, &before);
     for (size_t i = 0; !status && i < before.n; i++) {
-        status = have_more(&run->lines, before.at[i]) ? KOKSMA_OK : add_text(&lines, before.at[i]);
+        status =
+            koksma__left_out_knows(&run->lines, before.at[i]) ? KOKSMA_OK : koksma__texts_add(&stored, before.at[i]);
     }
     for (size_t i = 0; !status && i < run->lines.n; i++) {
-        status = have_more(&lines, run->lines.at[i]) ? KOKSMA_OK : add_text(&lines, run->lines.at[i]);
+        line = run->lines.at[i];
+        status = koksma__left_out_knows(&stored, line) ? KOKSMA_OK : koksma__texts_add(&stored, line);
     }
-    status = status ? status : show_all(&lines, &study->failed);
-    status = status ? status : set_lines(study, failed_key, text_at, &lines);
-    status = status ? status : set_lines(study, left_out_key, left_out_at, study);
+    status = status ? status : koksma__left_out_show(&stored, &study->failed);
+    for (size_t i = 0; !status && (line = koksma_study_left_out_at(study, i)); i++) {
+        status = koksma__texts_add(&lines, line);
+    }
+    status = status ? status : koksma__left_out_record(study->store, &stored, &lines);
     koksma__texts_fini(&before);
+    koksma__texts_fini(&stored);
     koksma__texts_fini(&lines);
     return status ? status : koksma__store_commit(study->store);
-}
-
-koksma_status koksma_study_left_out(const char *folder, char **lines)
-{
-    KOKSMA__REQUIRE(folder, lines);
-    char path[KOKSMA__PATH];
-    koksma__store *store;
-    *lines = NULL;
-    snprintf(path, sizeof path, "%s/results.sqlite", folder);
-    KOKSMA__TRY(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
-    koksma_status status = koksma__store_get_text(store, left_out_key, lines);
-    koksma__store_close(store);
-    if (!status && !*lines) {
-        *lines = strdup("");
-        status = *lines ? KOKSMA_OK : koksma__fail_memory(1);
-    }
-    return status;
 }

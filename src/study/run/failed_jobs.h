@@ -41,7 +41,4 @@ koksma_status koksma__failures_add(koksma__failures *run, const koksma__failures
    of the store, MEMORY. */
 koksma_status koksma__failures_record(koksma_study *study, const koksma__failures *run, bool all);
 
-/* Reads the list from the store into study->failed. Errors: those of the store, MEMORY. */
-koksma_status koksma__failures_recall(koksma_study *study);
-
 #endif

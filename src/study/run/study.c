@@ -12,7 +12,7 @@
 #include "core/suggestion.h"
 #include "scene/scene.h"
 #include "study/plan/plan_owned.h"
-#include "study/run/failed_jobs.h"
+#include "study/run/left_out.h"
 #include "study/run/mpi_rank.h"
 #include "study/run/study.h"
 
@@ -199,6 +199,15 @@ static koksma_status load_plans(koksma_study *study, const koksma_study_options 
     return status;
 }
 
+static koksma_status recall_failed(koksma_study *study)
+{
+    koksma__texts stored = {0};
+    koksma_status status = koksma__left_out_recall(study->store, &stored);
+    status = status ? status : koksma__left_out_show(&stored, &study->failed);
+    koksma__texts_fini(&stored);
+    return status;
+}
+
 /* Opens a study with the plans of the options. folder = NULL: results are not stored (estimates, and all ranks of an
    MPI run but rank 0). */
 static koksma_status open_with_plans(koksma_study *study, const koksma_study_options *options)
@@ -214,7 +223,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
         snprintf(path, sizeof path, "%s/results.sqlite", options->folder);
         status = status ? status : koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
         status = status ? status : keep_plan(study, options, texts);
-        status = status ? status : koksma__failures_recall(study);
+        status = status ? status : recall_failed(study);
     }
     for (size_t i = 0; i < options->n_plans; i++) {
         free(texts[i]);
@@ -232,7 +241,7 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
     snprintf(path, sizeof path, "%s/results.sqlite", folder);
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
     status = status ? status : recall_plan(study);
-    status = status ? status : koksma__failures_recall(study);
+    status = status ? status : recall_failed(study);
     return status ? status : open_scenes(study);
 }
 

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The list of failed jobs in a store, and its form for readers. The store has a text "failed" with one line for each task
+ * that has failed jobs: label, n, number of failed trials, number of trials and reason, separated by tabs. For readers,
+ * lines of equal label become one: "poisson-disk:d=0.3, N = 64 (100 of 100 trials), 256 (100 of 100 trials): reason". The
+ * text "left-out" has these lines, behind those of the plan's blocks with `skip`.
+ */
+#include "study/run/left_out.h"
+
+#include <koksma/study.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/status.h"
+#include "study/plan/plan_owned.h"
+#include "study/run/reference_image.h"
+
+static const char failed_key[] = "failed", left_out_key[] = "left-out";
+
+koksma_status koksma__texts_add(koksma__texts *texts, const char *text)
+{
+    char **line = koksma__add_one(&texts->at, &texts->n, sizeof *line);
+    KOKSMA__TRY(line ? KOKSMA_OK : KOKSMA_MEMORY);
+    *line = strdup(text);
+    texts->n -= !*line;
+    return *line ? KOKSMA_OK : koksma__fail_memory(strlen(text));
+}
+
+/* ---- The list for readers ------------------------------------------------------------------------------ */
+
+/* The fields of a line; false if it is not one. */
+typedef struct fields {
+    const char *label, *reason;
+    int label_length;
+    long long n, failed, trials;
+} fields;
+
+static bool read_line(const char *line, fields *out)
+{
+    int at = 0;
+    out->label = line;
+    out->label_length = (int)strcspn(line, "\t");
+    const char *numbers = line + out->label_length;
+    if (sscanf(numbers, "\t%lld\t%lld\t%lld%n", &out->n, &out->failed, &out->trials, &at) != 3 ||
+        numbers[at] != '\t') {
+        return false;
+    }
+    out->reason = numbers + at + 1;
+    return true;
+}
+
+static bool same_label(const fields *a, const fields *b)
+{
+    return a->label_length == b->label_length && !strncmp(a->label, b->label, (size_t)a->label_length);
+}
+
+/* Appends to `lines` one line for all tasks with the label of task `first`, and marks them as shown. */
+static koksma_status show(const fields *tasks, size_t n, size_t first, bool *shown, koksma__texts *lines)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    KOKSMA__REQUIRE_MEMORY(f, 1);
+    fprintf(f, "%.*s, N =", tasks[first].label_length, tasks[first].label);
+    for (size_t i = first; i < n; i++) {
+        if (!shown[i] && same_label(&tasks[first], &tasks[i])) {
+            fprintf(f, "%s %lld (%lld of %lld trial%s)", i == first ? "" : ",", tasks[i].n, tasks[i].failed,
+                    tasks[i].trials, tasks[i].trials == 1 ? "" : "s");
+            shown[i] = true;
+        }
+    }
+    fprintf(f, ": %s", tasks[first].reason);
+    koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
+    status = status ? status : koksma__texts_add(lines, text);
+    free(text);
+    return status;
+}
+
+/* Makes the readers' lines of the store's lines. */
+koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *lines)
+{
+    fields *tasks = calloc(stored->n + 1, sizeof *tasks);
+    bool *shown = calloc(stored->n + 1, sizeof *shown);
+    koksma_status status = tasks && shown ? KOKSMA_OK : koksma__fail_memory(stored->n * sizeof *tasks);
+    size_t n = 0;
+    koksma__texts_fini(lines);
+    for (size_t i = 0; !status && i < stored->n; i++) {
+        n += read_line(stored->at[i], &tasks[n]);
+    }
+    for (size_t i = 0; !status && i < n; i++) {
+        status = shown[i] ? KOKSMA_OK : show(tasks, n, i, shown, lines);
+    }
+    KOKSMA__FREE(tasks, shown);
+    return status;
+}
+
+/* ---- The store ----------------------------------------------------------------------------------------- */
+
+koksma_status koksma__left_out_recall(koksma__store *store, koksma__texts *stored)
+{
+    char *text = NULL;
+    koksma_status status = koksma__store_get_text(store, failed_key, &text);
+    for (char *line = text; !status && line && *line;) {
+        const size_t length = strcspn(line, "\n");
+        const bool last = !line[length];
+        line[length] = '\0';
+        status = koksma__texts_add(stored, line);
+        line += length + !last;
+    }
+    free(text);
+    return status;
+}
+
+/* Writes a text unless the store has it; a store without the text is as one with an empty text. */
+static koksma_status set_text(koksma__store *store, const char *key, const char *value)
+{
+    char *before = NULL;
+    KOKSMA__TRY(koksma__store_get_text(store, key, &before));
+    const bool same = !strcmp(before ? before : "", value);
+    free(before);
+    return same ? KOKSMA_OK : koksma__store_set_text(store, key, value);
+}
+
+/* Writes the lines as one text. */
+static koksma_status set_lines(koksma__store *store, const char *key, const koksma__texts *lines)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&text, &size);
+    KOKSMA__REQUIRE_MEMORY(f, 1);
+    for (size_t i = 0; i < lines->n; i++) {
+        fprintf(f, "%s\n", lines->at[i]);
+    }
+    koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
+    status = status ? status : set_text(store, key, text);
+    free(text);
+    return status;
+}
+
+koksma_status koksma__left_out_record(koksma__store *store, const koksma__texts *stored, const koksma__texts *lines)
+{
+    const koksma_status status = set_lines(store, failed_key, stored);
+    return status ? status : set_lines(store, left_out_key, lines);
+}
+
+bool koksma__left_out_knows(const koksma__texts *lines, const char *line)
+{
+    fields a, b;
+    bool more = !read_line(line, &a);
+    for (size_t i = 0; !more && i < lines->n; i++) {
+        more = read_line(lines->at[i], &b) && same_label(&a, &b) && a.n == b.n && b.failed >= a.failed;
+    }
+    return more;
+}
+
+koksma_status koksma_study_left_out(const char *folder, char **lines)
+{
+    KOKSMA__REQUIRE(folder, lines);
+    char path[KOKSMA__PATH];
+    koksma__store *store;
+    *lines = NULL;
+    snprintf(path, sizeof path, "%s/results.sqlite", folder);
+    KOKSMA__TRY(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
+    koksma_status status = koksma__store_get_text(store, left_out_key, lines);
+    koksma__store_close(store);
+    if (!status && !*lines) {
+        *lines = strdup("");
+        status = *lines ? KOKSMA_OK : koksma__fail_memory(1);
+    }
+    return status;
+}
