@@ -14,6 +14,24 @@
 
 #include <koksma/koksma.h>
 
+/* Whether AddressSanitizer or ThreadSanitizer checks this program, which then takes 4 to 10 times longer. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define TEST_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define TEST_SANITIZED 1
+#endif
+#endif
+#ifndef TEST_SANITIZED
+#define TEST_SANITIZED 0
+#endif
+
+/* A number of trials, points, cases or steps: `full` in optimised builds, `sanitized` under a sanitizer; a constant if
+   both are. A run with sanitizers looks for memory errors and undefined behaviour: it runs every code path and every row
+   of a table, and a few trials of each. Statistical power, large n and exhaustive walks belong to the optimised run.
+   A tolerance that depends on the number of trials is computed from it, so that both runs can fail. */
+#define test_repeats(full, sanitized) (TEST_SANITIZED ? (sanitized) : (full))
+
 /* Fails with both numbers unless |a - b| <= bound; NaN fails. */
 #define assert_near(a, b, bound)                                                                                     \
     do {                                                                                                             \

@@ -5,7 +5,7 @@
 /* Over sets, the first coordinates of points 0 and 1, and of 0 and the last, vary and are not correlated. */
 void claim_INDEPENDENT(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
-    enum { SETS = 120 };
+    enum { SETS = test_repeats(120, 40) };
     if (points->n > 32 || points->n < 3 || seed != 0) {
         return;
     }

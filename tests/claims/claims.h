@@ -28,6 +28,9 @@ typedef void claim_check(const koksma_spec *spec, const koksma_points *points, u
         fail_msg("%s, n = %zu, dim = %d: %s", text_, (points)->n, (points)->dim, why_);                              \
     } while (0)
 
+/* The spec of a pattern with its defaults or, where they fix how many points are made whatever n, with fewer. */
+koksma_spec quick_spec_of(const koksma_pattern *pattern);
+
 /* The value of a parameter; fallback when the pattern has none of this name. */
 double param_of(const koksma_spec *spec, const char *name, double fallback);
 
@@ -56,14 +59,15 @@ bool is_net_in_base(const koksma_points *points, size_t n, size_t b);
 koksma_points projection_of(const koksma_points *points, int k, int count);
 
 /* The sets of a pattern that check_means_of takes, of seeds MEANS_SEED, MEANS_SEED + 1, ... */
-enum { MEANS_SETS = 120, MEANS_SEED = 1000 };
+enum { MEANS_SETS = test_repeats(120, 60), MEANS_SEED = 1000 };
 void make_sets_of_means(const koksma_spec *spec, size_t n, int dim, koksma_points sets[MEANS_SETS]);
 void free_sets_of_means(koksma_points sets[MEANS_SETS]);
 
 /* Fails unless the mean over the sets of what a box and bands hold of all points, or of the first, is their volume. */
 void check_means_of(const koksma_spec *spec, const koksma_points *sets, bool first_only);
 
-/* The same for sets that it makes, of a few points in up to 3 dimensions; only for the seed 0. */
+/* The same for sets that it makes, of a few points in up to 3 dimensions; only for the seed 0. It keeps the last sets: the
+   claims `unbiased` and `exchangeable` look at the same ones. */
 void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only);
 
 #endif

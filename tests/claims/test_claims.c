@@ -21,7 +21,7 @@ enum { n_claims = sizeof claims / sizeof *claims };
 static const size_t counts[] = {1, 2, 3, 4, 7, 8, 9, 16, 17, 25, 27, 32, 49, 64, 121, 125, 128, 256, 625, 1024};
 enum { N_COUNTS = sizeof counts / sizeof *counts };
 static const int dims[] = {1, 2, 3, 4, 5, 7, 12, 40};
-enum { N_DIMS = sizeof dims / sizeof *dims, SEEDS = 2 };
+enum { N_DIMS = sizeof dims / sizeof *dims, SEEDS = test_repeats(2, 1) };
 
 /* The largest n that is walked: some patterns are optimisers, which take a second for a thousand points. A fixed
    list, so that what is tested does not depend on the machine. */
@@ -35,10 +35,10 @@ static size_t largest_count(const char *name, int dim)
     }
     for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
         if (!strcmp(slow[i], name)) {
-            return dim <= 4 ? 128 : 64;
+            return dim <= 4 ? test_repeats(128, 64) : test_repeats(64, 32);
         }
     }
-    return dim <= 4 ? 1024 : 256;
+    return dim <= 4 ? test_repeats(1024, 256) : test_repeats(256, 128);
 }
 
 static bool generates(const koksma_spec *spec)
@@ -50,22 +50,12 @@ static bool generates(const koksma_spec *spec)
     return made;
 }
 
-/* The defaults of a pattern, or the nearest that make as few points as are walked. */
-static const char *defaults_of(const koksma_pattern *p)
-{
-    return !strcmp(p->name, "mask-offset") ? "mask-offset:width=8" : p->name;
-}
-
 /* The specs to test of a pattern: with its defaults, with each choice of its parameters, and with each switch, a
    parameter that is 0 or 1: turned alone, or with the first choice that the switch needs. */
 static size_t specs_of(const koksma_pattern *p, koksma_spec *specs, size_t room)
 {
     size_t count = 1, choices;
-    assert_ok(koksma_pattern_spec(defaults_of(p), &specs[0]));
-    for (int k = 0; p->params && p->params[k].name; k++) { /* what takes the same time for any n */
-        const double less = !strcmp(p->params[k].name, "length") ? 64 : !strcmp(p->params[k].name, "levels") ? 4 : 0;
-        specs[0].params[k] = less > 0 ? less : specs[0].params[k];
-    }
+    specs[0] = quick_spec_of(p);
     for (int k = 0; p->params && p->params[k].name; k++) {
         for (int c = 0; p->params[k].choices && p->params[k].choices[c] && count < room; c++) {
             if (c != (int)p->params[k].fallback) {
@@ -252,10 +242,10 @@ static void large_sets_are_equal_on_any_threads(void **state)
             const int dim = p->min_dim > 2 ? p->min_dim : p->max_dim < 2 ? 1 : 2;
             koksma_points points;
             const koksma_run run = {.threads = 1};
-            if (largest_count(p->name, dim) < 1024) {
+            if (largest_count(p->name, dim) < test_repeats(1024, 256)) {
                 continue;
             }
-            assert_ok(koksma_points_init(&points, 65536, dim));
+            assert_ok(koksma_points_init(&points, test_repeats(65536, 8192), dim));
             if (!koksma_generate(&specs[s], 5, &run, &points)) {
                 assert_common(&specs[s], &points, 5);
                 assert_ranges(&specs[s], &points, 5);

@@ -91,7 +91,7 @@ static double check_maximal(const koksma_points *p, const float *values)
         }
     }
     uint64_t state = 1;
-    for (int t = 0; t < 20000; t++) {
+    for (int t = 0; t < test_repeats(20000, 2000); t++) {
         const double x[2] = {uniform(&state), uniform(&state)};
         if (!isfinite(unit_at(values, x))) {
             continue;
@@ -399,7 +399,7 @@ static void maximal_sets_cover_models(void **state)
         }
     }
     uint64_t random = 7;
-    for (int t = 0; t < 20000; t++) {
+    for (int t = 0; t < test_repeats(20000, 2000); t++) {
         double x[3], nearest = INFINITY, u = uniform(&random), v = uniform(&random);
         const size_t face = t % 3 ? (size_t)(uniform(&random) * FACES) : FACES + (size_t)(t % 2);
         for (int k = 0; k < 3; k++) {

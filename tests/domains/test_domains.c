@@ -70,7 +70,7 @@ static void counts_follow_the_density(void **state)
     const float values[4] = {1, 2, 4, 0};
     koksma_image map = quarters(values);
     for (size_t f = 0; f < FORMS; f++) {
-        for (uint64_t seed = 0; seed < 3; seed++) {
+        for (uint64_t seed = 0; seed < test_repeats(3, 1); seed++) {
             koksma_points p = with_density(forms[f], &map, 2000, seed);
             size_t counts[4] = {0};
             for (size_t i = 0; i < p.n; i++) {
@@ -139,7 +139,7 @@ static void distances_follow_the_density(void **state)
 static void best_candidates_are_those_of_the_pattern(void **state)
 {
     (void)state;
-    enum { SETS = 16, N = 300 };
+    enum { SETS = test_repeats(16, 4), N = test_repeats(300, 150) };
     const float values[4] = {5, 5, 5, 5}, others[4] = {1, 4, 4, 1};
     koksma_image even = quarters(values), map = quarters(others);
     double sums[2] = {0}, squares[2] = {0};

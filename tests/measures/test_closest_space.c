@@ -34,7 +34,7 @@ static double packing_distance(size_t n, int dim)
 static void distances_are_those_of_all_pairs(void **state)
 {
     (void)state;
-    for (int t = 0; t < 600; t++) {
+    for (int t = 0; t < test_repeats(600, 120); t++) {
         const int dim = 2 + t % 9;
         const size_t n = 2 + (size_t)(t * t % 331);
         koksma_points p = sets_points(n, dim, t % SETS_KINDS, (uint64_t)t);
@@ -61,7 +61,7 @@ static void many_points_too(void **state)
     static const char *const specs[] = {"random", "sobol", "halton"};
     for (int dim = 3; dim <= 6; dim++) {
         for (int s = 0; s < 3; s++) {
-            koksma_points p = test_points(specs[s], 3000, dim, (uint64_t)dim);
+            koksma_points p = test_points(specs[s], test_repeats(3000, 1000), dim, (uint64_t)dim);
             for (int shape = 0; shape < 4; shape++) {
                 assert_near(test_measure("min-distance", &p).value, by_all_pairs(&p, true), 1e-15);
                 for (size_t c = 0; c < p.n * (size_t)dim; c++) {

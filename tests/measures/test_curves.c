@@ -211,7 +211,7 @@ static void distances_equal_all_pairs(void **state)
 {
     (void)state;
     enum { BINS = 20 };
-    for (int t = 0; t < 300; t++) {
+    for (int t = 0; t < test_repeats(300, 60); t++) {
         koksma_points p = sets_points(1 + (size_t)t, 2, t % SETS_KINDS, (uint64_t)t);
         const double r_max = 0.05 + 0.45 * sets_unit(77, (uint64_t)t), n = (double)p.n;
         double least[2] = {HUGE_VAL, HUGE_VAL}, counts[BINS] = {0}, values[BINS];
@@ -253,7 +253,7 @@ static void distances_equal_all_pairs(void **state)
 static void diaphony_equals_all_pairs(void **state)
 {
     (void)state;
-    for (int t = 0; t < 120; t++) {
+    for (int t = 0; t < test_repeats(120, 24); t++) {
         koksma_points p = sets_points(1 + (size_t)t / 2, 1 + t % 4, t % SETS_KINDS, (uint64_t)t);
         const size_t dim = (size_t)p.dim;
         const long double pi = acosl(-1);

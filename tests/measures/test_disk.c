@@ -84,7 +84,7 @@ static void equals_brute_force(void **state)
 {
     (void)state;
     static const double radii[] = {0.25, 0.1, 0.375, 0.49};
-    for (int s = 0; s < 900; s++) {
+    for (int s = 0; s < test_repeats(900, 90); s++) {
         char spec[32];
         const double r = radii[s % 4];
         koksma_points p = sets_points(1 + (size_t)(s / 24) % 7, 2, s % SETS_KINDS, (uint64_t)s);
@@ -129,7 +129,7 @@ static double dense(const koksma_points *p, double r)
 static void agrees_with_a_dense_search(void **state)
 {
     (void)state;
-    for (int s = 0; s < 24; s++) {
+    for (int s = 0; s < test_repeats(24, 6); s++) {
         const double r = s % 2 ? 0.25 : 0.45;
         koksma_points p = sets_points(5 + (size_t)s * 2, 2, s % SETS_KINDS, (uint64_t)s);
         const double ours = test_measure(s % 2 ? "disk" : "disk:r=0.45", &p).value;
@@ -158,7 +158,7 @@ static void witness_shows_the_value(void **state)
     (void)state;
     koksma_spec spec;
     assert_ok(koksma_measure_spec("disk:r=0.3", &spec));
-    for (int s = 0; s < 120; s++) {
+    for (int s = 0; s < test_repeats(120, 24); s++) {
         koksma_points p = sets_points(1 + (size_t)s / 3, 2, s % SETS_KINDS, (uint64_t)s);
         koksma_value v, other;
         assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &v));
@@ -204,7 +204,7 @@ static void branch_and_bound_agrees_with_all_pairs(void **state)
 {
     (void)state;
     static const double radii[] = {0.25, 0.1, 0.375, 0.499};
-    for (int s = 0; s < 160; s++) {
+    for (int s = 0; s < test_repeats(160, 32); s++) {
         char spec[32];
         snprintf(spec, sizeof spec, "disk:r=%.17g", radii[s % 4]);
         koksma_points few = sets_points(22 + (size_t)s / 4, 2, s / 4 % SETS_KINDS, (uint64_t)s), many;

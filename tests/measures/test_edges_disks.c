@@ -88,7 +88,7 @@ static double brute_edge(const koksma_points *s)
 static void edge_equals_brute_force(void **state)
 {
     (void)state;
-    for (int s = 0; s < 3000; s++) {
+    for (int s = 0; s < test_repeats(3000, 300); s++) {
         const size_t n = 1 + (size_t)(s / SETS_KINDS) % 16, crowd = s % 40 == 7 ? 40 : 0;
         koksma_points p = sets_points(n + crowd, 2, s % SETS_KINDS, (uint64_t)s);
         for (size_t c = 0; c < 2 * p.n && s / SETS_KINDS % 4 == 3; c++) {
@@ -119,7 +119,7 @@ static void bounds_of_edge_hold(void **state)
 {
     (void)state;
     static const koksma__domain square = {koksma__area_below_through, NULL, M_SQRT1_2};
-    for (int s = 0; s < 10 * SETS_KINDS; s++) {
+    for (int s = 0; s < test_repeats(10, 3) * SETS_KINDS; s++) {
         koksma_points p = sets_points(1 + (size_t)s % 30, 2, s % SETS_KINDS, (uint64_t)s);
         const double value = test_measure("edge", &p).value;
         koksma__edge_line line = {.value = 0};
@@ -172,7 +172,7 @@ static void known_edges(void **state)
 static void signs_are_exact(void **state)
 {
     (void)state;
-    for (uint64_t i = 0; i < 20000; i++) {
+    for (uint64_t i = 0; i < test_repeats(20000, 2000); i++) {
         double v[8];
         for (uint64_t k = 0; k < 8; k++) {
             const double u = sets_unit(3, 8 * i + k);
@@ -238,7 +238,7 @@ static void exact_agrees_with_sampled(void **state)
 static void disk_equals_fine_search(void **state)
 {
     (void)state;
-    for (int s = 0; s < 18; s++) {
+    for (int s = 0; s < test_repeats(18, 6); s++) {
         koksma_points p = sets_points(1 + (size_t)s / 2, 2, s % SETS_KINDS, (uint64_t)s);
         const koksma_value v = test_measure("disk:r=0.3", &p);
         double best = 0;

@@ -200,7 +200,7 @@ static double square_1d(int kind, const koksma_points *p, int k)
 static void values_are_the_integrals(void **state)
 {
     (void)state;
-    for (int s = 0; s < 180; s++) {
+    for (int s = 0; s < test_repeats(180, 36); s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 5, 2, s % SETS_KINDS, (uint64_t)s);
         const double star = square_2d(KOKSMA__L2_STAR, &p), extreme = square_2d(KOKSMA__L2_EXTREME, &p);
         const double periodic = square_2d(KOKSMA__L2_PERIODIC, &p), centered = square_2d(KOKSMA__L2_CENTERED, &p);
@@ -376,7 +376,7 @@ static void dividing_equals_pairs(void **state)
     static const int ranks[KOKSMA__L2_KINDS] = {
         [KOKSMA__L2_STAR] = 1,     [KOKSMA__L2_EXTREME] = 1,  [KOKSMA__L2_PERIODIC] = 3, [KOKSMA__L2_WRAPAROUND] = 3,
         [KOKSMA__L2_MODIFIED] = 1, [KOKSMA__L2_CENTERED] = 2, [KOKSMA__L2_MIXTURE] = 3,  [KOKSMA__L2_SYMMETRIC] = 2};
-    for (int t = 0; t < 24 * SETS_KINDS; t++) {
+    for (int t = 0; t < test_repeats(24, 6) * SETS_KINDS; t++) {
         const int kind = t % KOKSMA__L2_KINDS;
         const koksma__l2_row *row = rows[kind];
         koksma_points p = sets_points(1 + 7 * (size_t)t % 400, 3 + t / 8 % 2, t / 16 % SETS_KINDS, (uint64_t)t);

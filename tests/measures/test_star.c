@@ -36,7 +36,7 @@ static koksma_points hammersley(size_t n, int dim)
 static void sweep_equals_kinetic_tree(void **state)
 {
     (void)state;
-    for (int s = 0; s < 3000; s++) {
+    for (int s = 0; s < test_repeats(3000, 300); s++) {
         const size_t n = 1 + (size_t)(s / SETS_KINDS) % 60;
         koksma_points p = sets_points(n, 2, s % SETS_KINDS, (uint64_t)s);
         koksma_value sweep = {.value = NAN}, tree = {.value = NAN};
@@ -87,7 +87,7 @@ static void line_equals_brute_force(void **state)
 {
     (void)state;
     int reached = 0;
-    for (int s = 0; s < 1200; s++) {
+    for (int s = 0; s < test_repeats(1200, 150); s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 40, 1, s % SETS_KINDS, (uint64_t)s);
         for (size_t i = 0; i < p.n && s % 7 == 0; i += 3) {
             p.xs[i] = i % 2 ? 0x1p-1074 : 0x1p-1060 * p.xs[i];
@@ -101,7 +101,7 @@ static void line_equals_brute_force(void **state)
         reached += found.value >= star.value - 1e-15;
         koksma_points_fini(&p);
     }
-    assert_true(reached > 1000);
+    assert_true(reached > test_repeats(1000, 100));
     koksma_points many = test_points("random", 50000, 1, 3);
     koksma_value cut = {0};
     const size_t sizes[] = {1, 300, 2500};
@@ -146,7 +146,7 @@ static double brute_4d(const koksma_points *p)
 static void four_dimensions_equal_brute_force(void **state)
 {
     (void)state;
-    for (int s = 0; s < 120; s++) {
+    for (int s = 0; s < test_repeats(120, 24); s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 9, 4, s % SETS_KINDS, (uint64_t)s);
         assert_near(test_measure("star", &p).value, brute_4d(&p), 1e-15);
         koksma_points_fini(&p);
@@ -157,7 +157,7 @@ static void four_dimensions_equal_brute_force(void **state)
 static void partition_equals_sweep(void **state)
 {
     (void)state;
-    for (int s = 0; s < 1200; s++) {
+    for (int s = 0; s < test_repeats(1200, 150); s++) {
         koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 50, 2, s % SETS_KINDS, (uint64_t)s);
         koksma_value v = {.value = -1};
         bool complete;
@@ -221,7 +221,7 @@ static void search_is_a_lower_bound(void **state)
 {
     (void)state;
     int reached = 0;
-    for (int s = 0; s < 60; s++) {
+    for (int s = 0; s < test_repeats(60, 12); s++) {
         koksma_points p = sets_points(1 + (size_t)s / 2, 2 + s % 2, s % SETS_KINDS, (uint64_t)s);
         const double exact = test_measure("star", &p).value;
         const koksma_value lower = test_measure("star-lower:steps=200,restarts=2", &p);
@@ -229,7 +229,7 @@ static void search_is_a_lower_bound(void **state)
         reached += lower.value >= exact - 1e-15;
         koksma_points_fini(&p);
     }
-    assert_true(reached >= 55);
+    assert_true(reached >= test_repeats(55, 10));
 }
 
 /* The default search against the exact value, over patterns and dimensions, and against the best values that are

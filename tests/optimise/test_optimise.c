@@ -195,6 +195,20 @@ static double kept_value(const char *measure, const koksma_points *points, koksm
     return keep == KOKSMA_KEEP_SEQUENCE ? pow(product, 1 / m) : test_measure(measure, points).value;
 }
 
+/* A run with sanitizers makes one of the searches of a step: it is process 0 of as many, and the others, which are not
+   there, are said to have found the same set. */
+static koksma_status same_for_all(void *context, void *pieces, size_t count, size_t bytes)
+{
+    (void)context;
+    for (size_t i = 1; i < count; i++) {
+        memcpy((char *)pieces + i * bytes, pieces, bytes);
+    }
+    return KOKSMA_OK;
+}
+
+static const koksma_processes one_search = {.size = 8, .rank = 0, .exchange = same_for_all};
+static const koksma_processes *const few_searches = test_repeats(NULL, &one_search);
+
 static koksma_optimum optimised(const char *measure, koksma_optimise_options options, int threads)
 {
     koksma_spec spec;
@@ -292,8 +306,13 @@ static void methods_gain_and_keep(void **state)
         const koksma_keep keep = searches[i].keep;
         const char *pattern = keep == KOKSMA_KEEP_NET || keep == KOKSMA_KEEP_SEQUENCE ? "sobol" : "latin-hypercube";
         koksma_points from = test_points(pattern, searches[i].n, searches[i].dim, 3);
-        const koksma_optimise_options options = {
-            .n = searches[i].n, .dim = searches[i].dim, .first = &from, .keep = keep, .seed = 4, .steps = 2};
+        const koksma_optimise_options options = {.n = searches[i].n,
+                                                 .dim = searches[i].dim,
+                                                 .first = &from,
+                                                 .keep = keep,
+                                                 .seed = 4,
+                                                 .steps = 2,
+                                                 .processes = few_searches};
         const double before = kept_value(searches[i].measure, &from, keep);
         koksma_optimum one = optimised(searches[i].measure, options, 1);
         assert_string_equal(one.method, searches[i].method);
@@ -302,11 +321,9 @@ static void methods_gain_and_keep(void **state)
                      (int)keep, before, one.value);
         }
         expect_kept(&from, &one.points, keep);
-        for (int threads = 2; threads <= 8; threads += 6) {
-            koksma_optimum many = optimised(searches[i].measure, options, threads);
-            assert_memory_equal(one.points.xs, many.points.xs, from.n * (size_t)from.dim * sizeof(double));
-            koksma_optimum_fini(&many);
-        }
+        koksma_optimum many = optimised(searches[i].measure, options, 3);
+        assert_memory_equal(one.points.xs, many.points.xs, from.n * (size_t)from.dim * sizeof(double));
+        koksma_optimum_fini(&many);
         koksma_optimum_fini(&one);
         koksma_points_fini(&from);
     }
@@ -327,8 +344,8 @@ static void optima_of_the_star_discrepancy(void **state)
     (void)state;
     static const double optima[] = {0.6180339887, 0.3660254038, 0.2847006554, 1.0 / 4, 1.0 / 5,      1.0 / 6,
                                     3.0 / 20,     17.0 / 128,   10.0 / 81,    1.0 / 9, 0.1030276927, 2.0 / 21};
-    for (size_t n = 1; n <= sizeof optima / sizeof *optima; n++) {
-        koksma_optimum best = optimised("star", (koksma_optimise_options){.n = n, .dim = 2, .steps = 1}, 0);
+    for (size_t n = 1; n <= sizeof optima / sizeof *optima; n += test_repeats(1, 5)) {
+        koksma_optimum best = optimised("star", (koksma_optimise_options){.n = n, .dim = 2, .steps = 1}, 3);
         assert_near(best.value, optima[n - 1], 1e-9);
         koksma_optimum_fini(&best);
     }
@@ -390,7 +407,8 @@ static void values_of_projections(void **state)
                                                  .steps = 2,
                                                  .projections = (uint64_t[]){1, 2, 3},
                                                  .weights = (double[]){1, 2, 5},
-                                                 .n_projections = 3};
+                                                 .n_projections = 3,
+                                                 .processes = few_searches};
         koksma_spec measure;
         koksma_optimum best;
         koksma_points sets[2] = {test_points("latin-hypercube", N, 2, 0)};
@@ -446,7 +464,8 @@ static void target_powers(void **state)
         const size_t n = t == 2 ? 25 : N;
         assert_ok(koksma_radial_power(targets[t], n, RINGS, NULL, power));
         koksma_points before = test_points("gaussian-blue-noise", n, 2, 0);
-        koksma_optimise_options o = {.n = n, .dim = 2, .steps = 1, .power = power, .rings = RINGS};
+        koksma_optimise_options o = {
+            .n = n, .dim = 2, .steps = 1, .power = power, .rings = RINGS, .processes = few_searches};
         koksma_optimum best[2];
         for (int k = 0; k < 2; k++) {
             assert_ok(koksma_optimise(NULL, &o, &(koksma_run){.threads = 1 + 2 * k}, &best[k]));

@@ -7,22 +7,7 @@
 #include "patterns/shared/unit_sums.h"
 #include "test.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SLOW 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SLOW 1
-#endif
-#endif
-
-enum {
-    MAX_DIM = 64,
-#ifdef SLOW
-    MOST_BITS = 14,
-#else
-    MOST_BITS = 20,
-#endif
-};
+enum { MAX_DIM = 64, MOST_BITS = test_repeats(20, 14) };
 
 /* gamma of the criterion that patterns/lattice_rank1.c states, times 2 pi^2. */
 #define WEIGHT 0.75
@@ -160,11 +145,9 @@ static void components_are_the_best_of_all(void **state)
     enum { DIM = 5 };
     for (size_t c = 0; c < N_KINDS; c++) {
         const size_t n = kinds[c];
-#ifdef SLOW
-        if (n > 300) {
+        if (n > test_repeats(SIZE_MAX, 300)) {
             break;
         }
-#endif
         size_t z[DIM];
         multipliers("lattice-rank1", n, DIM, z);
         double *product = malloc((n / 2 + 1) * sizeof *product);

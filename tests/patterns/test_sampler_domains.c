@@ -232,7 +232,7 @@ static void uses_are_independent(void **state)
     (void)state;
     static const uint32_t counts[] = {2, 8, 16, 64, 256, 1024, MOST};
     for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
-        const uint32_t n = counts[c], sets = (n < 256 ? 1 << 14 : 1 << 16) / n;
+        const uint32_t n = counts[c], sets = test_repeats(n < 256 ? 1u << 14 : 1u << 16, 1u << 12) / n;
         forget_pairings();
         for (uint32_t set = 0; set < sets; set++) {
             const koksma_domain pixel = koksma_domain_of_pixel(n, set % 64, set / 64);
@@ -394,7 +394,7 @@ static couple keys_of_one_bit(uint32_t i)
 static void domains_that_are_alike_are_independent(void **state)
 {
     (void)state;
-    enum { SETS = 64, N = 256 };
+    enum { SETS = test_repeats(64, 8), N = 256 };
     static const struct {
         const char *name;
         couple (*make)(uint32_t i);

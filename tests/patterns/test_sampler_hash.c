@@ -12,7 +12,7 @@
 #include "core/random.h"
 #include "test.h"
 
-enum { N = 4096, OUT = 160, SEEDS = 5 };
+enum { N = test_repeats(4096, 1024), OUT = 160, SEEDS = 5 };
 
 /* The five seeds of a draw. */
 static void seeds_of(koksma_domain domain, uint32_t seeds[SEEDS])
@@ -110,7 +110,7 @@ static void assert_avalanche(const char *name, hash f, int first_bit, int bits, 
             square += z * z / counts;
         }
     }
-    if (worst > (small ? 0.05 * N / deviation : sqrt(2 * log(counts)) + 2) ||
+    if (worst > (small ? test_repeats(0.05, 0.1) * N / deviation : sqrt(2 * log(counts)) + 2) ||
         (!small && fabs(square - 1) > 6 * sqrt(2 / counts))) {
         fail_msg("%s, %s arguments: worst count %g deviations off, mean square %g", name, small ? "small" : "any",
                  worst, square);
@@ -145,7 +145,7 @@ static void every_bit_reaches_every_seed(void **state)
 static void seeds_in_pairs_are_independent(void **state)
 {
     (void)state;
-    enum { PIXELS = 1 << 16, RELATIONS = 5 };
+    enum { PIXELS = test_repeats(1 << 16, 1 << 14), RELATIONS = 5 };
     static int counts[RELATIONS][SEEDS][SEEDS][256];
     for (uint32_t p = 0; p < PIXELS; p++) {
         uint32_t s[1 + RELATIONS][SEEDS];

@@ -5,7 +5,7 @@
 
 #include "rendering.h"
 
-enum { WIDTH = 16, HEIGHT = 12, PIXELS = WIDTH * HEIGHT, SEEDS = 80 };
+enum { WIDTH = 16, HEIGHT = 12, PIXELS = WIDTH * HEIGHT, SEEDS = test_repeats(80, 12) };
 
 typedef struct moments {
     double mean[PIXELS], square_error[PIXELS]; /* of the mean */
@@ -60,14 +60,15 @@ static double deviation(const moments *reference, const moments *few, bool biase
             sum += off * off / variance;
             used++;
         } else if (!biased) {
-            assert_near(off, 0, 2e-3);
+            assert_near(off, 0, test_repeats(2e-3, 1e-2));
         }
     }
     assert_true(used > PIXELS / 4);
     return sum / used;
 }
 
-/* The deviation's own spread is about sqrt(2 / pixels with noise), 0.13. */
+/* The deviation's own spread is about sqrt(2 / pixels with noise), 0.13. Of 12 seeds its mean is 11/9, as that of the
+   square of Student's t, and its spread 0.22; only the optimised run has enough of them to see a bias. */
 static void bias_is_where_it_must_be(void **state)
 {
     (void)state;
@@ -92,12 +93,12 @@ static void bias_is_where_it_must_be(void **state)
     koksma_scene *scene;
     static moments reference, few;
     assert_ok(koksma_scene_open("ball", &scene));
-    measure(scene, NULL, "sobol:scramble=owen", 512, 0, 12, 100000, &reference);
+    measure(scene, NULL, "sobol:scramble=owen", test_repeats(512, 64), 0, 12, 100000, &reference);
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         const bool sets = strstr(cases[c].method, "two-stage") || strstr(cases[c].method, "relative");
         measure(scene, cases[c].method, "jittered", sets ? 4 : 16, cases[c].budget, SEEDS, 1000 * c, &few);
         const double off = deviation(&reference, &few, cases[c].biased);
-        if (cases[c].biased ? !(off > 1.6) : !(off < 1.4)) {
+        if (cases[c].biased ? !(off > test_repeats(1.6, 0)) : !(off < test_repeats(1.4, 2.1))) {
             fail_msg("%s: mean square deviation %.2f", cases[c].method, off);
         }
     }
@@ -149,10 +150,10 @@ static void what_decided_is_not_met_again(void **state)
     koksma_scene *scene = slits();
     static moments reference, few;
     double reference_error, error;
-    measure(scene, NULL, "sobol:scramble=owen", 1024, 0, 4, 100000, &reference);
+    measure(scene, NULL, "sobol:scramble=owen", test_repeats(1024, 256), 0, 4, 100000, &reference);
     const double expected = mean_over_pixels(&reference, &reference_error);
     for (size_t c = 0; c < sizeof methods / sizeof *methods; c++) {
-        measure(scene, methods[c], "jittered", 4, 0, 250, 1000 * c, &few);
+        measure(scene, methods[c], "jittered", 4, 0, test_repeats(250, 25), 1000 * c, &few);
         const double mean = mean_over_pixels(&few, &error);
         if (!(fabs(mean - expected) <= 4 * sqrt(error + reference_error))) {
             fail_msg("%s: %.5f, expected %.5f +- %.5f", methods[c], mean, expected, sqrt(error + reference_error));

@@ -16,7 +16,7 @@
 #include "render/materials/materials.h"
 #include "render/vector3.h"
 
-enum { TRIALS = 24, SAMPLES = 20000, CELL = 12, ANGLES = 300 };
+enum { TRIALS = test_repeats(24, 4), SAMPLES = 20000, CELL = 12, ANGLES = test_repeats(300, 60) };
 #define SHARPEST 1e3
 
 /* A material of the kind, through the parser; redrawn where the kind refuses parameters together. */

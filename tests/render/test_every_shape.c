@@ -22,7 +22,7 @@
 #include "render/accel/accel_shapes.h"
 #include "render/shapes/shapes.h"
 
-enum { TRIALS = 24, STEPS = 2000 };
+enum { TRIALS = test_repeats(24, 6), STEPS = 2000 };
 
 static const double reach = 8; /* rays start within 3 of the origin, shapes are as small; planes are met later, too */
 

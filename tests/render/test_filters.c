@@ -97,7 +97,7 @@ static void filters_keep_a_ramp(void **state)
 static void few_draws_have_no_bias(void **state)
 {
     (void)state;
-    enum { SEEDS = 100, HEIGHT = 9 };
+    enum { SEEDS = test_repeats(100, 20), HEIGHT = 9 };
     koksma_scene *scene =
         scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 90}, \"ambient\": 1,"
                  "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["

@@ -16,7 +16,7 @@
 #include "render/lights/lights.h"
 #include "render/vector3.h"
 
-enum { TRIALS = 12, SAMPLES = 16384, SIDE = 128, FUNCTIONS = 9, PICTURES = 3 };
+enum { TRIALS = test_repeats(12, 3), SAMPLES = 16384, SIDE = 128, FUNCTIONS = 9, PICTURES = 3 };
 
 #define CAMERA "\"camera\": {\"eye\": [4, 1, 4], \"target\": [1.2, -2, 1.2], \"fov_deg\": 20}"
 #define FLOOR                                                                                                        \

@@ -16,7 +16,7 @@
 #include "render/samples/uses.h"
 #include "test.h"
 
-enum { MOST = 256, TRIALS = 20000 };
+enum { MOST = 256, TRIALS = test_repeats(20000, 2000) };
 
 static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
 static const float nowhere[2] = {0, 0};

@@ -86,7 +86,7 @@ static void samples_are_the_points_of_one_set(void **state)
                 koksma__sample_scratch room;
                 float place[128], time[128];
                 open(&options, &sampler, &room);
-                for (uint64_t pixel = 0; pixel < 12; pixel++) {
+                for (uint64_t pixel = 0; pixel < test_repeats(12, 3); pixel++) {
                     assert_ok(koksma_generate(&spec, koksma__random_seed(options.seed, pixel, KOKSMA__USE_PIXEL),
                                               NULL, &points));
                     draw(&sampler, &room, pixel, pixel % 2 ? KOKSMA__USE_TIME : KOKSMA__USE_PIXEL,
@@ -271,7 +271,7 @@ typedef struct moments {
 
 static moments over_seeds(const koksma_scene *scene, koksma_render_options options, const char *method)
 {
-    enum { SEEDS = 40, PIXELS = 12 * 12 };
+    enum { SEEDS = test_repeats(40, 10), PIXELS = 12 * 12 };
     static const koksma_run alone = {.threads = 1}; /* pictures are too small for more */
     double sum = 0, squares = 0, pixel_sum[PIXELS] = {0}, pixel_squares[PIXELS] = {0};
     moments m = {0};
