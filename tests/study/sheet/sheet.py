@@ -226,7 +226,7 @@ def check_family():
         for seed in range(3, 8):
             run("generate", "jittered", "-n", str(n), "-s", str(seed), "-q", "-o", f"sets/my_{n}_{seed}.npy")
     run("generate", "jittered", "-n", "64", "-s", "3", "-q", "-o", "sets/my_64_3.npy")  # one set of five: too few
-    text, data = sheet("sets/my_{n}_{seed}.npy", "--beside", "jittered,pmj02", "--scenes", "checker", "--quick")
+    text, data = sheet("sets/my_{n}_{seed}.npy", "--beside", "jittered,pmj02", "--scenes", "none" if SANITIZED else "checker", "--quick")
     expect(data["samplers"][0] == "file:sets/my_{n}_{seed}.npy", data["samplers"])
     values = [r for r in tables(data)["values"] if r["sampler"] == data["samplers"][0]]
     expect({r["n"] for r in values} == {16, 36, 100} and all(r["sets"] == 5 for r in values), "sizes and seeds of the files")
@@ -235,7 +235,7 @@ def check_family():
         for r in values:
             if (r["measure"], r["n"]) == (row["measure"], row["n"]):
                 expect(same(r["mean"][0], row["value"]), f"{r} is {row}")
-    expect({r["samples a pixel"] for r in tables(data)["scene-checker"]} == {16}, "samples a pixel")
+    expect(SANITIZED or {r["samples a pixel"] for r in tables(data)["scene-checker"]} == {16}, "samples a pixel")
     left = [text_of(i) for b in blocks(data["content"]) if b.get("id") == "left-out" for i in b["items"]]
     expect(any(i.startswith("t-value: ") for i in left), f"100 points are no net: {left}")
     expect("t-value" not in {r["measure"] for r in values}, "t-value of 100 points")
