@@ -181,7 +181,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Sup
     if isinstance(projections, str):
         if projections != "pairs":
             raise ArgumentError(f"projections must be groups of coordinates, such as [(0, 1), (0, 2)], or 'pairs', not {projections!r}")
-        projections = [(k, j) for k in range(min(dim, 64)) for j in range(k)]
+        projections = [(k, j) for k in range(min(int(dim), 64)) for j in range(k)]
     try:
         groups = [{whole("projections", k, 0, 63) for k in u} for u in projections]
     except TypeError:
