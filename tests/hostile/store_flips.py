@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""store_flips.py KOKSMA: 500 random bit flips (50 with sanitizers) in the database and the reference images of a study. Each is found by
+"""store_flips.py KOKSMA: 1,000 random bit flips (50 with sanitizers) in the database and the reference images of a study. Each is found by
 `audit --rows all`, which then has another exit code than 0, or changes nothing that export and report have of results;
 and no flip makes `export` write other rows with exit code 0, whatever the audit says. Half of the flips of the database are anywhere, half next to bytes that are not 0, as much of a small file is empty."""
 import os
@@ -14,7 +14,7 @@ PLAN = """{"name": "f", "title": "f",
   "discrepancies": [{"patterns": ["random", "zaremba"], "measures": ["star", "l2-star", "extreme"], "n": [4], "trials": 3}],
   "images": [{"scenes": ["checker"], "patterns": ["random"], "spp": [1], "size": [8, 6], "trials": 3,
               "references": [{"name": "r", "pattern": "jittered", "spp": 4, "replicates": 2}]}]}"""
-FLIPS = 50 if os.environ.get("KOKSMA_SANITIZED") == "1" else 500
+FLIPS = 50 if os.environ.get("KOKSMA_SANITIZED") == "1" else 1000
 
 
 def run(*arguments):
