@@ -173,7 +173,7 @@ static koksma_status take_concat(reader *r, source *s)
     return concat(r, m);
 }
 
-static koksma_status name_space(reader *r, const char *name, const double matrix[2][12])
+static koksma_status name_space(reader *r, const char *name, const double (*matrix)[12])
 {
     named_space *to = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
@@ -225,13 +225,14 @@ static koksma_status take_times(reader *r, source *s)
 }
 
 /* Whether something placed by the two matrices moves. */
-static bool moves(const double matrix[2][12])
+static bool moves(const double (*matrix)[12])
 {
     return memcmp(matrix[0], matrix[1], sizeof matrix[0]) != 0;
 }
 
-/* Finds the poses at the start and the end of a motion; returns false, with a warning, if there are none. */
-static koksma_status find_poses(reader *r, koksma__text_place place, const double matrix[2][12],
+/* Finds the poses at the start and the end of the motion from matrix[0] to matrix[1]. Sets *found to false, with a
+   warning, if there are none. */
+static koksma_status find_poses(reader *r, koksma__text_place place, const double (*matrix)[12],
                                 koksma__pose poses[2], bool *found)
 {
     *found = koksma__matrix_mirrors(matrix[0]) == koksma__matrix_mirrors(matrix[1]) &&
