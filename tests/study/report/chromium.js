@@ -255,6 +255,14 @@ async function byKeyboard(page) {
     check(small === 0, `${small} charts are not drawn again for a narrow window`);
     if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}-400.png`, fullPage: true });
     await page.setViewportSize({ width: 1280, height: 900 });
+    // The charts of the whole width are drawn again some frames later: wait until the widest has more than a narrow window's width.
+    const drawn = () => { const charts = [...document.querySelectorAll(".chart")].map(c => c.viewBox.baseVal.width); return !charts.length || Math.max(...charts) > 400; };
+    let again = await page.evaluate(drawn);
+    for (let waits = 0; !again && waits < 600; waits++) {
+      await new Promise(resolve => setTimeout(resolve, 100));
+      again = await page.evaluate(drawn);
+    }
+    check(again, "charts are not drawn again for a wide window");
     if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}.png`, fullPage: true });
     if (colorScheme === "light") { // printed, nothing is folded, and nothing is cut off at the side of a page
       await page.emulateMedia({ media: "print" });
