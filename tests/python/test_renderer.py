@@ -56,7 +56,7 @@ class Renderers(unittest.TestCase):
     def test_refusals(self):
         with self.assertRaisesRegex(ValueError, "the same picture for every seed"):
             koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)))
-        with self.assertRaisesRegex(ValueError, "reference takes renderer"):
+        with self.assertRaisesRegex(ValueError, "reference has an effect only with renderer"):
             koksma.rank("ball", ["random"], 4, reference="random")
         with self.assertRaisesRegex(ValueError, "instead of 8 x 8"):
             koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)), size=(8, 8))
