@@ -84,7 +84,11 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names of one argument: give one of them")
         if rng is not None and not isinstance(rng, (int, np.integer, np.random.Generator, np.random.RandomState)):
-            seed = np.random.default_rng(rng)  # as SPEC 7 has it: also a BitGenerator or several ints
+            try:
+                seed = np.random.default_rng(rng)  # as SPEC 7 has it: also a BitGenerator or several ints
+            except (TypeError, ValueError) as error:
+                raise type(error)(f"rng: NumPy makes no generator of {rng!r} ({error}): give an integer, a SeedSequence, "
+                                  "a Generator or None") from None
         elif isinstance(seed, np.random.SeedSequence):
             seed = np.random.default_rng(seed)  # scipy takes none
         seed = rng if seed is None else seed

@@ -23,7 +23,7 @@ WRONG = [None, -1, 2.5, float("nan"), float("inf"), 1 << 70, "", "q\0q", "nothin
          [2.5], [-1], ["random\0"], lambda *_: Odd()]
 # Other words for a parameter: of scipy's and numpy's own checks, and of what a parameter consists of.
 SYNONYMS = {"text_of_spec": "pattern", "patterns": "patterns?", "size": "width|size", "function": "function|integrand|argument|float",
-            "axes": "axes|axis", "seed": "seed|SeedSequence|integer", "rng": "seed|SeedSequence|integer", "d": "d|int|integer", "image": "image|pixels",
+            "axes": "axes|axis", "seed": "seed|SeedSequence|integer", "rng": "rng|seed|SeedSequence|integer", "d": "d|int|integer", "image": "image|pixels",
             "images": "images?|pixels", "reference": "image|pixels|reference", "plan": "plan|JSON|dict"}
 NEVER = r"ctypes|koksma_[a-z]|(?<!\w)--[a-z]|koksma list"
 
