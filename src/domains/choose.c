@@ -60,7 +60,7 @@ typedef struct layout {
 static koksma_status layout_init(layout *l, const koksma__point_domain *domain, size_t n)
 {
     const size_t dim = (size_t)domain->dim, bytes = n * ((dim + 1) * sizeof *l->xs + sizeof *l->order);
-    l->xs = malloc(bytes);
+    l->xs = calloc(1, bytes); /* gcc does not see that place() fills it */
     KOKSMA__REQUIRE_MEMORY(l->xs, bytes);
     l->units = domain->varies ? l->xs + n * dim : NULL;
     l->order = (uint32_t *)(l->xs + n * (dim + 1));

@@ -939,7 +939,9 @@ static koksma_status name_unused(reader *r)
                 continue;
             }
             const node *to = resolve(r, c);
-            const bool counts = !is(to, "bsdf") && !is(to, "emitter") && !is(to, "medium");
+            /* these are found by what they are, whatever their name, as Mitsuba's own writer gives them one */
+            const bool counts = !is(to, "bsdf") && !is(to, "emitter") && !is(to, "medium") && !is(to, "film") &&
+                                !is(to, "sampler") && !is(to, "rfilter") && !is(to, "shape");
             KOKSMA__TRY(counts ? koksma__import_unknown(r->im, c->place, "'%s' of %s '%s' is ignored", name,
                                                         parent->tag, type_of(parent))
                                : KOKSMA_OK);

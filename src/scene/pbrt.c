@@ -173,12 +173,13 @@ static koksma_status take_concat(reader *r, source *s)
     return concat(r, m);
 }
 
-static koksma_status name_space(reader *r, const char *name, const double (*matrix)[12])
+static koksma_status name_space(reader *r, const char *name, const double *start, const double *end)
 {
-    named_space *to = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *to);
-    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    snprintf(to->name, sizeof to->name, "%s", name);
-    memcpy(to->matrix, matrix, sizeof to->matrix);
+    named_space *space = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *space);
+    KOKSMA__TRY(space ? KOKSMA_OK : KOKSMA_MEMORY);
+    snprintf(space->name, sizeof space->name, "%s", name);
+    memcpy(space->matrix[0], start, sizeof space->matrix[0]);
+    memcpy(space->matrix[1], end, sizeof space->matrix[1]);
     return KOKSMA_OK;
 }
 
@@ -186,7 +187,7 @@ static koksma_status take_coordinate_system(reader *r, source *s)
 {
     char name[64];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    return name_space(r, name, (const double(*)[12])r->now.matrix);
+    return name_space(r, name, r->now.matrix[0], r->now.matrix[1]);
 }
 
 static koksma_status take_coordinate_transform(reader *r, source *s)
@@ -225,18 +226,18 @@ static koksma_status take_times(reader *r, source *s)
 }
 
 /* Whether something placed by the two matrices moves. */
-static bool moves(const double (*matrix)[12])
+static bool moves(const double *start, const double *end)
 {
-    return memcmp(matrix[0], matrix[1], sizeof matrix[0]) != 0;
+    return memcmp(start, end, 12 * sizeof *start) != 0;
 }
 
-/* Finds the poses at the start and the end of the motion from matrix[0] to matrix[1]. Sets *found to false, with a
+/* Finds the poses at the start and the end of a motion, from their matrices. Sets *found to false, with a
    warning, if there are none. */
-static koksma_status find_poses(reader *r, koksma__text_place place, const double (*matrix)[12],
+static koksma_status find_poses(reader *r, koksma__text_place place, const double *start, const double *end,
                                 koksma__pose poses[2], bool *found)
 {
-    *found = koksma__matrix_mirrors(matrix[0]) == koksma__matrix_mirrors(matrix[1]) &&
-             koksma__pose_of_matrix(matrix[0], &poses[0]) && koksma__pose_of_matrix(matrix[1], &poses[1]);
+    *found = koksma__matrix_mirrors(start) == koksma__matrix_mirrors(end) &&
+             koksma__pose_of_matrix(start, &poses[0]) && koksma__pose_of_matrix(end, &poses[1]);
     return *found ? KOKSMA_OK
                   : koksma__import_unknown(r->im, place,
                                            "a motion that mirrors, or by a matrix without inverse, is ignored");
@@ -327,9 +328,9 @@ static koksma_status take_instance(reader *r, source *s)
         const object *o = &r->objects[i];
         if (o != r->open && !strcmp(o->name, name)) {
             koksma__pose poses[2];
-            bool moving = moves((const double(*)[12])r->now.matrix);
+            bool moving = moves(r->now.matrix[0], r->now.matrix[1]);
             if (moving) {
-                KOKSMA__TRY(find_poses(r, s->place, (const double(*)[12])r->now.matrix, poses, &moving));
+                KOKSMA__TRY(find_poses(r, s->place, r->now.matrix[0], r->now.matrix[1], poses, &moving));
             }
             for (size_t k = 0; k < o->n; k++) {
                 KOKSMA__TRY(koksma__import_put(r->im, &o->items[k], r->now.matrix[0], moving ? poses : NULL));
@@ -368,10 +369,10 @@ static koksma_status take_shape(reader *r, source *s)
     memcpy(form, koksma__import_identity, sizeof form);
     KOKSMA__TRY(koksma__pbrt_shape(&r->values, type, r->parameters, &item, form, &is_there));
     koksma__matrix_multiply(r->now.matrix[0], form, item.matrix);
-    if (is_there && moves((const double(*)[12])r->now.matrix)) {
+    if (is_there && moves(r->now.matrix[0], r->now.matrix[1])) {
         memcpy(item.motion.before, form, sizeof form);
         KOKSMA__TRY(
-            find_poses(r, item.place, (const double(*)[12])r->now.matrix, item.motion.poses, &item.motion.moves));
+            find_poses(r, item.place, r->now.matrix[0], r->now.matrix[1], item.motion.poses, &item.motion.moves));
     }
     return is_there ? put(r, &item) : KOKSMA_OK;
 }
@@ -414,7 +415,7 @@ static koksma_status take_light(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
     KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, far || around ? "L" : "I", light.radiance));
-    KOKSMA__TRY(moves((const double(*)[12])r->now.matrix)
+    KOKSMA__TRY(moves(r->now.matrix[0], r->now.matrix[1])
                     ? koksma__import_unknown(r->im, p->place, "a moving light stays where it is at the start")
                     : KOKSMA_OK);
     point_of(p, "from", 0, from);
@@ -480,7 +481,7 @@ static koksma_status take_camera(reader *r, source *s)
         memcpy(r->window, window->numbers, sizeof r->window);
     }
     r->frame = fmax(koksma__pbrt_number(p, "frameaspectratio", 0), 0);
-    return name_space(r, "camera", (const double(*)[12])r->camera);
+    return name_space(r, "camera", r->camera[0], r->camera[1]);
 }
 
 static koksma_status take_film(reader *r, source *s)
@@ -848,7 +849,7 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     r.parameters->place = s.place;
     r.parameters->used = r.used;
     koksma_status status = take_identity(&r, &s);
-    status = status ? status : name_space(&r, "world", (const double(*)[12])r.now.matrix);
+    status = status ? status : name_space(&r, "world", r.now.matrix[0], r.now.matrix[1]);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
     status = status ? status : read_source(&r, &s);
     status = status ? status : set_camera(&r);

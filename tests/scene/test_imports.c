@@ -838,6 +838,11 @@ static const struct {
     {"a.xml", MITSUBA("<emitter type=\"projector\"/>"), "a.xml:2: emitter 'projector' is replaced by a point"},
     {"a.xml", MITSUBA("<emitter type=\"sunsky\"/>"), "a.xml:2: emitter 'sunsky' is replaced by a white sky"},
     {"a.xml", MITSUBA("<shape type=\"cube\"/>"), NULL},
+    {"a.xml", /* Mitsuba's own writer names what a sensor holds */
+     "<scene version=\"3.0.0\"><sensor type=\"perspective\" name=\"sensor\"><sampler type=\"independent\" "
+     "name=\"sampler\"/><film "
+     "type=\"hdrfilm\" name=\"film\"><rfilter type=\"box\" name=\"rfilter\"/></film></sensor></scene>",
+     NULL},
     {"a.xml",
      MITSUBA("<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\"/></shape><shape type=\"instance\"><ref "
              "id=\"g\"/></shape>"),
