@@ -928,6 +928,18 @@ static bool is_harmless(const node *n, const char *name)
     return false;
 }
 
+/* Whether its parent's reader finds it by what it is, whatever its name; Mitsuba's own writer names all. */
+static bool is_found_by_kind(const node *n)
+{
+    static const char *const tags[] = {"bsdf", "emitter", "medium", "film", "sampler", "rfilter", "shape"};
+    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
+        if (is(n, tags[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Names the properties that nothing has asked for of the nodes that are shown as the file describes them. */
 static koksma_status name_unused(reader *r)
 {
@@ -938,13 +950,10 @@ static koksma_status name_unused(reader *r)
             if (!name || r->used[c - r->xml.nodes] || is_harmless(c, name)) {
                 continue;
             }
-            const node *to = resolve(r, c);
-            /* these are found by what they are, whatever their name, as Mitsuba's own writer gives them one */
-            const bool counts = !is(to, "bsdf") && !is(to, "emitter") && !is(to, "medium") && !is(to, "film") &&
-                                !is(to, "sampler") && !is(to, "rfilter") && !is(to, "shape");
-            KOKSMA__TRY(counts ? koksma__import_unknown(r->im, c->place, "'%s' of %s '%s' is ignored", name,
-                                                        parent->tag, type_of(parent))
-                               : KOKSMA_OK);
+            KOKSMA__TRY(is_found_by_kind(resolve(r, c))
+                            ? KOKSMA_OK
+                            : koksma__import_unknown(r->im, c->place, "'%s' of %s '%s' is ignored", name, parent->tag,
+                                                     type_of(parent)));
         }
     }
     return KOKSMA_OK;

@@ -751,7 +751,7 @@ static koksma_status check_window(reader *r, double aspect)
                : KOKSMA_OK;
 }
 
-/* Sets the camera's motion, which is straight here: a camera that turns as well stands still. */
+/* Sets the camera's motion, which is straight here: a camera that turns as well stays at rest. */
 static koksma_status set_motion(reader *r, double motion[3])
 {
     double largest = 0;

@@ -422,7 +422,7 @@ static void mirrored_squares_glow_in_front(void **state)
 }
 
 /* Without doubleSided only front-facing triangles are seen, with it both sides are (glTF 2.0, section 3.9.6): of a
-   square that emits 1, before a lamp-lit one whose winding the node's scale, mirroring or not, decides (3.7.4). The camera
+   square that emits 1, before one lit by a light and whose winding the node's scale, mirroring or not, decides (3.7.4). The camera
    sees through a back to what is behind. As instances of one mesh, and alone. */
 static void backs_are_seen_as_the_file_says(void **state)
 {
@@ -452,7 +452,7 @@ static void backs_are_seen_as_the_file_says(void **state)
             assert_near(lit(text, "0, 1, 2, 3", material, DARK), two || nodes[i].front ? M_PI : 0, 1e-5);
         }
     }
-    /* the camera, at z = 3, sees a square at 0 through the back of one at 1, which casts its shadow: a lamp beyond it leaves
+    /* the camera, at z = 3, sees a square at 0 through the back of one at 1, which casts its shadow: a light beyond it leaves
        the square at 0 dark, one between them does not */
 #define BETWEEN "{\"mesh\": 0}, {\"mesh\": 0, \"translation\": [0, 0, 1], \"rotation\": [0, 1, 0, 0]}, "
     assert_near(lit(BETWEEN LAMP_AT("0", "3"), "0, 1, 2, 3", plain, NULL), 0, 0);

@@ -4,9 +4,9 @@
  * in proportion to its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that
  * positions are uniform over the whole area. With an image of the emission, the weight of a triangle is its emission,
  * estimated at 16 positions, plus a twentieth of the mean emission, so that every emitting triangle can be chosen;
- * the image is looked up at the position chosen. A two-sided mesh emits the same from both sides. A shadow ray ends before the triangle by 2^-20 of the position's
- * largest coordinate (rays that leave a triangle start at the same distance from it, batch_triangles.c); otherwise
- * rounding could make the ray hit the light at which it is aimed.
+ * the image is looked up at the position chosen. A two-sided mesh emits the same from both sides. A shadow ray ends
+ * before the triangle by 2^-20 of the position's largest coordinate (rays that leave a triangle start at the same
+ * distance from it, batch_triangles.c); otherwise rounding could make the ray hit the light at which it is aimed.
  */
 #include <stdlib.h>
 
