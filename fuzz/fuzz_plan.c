@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Readers: src/study/plan src/json */
 /* Fuzzes the parser of plans: any text gives a plan or an error. */
 #include "study/plan/plan.h"
 #include "study/plan/plan_owned.h"

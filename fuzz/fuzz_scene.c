@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Readers: src/scene src/json */
 /* Fuzzes the parser of scene files: any text gives a scene or an error. */
 #include "scene/scene.h"
 #include "target.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Readers: src/study/store */
 /*
  * Damaged databases of studies. The input is a list of places and bytes that are put there: 3 bytes of offset, one of
  * length, the bytes; the end cuts the file off when the offset is its last. What is left is exported, reported and
