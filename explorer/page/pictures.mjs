@@ -12,11 +12,11 @@ const scenesText = {
 
 // Grey values; y is up in the picture and down on the canvas.
 function paintGrey(canvas, { width, height }, grey) {
-  const image = new ImageData(width, height);
-  for (let j = 0; j < height; j++) {
-    for (let i = 0; i < width; i++) {
-      const value = Math.round(255 * Math.min(Math.max(grey((height - 1 - j) * width + i), 0), 1));
-      image.data.set([value, value, value, 255], 4 * (j * width + i));
+  const image = new ImageData(width, height), rgba = image.data;
+  for (let j = 0, k = 0; j < height; j++) {
+    for (let i = 0; i < width; i++, k += 4) {
+      rgba[k] = rgba[k + 1] = rgba[k + 2] = Math.round(255 * Math.min(Math.max(grey((height - 1 - j) * width + i), 0), 1));
+      rgba[k + 3] = 255;
     }
   }
   Object.assign(canvas, { width, height });
