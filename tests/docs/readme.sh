@@ -19,7 +19,7 @@ koksma generate n-rooks -n 16 -q -o points.txt &&
   koksma render ball -n 1 --size 16x16 -q -o ball.exr >/dev/null &&
   koksma render ball -n 4 --size 16x16 -q -o reference.exr >/dev/null && cp reference.exr truth.exr &&
   cp ball.exr mine_regular_1_0.exr || exit 1
-count=0 failed=0
+count=0 failed=0 sheets=0
 sed -n 's/^    \(koksma .*\)/\1/p' "$root/README.md" "$root/docs/commands.md" | sed 's/  *# .*//' | sed 's/-o DIR/-o dir/' >commands
 for command in $(koksma --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
   koksma "$command" --help | sed -n '/^examples:/,$s/^  //p' >examples
@@ -41,6 +41,10 @@ while read -r command; do
     'koksma generate '*.obj*) [ "$meshes" -eq 1 ] || command=true ;;
     *.obj*) [ "$meshes" -eq 1 ] && command="$command --size 32x32 -q" || command=true ;;
     'koksma verify '*) command="$command || [ \$? -eq 1 ]" ;; # "no" is an answer
+    # The first with its three scenes, the others, which are of other points, with one, as a scene takes three seconds.
+    'koksma datasheet '*)
+      case "$sheets $command" in 1*--scenes* | 0*) ;; *) command="$command --scenes ball" ;; esac
+      sheets=1 ;;
     'koksma manual '*) command -v man >/dev/null || command=true ;;
     'koksma optimise --scene '*)
       command="$command --candidates 2 --phases 1 --max-trials 8 --size 16x12 --held-out checker --against random,jittered" ;;
