@@ -3,15 +3,15 @@
  * prove_star N VALUE: proves that no N points in the plane have a star discrepancy below VALUE, and prints the proof, which
  * tests/optimise/check_star.py checks and defines. Exit code 1 if a permutation is found that may have less.
  *
- * Branch and bound over the ranks by y of the points in order of x (the constraints: src/optimise/method_star_plane.c). Of a
- * prefix of length k the counts c(i,j), i <= k, are known and others bounded, so that with F = n f
+ * Branch and bound over the ranks by y of the points in order of x (the constraints: src/optimise/method_star_plane.c).
+ * Of a prefix of length k the counts c(i,j), i <= k, are known and others bounded, so that with F = n f
  *
  *     X_i Y_j >= low(i,j) - F,   X_i' Y_j' <= high(i'-1,j'-1) + F,   X and Y increasing,   X_n+1 Y_n+1 = n.
  *
- * The first with the second, j <= j', bounds X_i' by X_i: a graph of n + 1 nodes. A cycle of it with a product below 1 refutes
- * all permutations with this prefix, and is printed (a cut); else the next rank is branched on. A transposed permutation has
- * the same discrepancy: prefixes with rank 1 at a position before p(1) are left out. Cycles found lately are tried first.
- * Cuts count only if their logarithms sum up to less than -MARGIN, so that rounding decides nothing.
+ * The first with the second, j <= j', bounds X_i' by X_i: a graph of n + 1 nodes. A cycle of it with a product below 1
+ * refutes all permutations with this prefix, and is printed (a cut); else the next rank is branched on. A transposed
+ * permutation has the same discrepancy: prefixes with rank 1 at a position before p(1) are left out. Cycles found lately
+ * are tried first. Cuts count only if their logarithms sum up to less than -MARGIN, so that rounding decides nothing.
  */
 #include <math.h>
 #include <stdbool.h>

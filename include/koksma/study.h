@@ -31,8 +31,8 @@ typedef struct koksma_study koksma_study;
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
 /* Returns the position in a pattern's text, after `from`, at which the next path begins: after the colon of a pattern whose
-   operand is a file, a program or a library, as in "exec:PATH" or in a group of uses, "jittered;lens=net-file:PATH". A plan's
-   relative paths start at the folder of the plan.
+   operand is a file, a program or a library, as in "exec:PATH" or in a group of uses, "jittered;lens=net-file:PATH". A
+   plan's relative paths start at the folder of the plan.
      text  a pattern, or a group of uses with their patterns
      from  characters to leave out
    Returns 0 if no path begins after `from`. */

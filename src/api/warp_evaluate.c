@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Maps points by a warp, and evaluates measures of the mapped points on the domain of the warp. Half-planes are treated as in
-   measures/edge.c and measures/l2_edge.c, but within the domain of the warp. Disks of one radius and spherical caps
-   have closed forms (measures/shared/warp_l2_disk.h, warp_caps.h). Sampled disks are those that meet the unit disk: the
-   radius follows the disk law, and centres are uniform within 1 + radius of the unit disk's centre. */
+/* Maps points by a warp, and evaluates measures of the mapped points on the domain of the warp. Half-planes are treated
+   as in measures/edge.c and measures/l2_edge.c, but within the domain of the warp. Disks of one radius and spherical
+   caps have closed forms (measures/shared/warp_l2_disk.h, warp_caps.h). Sampled disks are those that meet the unit disk:
+   the radius follows the disk law, and centres are uniform within 1 + radius of the unit disk's centre. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,10 +6,11 @@
  *
  * The file has one of three formats. The format `lattice` of LDData has a line "# lattice", the number of dimensions,
  * the number of points N, and z_1, z_2, ... on one line each; comments follow a #. LatNet Builder's output has the
- * heading "# Parameters for a lattice rule" in place of the first line, below other comments. Kuo's format has no header, and one line "k z_k" (or only z_k) for each dimension. If N = b^m with b prime and m > 1, the points
- * are a lattice sequence: for any power n of b the first n points are the lattice {i z / n}, and more points can
- * follow. Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector
- * should be used only with the numbers of points listed in the comments of its file.
+ * heading "# Parameters for a lattice rule" in place of the first line, below other comments. Kuo's format has no
+ * header, and one line "k z_k" (or only z_k) for each dimension. If N = b^m with b prime and m > 1, the points are a
+ * lattice sequence: for any power n of b the first n points are the lattice {i z / n}, and more points can follow.
+ * Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector should be
+ * used only with the numbers of points listed in the comments of its file.
  *
  * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion,
  * Godin & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 the

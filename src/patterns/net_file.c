@@ -25,8 +25,8 @@
  *
  * Source: Niederreiter 1992; formats: L'Ecuyer et al. 2022, Joe & Kuo 2008.
  *
- * Point i does not depend on n, and there are b^k points; k is 53 for Sobol' numbers. A coordinate has as many digits as fit into a double (53 in
- * base 2); further digits are cut off. The modifier owen-base=b scrambles the points in base b.
+ * Point i does not depend on n, and there are b^k points; k is 53 for Sobol' numbers. A coordinate has as many digits as
+ * fit into a double (53 in base 2); further digits are cut off. The modifier owen-base=b scrambles the points in base b.
  */
 #include <stdlib.h>
 #include <string.h>

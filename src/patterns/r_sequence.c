@@ -10,9 +10,9 @@
  *     shuffle=1    a hash shuffles the lower 32 bits of the index i by a nested uniform permutation, a different one
  *                  for each value of the higher bits
  *
- * With shuffle=1 every aligned block of 2^m points, m <= 32, is a run of 2^m consecutive points of the sequence, and the points
- * of two seeds are paired at random. If n is not a power of two, the first n points consist of several runs, one for
- * each bit 1 of n; docs/decisions/0014 gives the resulting loss of quality.
+ * With shuffle=1 every aligned block of 2^m points, m <= 32, is a run of 2^m consecutive points of the sequence, and the
+ * points of two seeds are paired at random. If n is not a power of two, the first n points consist of several runs, one
+ * for each bit 1 of n; docs/decisions/0014 gives the resulting loss of quality.
  *
  * koksma_r_2d of koksma/sampler.h computes single points of the sequence with shuffle=1,shift=1.
  * Known, 2D, n = 16: D* = 0.243477007, L2 star = 0.067755940.

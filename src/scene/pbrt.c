@@ -4,9 +4,9 @@
  * directives, each with a text and parameters, that change a graphics state or use it to add a shape or light.
  * pbrt_values.c converts parameters to colours, materials and meshes. There are two current matrices, for the start and
  * for the end of the motion; where they differ, a shape moves, or the camera, which can't turn here. Curves are not read;
- * the only medium read is a homogeneous one that contains the camera. Directives that do not describe the scene (Sampler, Integrator,
- * ...) are ignored, because the program's own options choose them.
- * The file is long because all of pbrt's directives are in one place.
+ * the only medium read is a homogeneous one that contains the camera. Directives that do not describe the scene
+ * (Sampler, Integrator, ...) are ignored, because the program's own options choose them. The file is long because all of
+ * pbrt's directives are in one place.
  */
 #include "scene/pbrt.h"
 

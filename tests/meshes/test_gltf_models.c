@@ -119,7 +119,8 @@ static double seen(double colour, double cosine)
 
 #define WHITE_METAL 0.25 /* the same of a white metal: D G / 4 */
 
-/* The square's node and light 0 at z = 3, of irradiance 1, are nodes 1 and 2; what is seen is seen() of the colour, over pi. */
+/* The square's node and light 0 at z = 3, of irradiance 1, are nodes 1 and 2; what is seen is seen() of the colour, over
+   pi. */
 static void expect(const char *material, const char *image, const char *attributes, double r, double g, double b,
                    const char *warning)
 {
@@ -422,8 +423,8 @@ static void mirrored_squares_glow_in_front(void **state)
 }
 
 /* Without doubleSided only front-facing triangles are seen, with it both sides are (glTF 2.0, section 3.9.6): of a
-   square that emits 1, before one lit by a light and whose winding the node's scale, mirroring or not, decides (3.7.4). The camera
-   sees through a back to what is behind. As instances of one mesh, and alone. */
+   square that emits 1, before one lit by a light and whose winding the node's scale, mirroring or not, decides (3.7.4).
+   The camera sees through a back to what is behind. As instances of one mesh, and alone. */
 static void backs_are_seen_as_the_file_says(void **state)
 {
     (void)state;
@@ -452,8 +453,8 @@ static void backs_are_seen_as_the_file_says(void **state)
             assert_near(lit(text, "0, 1, 2, 3", material, DARK), two || nodes[i].front ? M_PI : 0, 1e-5);
         }
     }
-    /* the camera, at z = 3, sees a square at 0 through the back of one at 1, which casts its shadow: a light beyond it leaves
-       the square at 0 dark, one between them does not */
+    /* the camera, at z = 3, sees a square at 0 through the back of one at 1, which casts its shadow: a light beyond it
+       leaves the square at 0 dark, one between them does not */
 #define BETWEEN "{\"mesh\": 0}, {\"mesh\": 0, \"translation\": [0, 0, 1], \"rotation\": [0, 1, 0, 0]}, "
     assert_near(lit(BETWEEN LAMP_AT("0", "3"), "0, 1, 2, 3", plain, NULL), 0, 0);
     assert_near(lit(BETWEEN LAMP_AT("0", "0.6"), "0, 1, 2, 3", plain, "{\"type\": \"point\", \"intensity\": 0.09}"),

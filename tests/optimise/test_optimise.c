@@ -258,8 +258,9 @@ static void sorted(const koksma_points *points, int k, double *out)
     qsort(out, points->n, sizeof *out, by_value);
 }
 
-/* Coordinate k is that of a (0,1)-sequence in base 2: each 2^m points from a multiple of 2^m on have one in each interval of
-   length 2^-m. It is digital: the digits of points i and j without a common digit add up to those of point i + j. */
+/* Coordinate k is that of a (0,1)-sequence in base 2: each 2^m points from a multiple of 2^m on have one in each
+   interval of length 2^-m. It is digital: the digits of points i and j without a common digit add up to those of point i
+   + j. */
 static void expect_sequence(const koksma_points *points, int k)
 {
     const size_t n = points->n, dim = (size_t)points->dim;

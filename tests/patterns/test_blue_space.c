@@ -240,7 +240,8 @@ static void relative_radii_in_space(void **state)
 
 /* Every prefix of a progressive order is blue noise of its number (Yuksel 2015): in the plane his program has relative
    radii of .63 to .65 for eighths, quarters and halves. Spheres of the densest known packings (fcc, D4, D5, E6), n a unit
-   of volume, have the radius (filled / (ball n))^(1/dim), ball the volume of the unit ball. Random points have .3 and less. */
+   of volume, have the radius (filled / (ball n))^(1/dim), ball the volume of the unit ball. Random points have .3 and
+   less. */
 static void prefixes_are_blue_in_space(void **state)
 {
     (void)state;

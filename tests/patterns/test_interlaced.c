@@ -115,10 +115,10 @@ static int counted_t(const koksma_points *points, int m, int order)
     return t > 0 ? t : 0;
 }
 
-/* Interlacing a digital (t, m, order dim)-net gives a net of higher order (Dick 2008). Its t, as above, is at most order t +
-   (order - 1) (dim order / 2 - 1): rows l_r of the coordinates r = 1 .. order become rows order (l_r - 1) + r of one, so
-   that a dependent set of the weight W, the sum of its largest l_r, of which each net has W > m - t, has a weight of at
-   least order W - (order - r) summed over all r and coordinates. */
+/* Interlacing a digital (t, m, order dim)-net gives a net of higher order (Dick 2008). Its t, as above, is at most order
+   t + (order - 1) (dim order / 2 - 1): rows l_r of the coordinates r = 1 .. order become rows order (l_r - 1) + r of
+   one, so that a dependent set of the weight W, the sum of its largest l_r, of which each net has W > m - t, has a
+   weight of at least order W - (order - r) summed over all r and coordinates. */
 static void nets_are_of_higher_order(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lattice-file and net-file, from the definitions of the formats (LDData's README): each file is written here, and its points are
-   made again by the definition's own sums: multiples modulo n, matrices times digits, division of polynomials. */
+/* lattice-file and net-file, from the definitions of the formats (LDData's README): each file is written here, and its
+   points are made again by the definition's own sums: multiples modulo n, matrices times digits, division of
+   polynomials. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -204,7 +204,8 @@ static bool even(size_t c)
 }
 
 /* The RMS of the errors is below 1.3 of independent numbers', beside 4.5 standard errors of an RMS of so many; u v
-   has less, if each domain is stratified; if not, its errors in one set are alike, as it holds the mean of u. The correlation of all samples is 0 within 4.5 standard errors. */
+   has less, if each domain is stratified; if not, its errors in one set are alike, as it holds the mean of u. The
+   correlation of all samples is 0 within 4.5 standard errors. */
 static void assert_independent(const char *what, double n)
 {
     static const char *const names[ERRORS] = {"(u - 1/2)(v - 1/2)", "u v", "B2(u - v)"};

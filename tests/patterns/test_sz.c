@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * sz as its paper states it (Ahmed, Pharr, Ostromoukhov & Huang 2025): sequences in bases 2, 4, 16 and 256 at once. Coordinates
- * 2 k and 2 k + 1 are a (0,2)-sequence in base 2, 4 k .. 4 k + 3 a (0,4)-sequence in base 4, and so on: every aligned block
- * of b^m points is a (0,m,b)-net in base b, which is counted, box by box, for blocks at the start and elsewhere, plain and
- * scrambled. The claims of the pattern (tests/claims) count the first blocks in bases 2 and 4.
+ * sz as its paper states it (Ahmed, Pharr, Ostromoukhov & Huang 2025): sequences in bases 2, 4, 16 and 256 at once.
+ * Coordinates 2 k and 2 k + 1 are a (0,2)-sequence in base 2, 4 k .. 4 k + 3 a (0,4)-sequence in base 4, and so on:
+ * every aligned block of b^m points is a (0,m,b)-net in base b, which is counted, box by box, for blocks at the start
+ * and elsewhere, plain and scrambled. The claims of the pattern (tests/claims) count the first blocks in bases 2 and 4.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -3,12 +3,13 @@
  * The test vectors of the ports of koksma/sampler.h: prints ports/vectors.txt. Draw k of 0 .. 2^20 - 1 takes
  *
  *     seed      koksma_seed_of_frame(0x0123456789abcdef ^ (k >> 18), k >> 16 & 3)
- *     domain    koksma_domain_of_sample(koksma_domain_of_use(koksma_domain_of_pixel(seed, k & 255, k >> 8 & 255), k % 5), k % 3)
+ *     domain    koksma_domain_of_sample(koksma_domain_of_use(pixel, k % 5), k % 3),
+ *               pixel = koksma_domain_of_pixel(seed, k & 255, k >> 8 & 255)
  *     index     (k * 2654435761 mod 2^32) >> k % 25
  *
  * and gives 12 words: the key of the domain (lower, upper), the four of koksma_sobol_4d times 2^32, two of koksma_pmj02_2d,
- * four of koksma_white_4d. Each block of 2^14 draws has one hash for each of the four: h = (h ^ word) * 16777619 modulo 2^32
- * over its words, from h = 2166136261.
+ * four of koksma_white_4d. Each block of 2^14 draws has one hash for each of the four: h = (h ^ word) * 16777619 modulo
+ * 2^32 over its words, from h = 2166136261.
  */
 #include <koksma/sampler.h>
 

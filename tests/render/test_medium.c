@@ -45,8 +45,8 @@ static void render_means(const koksma_scene *scene, const koksma_render_options 
 
 /* ---- Absorption ----------------------------------------------------------------------------------------------- */
 
-/* A medium that only absorbs leaves exp(-sigma_a d) of the light of an emitter, a point and the sky, without noise: d is the
-   length inside the box, from the eye to the surface, and again from there to the light. */
+/* A medium that only absorbs leaves exp(-sigma_a d) of the light of an emitter, a point and the sky, without noise: d is
+   the length inside the box, from the eye to the surface, and again from there to the light. */
 static void absorption_is_exponential(void **state)
 {
     (void)state;
@@ -238,9 +238,9 @@ static void haze_lies_in_the_shadow_of_a_wall(void **state)
     }
 }
 
-/* For any weights of a path: of the rays of length 3 the mean weight of those that pass is the transmittance, that of those that are
-   scattered the part b / (a + b) of the rest, and that before the length 1 likewise; and the sum of the path's weights never
-   grows. */
+/* For any weights of a path: of the rays of length 3 the mean weight of those that pass is the transmittance, that of
+   those that are scattered the part b / (a + b) of the rest, and that before the length 1 likewise; and the sum of the
+   path's weights never grows. */
 static void samples_are_unbiased_for_any_weights(void **state)
 {
     (void)state;
@@ -278,8 +278,8 @@ static void samples_are_unbiased_for_any_weights(void **state)
 
 /* ---- Many bounces --------------------------------------------------------------------------------------------- */
 
-/* Where nothing absorbs, every path that leaves brings the same light, so that all samples are 1, in each channel's mean too:
-   a grey medium around white surfaces exactly, by whatever path. */
+/* Where nothing absorbs, every path that leaves brings the same light, so that all samples are 1, in each channel's mean
+   too: a grey medium around white surfaces exactly, by whatever path. */
 static void white_furnaces_are_white(void **state)
 {
     (void)state;
@@ -310,8 +310,9 @@ static void white_furnaces_are_white(void **state)
     }
 }
 
-/* Between walls that emit 1, on all sides of a medium that scatters differently in each channel, radiance is 1 everywhere. By
-   light sampling alone the variance is infinite, for the light of a wall's position grows as 1 / distance^2. */
+/* Between walls that emit 1, on all sides of a medium that scatters differently in each channel, radiance is 1
+   everywhere. By light sampling alone the variance is infinite, for the light of a wall's position grows as 1 /
+   distance^2. */
 static void emitting_enclosures_are_white(void **state)
 {
     (void)state;
@@ -352,8 +353,8 @@ static void emitting_enclosures_are_white(void **state)
     }
 }
 
-/* All strategies and all ways to choose among lights of all distances, some of them beside, behind and within the medium, have the
-   same mean as the other ones. */
+/* All strategies and all ways to choose among lights of all distances, some of them beside, behind and within the
+   medium, have the same mean as the other ones. */
 static void strategies_agree(void **state)
 {
     (void)state;
@@ -396,8 +397,8 @@ static void strategies_agree(void **state)
 
 /* ---- The phase function --------------------------------------------------------------------------------------- */
 
-/* By its definition: the integral over the sphere is 1, the mean cosine g, exchanged directions give the same value; samples have
-   weight 1, the density that value() says, mean cosine g and no preferred side. */
+/* By its definition: the integral over the sphere is 1, the mean cosine g, exchanged directions give the same value;
+   samples have weight 1, the density that value() says, mean cosine g and no preferred side. */
 static void phase_function_is_as_defined(void **state)
 {
     (void)state;

@@ -364,7 +364,8 @@ static void uses_pixels_and_seeds_are_independent(void **state)
     }
 }
 
-/* Random words: each of 8 parts of a word as often, for all four words, and successive counters in all 64 pairs of parts. */
+/* Random words: each of 8 parts of a word as often, for all four words, and successive counters in all 64 pairs of
+   parts. */
 static void words_are_random(void **state)
 {
     (void)state;

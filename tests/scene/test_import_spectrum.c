@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Colours of sampled spectra against those that Mitsuba 3.9.1 gives them (spectrum_list_to_srgb, xyz_to_srgb), which has the
- * tables of the CIE; the fit of the colour-matching functions is off by up to 1.2 % of the largest channel. The spectra are
- * those of Mitsuba's Cornell box, every 60 nm. White is white, and what is added in parts is added once.
+ * Colours of sampled spectra against those that Mitsuba 3.9.1 gives them (spectrum_list_to_srgb, xyz_to_srgb), which has
+ * the tables of the CIE; the fit of the colour-matching functions is off by up to 1.2 % of the largest channel. The
+ * spectra are those of Mitsuba's Cornell box, every 60 nm. White is white, and what is added in parts is added once.
  */
 #include "scene/import_spectrum.h"
 

@@ -327,8 +327,8 @@ static void the_screen_window_sets_the_angle(void **state)
     }
 }
 
-/* A light whose shape has alpha 0 shines, and no ray meets it; a shape with alpha 0 is not there. Below the centre of a disk
-   of radius r and radiance L at distance d the irradiance is pi L r^2 / (r^2 + d^2). */
+/* A light whose shape has alpha 0 shines, and no ray meets it; a shape with alpha 0 is not there. Below the centre of a
+   disk of radius r and radiance L at distance d the irradiance is pi L r^2 / (r^2 + d^2). */
 static void alpha_zero_hides_a_shape_but_not_its_light(void **state)
 {
     static const char *const text =
@@ -347,8 +347,8 @@ static void alpha_zero_hides_a_shape_but_not_its_light(void **state)
     koksma_scene_close(scene);
 }
 
-/* Mitsuba's texture coordinates, as its ray_intersect gives them: of a sphere the angle about z and that from +z, of a disk the
-   radius and the angle, as fractions. */
+/* Mitsuba's texture coordinates, as its ray_intersect gives them: of a sphere the angle about z and that from +z, of a
+   disk the radius and the angle, as fractions. */
 static void round_shapes_have_mitsubas_coordinates(void **state)
 {
     static const char *const shapes[] = {"sphere", "disk"};
@@ -661,8 +661,8 @@ static void lights_of_pbrt_may_have_two_sides(void **state)
     }
 }
 
-/* What its back lights: a floor at distance 1 behind a square of side 2, by samples of the light alone, by rays alone, and by
-   both. The configuration factor of a quarter from below its corner, with X = Y = 1, is
+/* What its back lights: a floor at distance 1 behind a square of side 2, by samples of the light alone, by rays alone,
+   and by both. The configuration factor of a quarter from below its corner, with X = Y = 1, is
        1 / (2 pi) (X / sqrt(1 + X^2) atan(Y / sqrt(1 + X^2)) + the same with X and Y swapped). */
 static void both_sides_light_alike(void **state)
 {

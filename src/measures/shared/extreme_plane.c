@@ -186,7 +186,8 @@ static void search_parts(searcher *s, const koksma__run_list *list, int depth, t
 }
 
 /* Bounds up to LANES tiles of one depth at once, then searches the parts of those that may hold a better box. At depth 0
-   the tiles have the same left sides and increasing right sides. The bounds from runs are raised by more than their rounding errors. */
+   the tiles have the same left sides and increasing right sides. The bounds from runs are raised by more than their
+   rounding errors. */
 static void search(searcher *s, const koksma__run_list *list, int depth, const tile *tiles, size_t count)
 {
     double excess[LANES], deficit[LANES];

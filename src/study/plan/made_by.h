@@ -22,8 +22,8 @@ typedef struct koksma__made_by {
 } koksma__made_by;
 
 /* Writes the revisions of all code that makes a row of the series that the texts describe. For a reference, pattern
-   is ""; metric is "" unless the row is of a metric. If `first`, every revision is written as 0, otherwise as it is in this program. Errors: those of the
-   specs. */
+   is ""; metric is "" unless the row is of a metric. If `first`, every revision is written as 0, otherwise as it is in
+   this program. Errors: those of the specs. */
 koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what,
                                    const char *metric, bool first, koksma__made_by *out);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads and checks the questions of a plan. A question has an id, a title, a kind, the ids of the blocks that it
- * is about, perhaps the metric that ranks its patterns and, for some kinds, groups of scenes. The table of kinds, questions.def, defines which members a kind
- * needs or takes. The blocks and scenes that a question names are checked after the whole plan has been read,
- * because a plan may list blocks after questions.
+ * is about, perhaps the metric that ranks its patterns and, for some kinds, groups of scenes. The table of kinds,
+ * questions.def, defines which members a kind needs or takes. The blocks and scenes that a question names are checked
+ * after the whole plan has been read, because a plan may list blocks after questions.
  */
 #include <stdio.h>
 #include <string.h>

@@ -16,9 +16,9 @@
  * 3. Elimination. koksma_rank_patterns renders the scene with all candidates until it is decided which one has the
  *    least error. A candidate is rendered no further once its confidence interval shows a larger error.
  *
- * 4. Evaluation. The chosen set is compared with the listed patterns (options->against), in the scene itself with other random
- *    numbers, and in held-out scenes, which took no part in steps 1 to 3. A gain that only the first scene shows is due
- *    to chance, not to better points.
+ * 4. Evaluation. The chosen set is compared with the listed patterns (options->against), in the scene itself with other
+ *    random numbers, and in held-out scenes, which took no part in steps 1 to 3. A gain that only the first scene shows
+ *    is due to chance, not to better points.
  *
  * The renderer reads the candidates through `set_pattern`, a pattern outside the library's table whose path is the
  * address of a set, so that several searches may run at once.
