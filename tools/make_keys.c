@@ -13,10 +13,9 @@
  *    have the autocorrelation g(d) = mean over k of e(k) e(k XOR d), which a Walsh-Hadamard transform gives. The table g
  *    that follows is the mean over integrands, each in units of its g(0), and the weighted sum over n.
  * 2. Annealing of E = sum over p, q of g(key(p) XOR key(q)) exp(-|p - q|^2 / (2 s^2)), s = 1.8 pixels: the expected
- * power of
- *    the errors at the frequencies that this Gaussian lets pass. It starts at a Z-curve (Ahmed & Wonka 2020). A proposal
- *    swaps the blocks of two pixels or changes the ranking bits of one. Other cells are independent, so only the pairs
- *    within a cell count. Of STARTS runs the one with the smallest E is kept.
+ *    power of the errors at the frequencies that this Gaussian lets pass. It starts at a Z-curve (Ahmed & Wonka 2020). A
+ *    proposal swaps the blocks of two pixels or changes the ranking bits of one. Other cells are independent, so only
+ *    the pairs within a cell count. Of STARTS runs the one with the smallest E is kept.
  */
 #include <koksma/keys.h>
 
