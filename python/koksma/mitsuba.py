@@ -32,7 +32,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex,
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ArgumentError, UnsupportedError
+from ._library import ArgumentError, Error, UnsupportedError
 from ._points import canonical, generate
 from ._rank import Asked, Ranking
 from ._rank import rank as _rank
@@ -265,6 +265,16 @@ _KEPT = 16  # scenes that a Renderer keeps: one for each sampler, as a round of 
 OWN = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler")  #: Mitsuba's own samplers
 
 
+def _canonical(pattern: str) -> str:
+    """A pattern's spec; of an unknown name the message says which names Mitsuba knows."""
+    try:
+        return canonical(pattern)
+    except Error as error:
+        if str(error).startswith("no pattern"):
+            raise ArgumentError(f"{error}, and Mitsuba's samplers are {', '.join(OWN)}") from None
+        raise
+
+
 class Renderer:
     """Renders a scene of Mitsuba with the samplers that koksma.rank asks for: Mitsuba's own by their names, Koksma's
     patterns by their specs. An ending "*F" (as in "jittered*0.8") multiplies the number of samples, for rankings at equal
@@ -300,7 +310,7 @@ class Renderer:
         sampler = mi.Properties("koksma" if pattern not in OWN else pattern)
         sampler["sample_count"] = spp
         if pattern not in OWN:
-            sampler["pattern"] = canonical(pattern)
+            sampler["pattern"] = _canonical(pattern)
         node = mi.parser.SceneNode()
         node.type, node.props = mi.ObjectType.Sampler, sampler
         state.nodes.append(node)
@@ -368,10 +378,14 @@ def _main(arguments: List[str]) -> int:
         print("usage: python3 -m koksma.mitsuba SCENE SAMPLER SPP SEED WIDTH HEIGHT OUT", file=sys.stderr)
         return 2
     scene, pattern, spp, seed, width, height, out = arguments
-    mi.set_variant(os.environ.get("KOKSMA_MITSUBA_VARIANT", "llvm_ad_rgb"))
     size = (int(width), int(height)) if int(width) else None
-    pixels = Renderer(scene)(Asked(scene, pattern, int(spp), size, int(seed)))
-    mi.util.write_bitmap(out, pixels, write_async=False)
+    try:
+        mi.set_variant(os.environ.get("KOKSMA_MITSUBA_VARIANT", "llvm_ad_rgb"))
+        pixels = Renderer(scene)(Asked(scene, pattern, int(spp), size, int(seed)))
+        mi.util.write_bitmap(out, pixels, write_async=False)
+    except (Error, ImportError, RuntimeError) as error:  # rank shows the last line
+        print(f"koksma.mitsuba: {' '.join(str(error).split())}", file=sys.stderr)
+        return 1
     return 0
 
 
