@@ -89,6 +89,7 @@ def main():
                             (command.replace("{out.pfm}", "x"), "lacks {out}"),
                             ("exit 5", "lacks {out}"),
                             ("exit 5; echo {out}", "exit code 5"),
+                            ("echo the beginning of %0900d; exit 5; echo {out}".replace("%0900d", "0" * 900), "exit code 5: the beginning of 0"),
                             ("echo text >{out}", "neither EXR nor PNG nor PFM nor JPG"),
                             ("true {out}", "No such file"),
                             (f"{command.replace('{width}', '9')}", "9 x ")):
