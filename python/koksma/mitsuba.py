@@ -266,12 +266,13 @@ OWN = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler")  #
 
 
 def _canonical(pattern: str) -> str:
-    """A pattern's spec; of an unknown name the message says which names Mitsuba knows."""
+    """A pattern's spec; of a name that is like none of ours the message says which ones Mitsuba has. It is short: `koksma rank`
+    shows the first 207 characters of a line."""
     try:
         return canonical(pattern)
     except Error as error:
-        if str(error).startswith("no pattern"):
-            raise ArgumentError(f"{error}, and Mitsuba's samplers are {', '.join(OWN)}") from None
+        if str(error).startswith("no pattern") and "did you mean" not in str(error):
+            raise ArgumentError(f"no sampler {pattern!r}: Mitsuba has {', '.join(OWN)}; koksma.patterns() ours") from None
         raise
 
 
@@ -356,17 +357,17 @@ def times(scene: Union[str, "os.PathLike[str]", Dict[str, Any]], patterns: Seque
           size: Optional[Tuple[int, int]] = None, repeats: int = 5,
           clock: Callable[[], float] = time.perf_counter) -> List[float]:
     """The seconds of a picture by each sampler, the least of several after a first one, for rankings at equal time:
-    "NAME*F" in a ranking is a sampler with F times the samples. clock: time.process_time counts those of all threads, where
-    other programs take turns with this one."""
-    renderer, seconds = Renderer(scene), []
-    for pattern in patterns:
-        taken = []
+    "NAME*F" in a ranking is a sampler with F times the samples. Samplers take turns, so that a change of the machine's speed
+    meets all of them. clock: time.process_time counts those of all threads, where other programs take turns with this one."""
+    renderer = Renderer(scene)
+    taken: List[List[float]] = [[] for _ in patterns]
+    for first in range(0, len(patterns), _KEPT):  # so many scenes stay loaded
         for seed in range(repeats + 1):
-            start = clock()
-            renderer(Asked("", pattern, spp, size, seed))
-            taken.append(clock() - start)
-        seconds.append(min(taken[1:]))
-    return seconds
+            for i, pattern in list(enumerate(patterns))[first:first + _KEPT]:
+                start = clock()
+                renderer(Asked("", pattern, spp, size, seed))
+                taken[i].append(clock() - start)
+    return [min(seconds[1:]) for seconds in taken]
 
 
 def _main(arguments: List[str]) -> int:
