@@ -280,7 +280,8 @@ static int run(const cli_arguments *arguments)
     const koksma_filter *filter = koksma_filter_find("box");
     const char *list = cli_text(arguments, "spp", "4,16,64"), *command = cli_text(arguments, "with", NULL);
     if (command && !strcmp(command, "mitsuba")) {
-        command = "python3 -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out}";
+        command =
+            "\"${KOKSMA_PYTHON:-python3}\" -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out}";
     }
     if (!command && cli_text(arguments, "reference", NULL)) {
         return cli_usage_error(
@@ -425,8 +426,10 @@ const cli_command cli_command_rank = {
         "mean\n"
         "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and depend on "
         "the seed. Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
-        "Koksma in a scene of Mitsuba, by the Python package; koksma.mitsuba.rank in Python starts Mitsuba once\n"
-        "and is faster.\n"
+        "Koksma in a scene of Mitsuba, by the Python package, which the interpreter KOKSMA_PYTHON (an environment\n"
+        "variable; default: python3) must have beside Mitsuba. It starts Mitsuba for every image and takes seconds "
+        "for\n"
+        "each; koksma.mitsuba.rank in Python starts it once.\n"
         "\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least\n"
         "one.\n",

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""mitsuba_table.py [--spp N] [--side PIXELS] [--trials N] [--time-limit S] [--metric METRIC] [--only samples|time]: the tables of
-docs/renderers.md, as Markdown: Mitsuba's Cornell box with its own samplers and six of our patterns, at equal samples and at
-equal time. The limit of time holds for each table.
+"""mitsuba_table.py [--spp N] [--side PIXELS] [--trials N] [--time-limit S] [--metric METRIC] [--pictures N]
+[--only samples|time]: the tables of docs/renderers.md, as Markdown: Mitsuba's Cornell box with its own samplers and six of our
+patterns, at equal samples and at equal time. The limit of time holds for each table.
 
 Run it in the environment that scripts/try_mitsuba makes (PYTHONPATH=python, DRJIT_LIBLLVM_PATH). In the second table a
 sampler has the samples that fit into the time of `independent`, at least one. The time is processor time of all threads,
-which other programs on the machine change less than seconds of the clock, the least of several pictures of 256 x 256 pixels.
+which other programs on the machine change less than seconds of the clock, the least of several pictures of 256 x 256 pixels, in
+which the samplers take turns.
 In each some 0.25 s are Dr.Jit's tracing of a sampler in Python; in pictures of 64 x 64 they would be most of the time.
 """
 import argparse
@@ -59,6 +60,7 @@ def main():
     parser.add_argument("--trials", type=int, default=64)
     parser.add_argument("--time-limit", type=float, default=600)
     parser.add_argument("--metric", default="mae")
+    parser.add_argument("--pictures", type=int, default=5, help="large pictures of each sampler, by which the time is measured")
     parser.add_argument("--only", choices=("samples", "time"))
     a = parser.parse_args()
     scene, samplers = mi.cornell_box(), [*koksma.mitsuba.OWN, *OURS]
@@ -71,7 +73,7 @@ def main():
         show(equal, {s: s for s in samplers}, ("coherence", bands))
     if a.only == "samples":
         return
-    seconds = dict(zip(samplers, koksma.mitsuba.times(scene, samplers, a.spp, size=(256, 256), repeats=5, clock=time.process_time)))
+    seconds = dict(zip(samplers, koksma.mitsuba.times(scene, samplers, a.spp, size=(256, 256), repeats=a.pictures, clock=time.process_time)))
     # A factor of 1 is a name, too: no sampler stands twice, and the reference is the plain one.
     factors = {s: seconds["independent"] / seconds[s] for s in samplers}
     names = {f"{s}*{fitting(s, max(1, round(a.spp * factors[s]))) / a.spp:.5f}": s for s in samplers}

@@ -20,7 +20,7 @@ from ._datasheet import Datasheet, datasheet
 from ._display import load_ipython_extension, unload_ipython_extension
 from ._engine import Engine
 from ._images import ImageGroup, study_images
-from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
+from ._integrate import Component, Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
 from ._library import (ArgumentError, Error, ForbiddenError, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError, allow_exec, refuse_unknown)
 from ._optimise import Optimum, Record, optimise, radial_power, records
@@ -37,8 +37,8 @@ from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
-    "ForbiddenError", "ImageGroup", "Integrand", "Integration", "Layers", "MalformedError", "Member", "MetricValue",
+    "ArgumentError", "Asked", "Audit", "Comparison", "Component", "Convergence", "Cost", "Datasheet", "Engine", "Error",
+    "Finding", "ForbiddenError", "ImageGroup", "Integrand", "Integration", "Layers", "MalformedError", "Member", "MetricValue",
     "MissingError", "Modifier", "Named", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked",
     "Ranking", "Record", "SceneCheck", "SceneGain", "SceneOptimum", "ScenePart", "Sensitivity", "Share", "SizeCheck",
     "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "adaptive",

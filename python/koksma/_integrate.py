@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from contextlib import contextmanager
 from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_void_p
 from dataclasses import dataclass
@@ -12,10 +13,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, real, several, spec, text, whole
-from ._points import Member, PointArray, canonical, generate, table
+from ._library import ArgumentError, UnsupportedError, call, check, core, flag, real, several, spec, text, whole
+from ._points import Member, PointArray, as_points, canonical, generate, table, view
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
+
+_MOST_PAIRED_AXES = 16  # of functions of more coordinates the analysis of variance has no pairs, as the program's
 
 
 @dataclass(frozen=True)
@@ -33,50 +36,6 @@ class Integrand:
     variation: float
     lowest: float
     highest: float
-
-
-@dataclass(frozen=True, eq=False)
-class Integration:
-    """The error of the mean of a function over sets of n points, against n.
-
-    Attributes
-    ----------
-    integrand, pattern : str
-    dim, trials : int
-        trials is 1 for a deterministic pattern.
-    sizes : ndarray of shape (k,)
-    rmse, low, high : ndarray of shape (k,)
-        Root mean square of estimate minus integral, and its 95 % interval. With one trial the absolute error. Where the
-        integral is not known, the standard deviation of the estimates.
-    mean, sd : ndarray of shape (k,)
-        Of the estimates.
-    gain : ndarray of shape (k,)
-        How many times more random points give this error; NaN if the variance is not known.
-    slope, slope_low, slope_high : float
-        Of log rmse against log n, with its 95 % interval; NaN with fewer than three sizes.
-    integral, variance : float
-    """
-
-    integrand: str
-    pattern: str
-    dim: int
-    trials: int
-    sizes: npt.NDArray[np.int64]
-    rmse: npt.NDArray[np.float64]
-    low: npt.NDArray[np.float64]
-    high: npt.NDArray[np.float64]
-    mean: npt.NDArray[np.float64]
-    sd: npt.NDArray[np.float64]
-    gain: npt.NDArray[np.float64]
-    slope: float
-    slope_low: float
-    slope_high: float
-    integral: float
-    variance: float
-
-    def __repr__(self) -> str:
-        return (f"Integration({self.integrand!r}, {self.pattern!r}, n={self.sizes[0]}..{self.sizes[-1]}: "
-                f"rmse {self.rmse[-1]:.3g}, slope {self.slope:.3f} ({self.slope_low:.3f} to {self.slope_high:.3f}))")
 
 
 @dataclass(frozen=True)
@@ -101,6 +60,99 @@ class Sensitivity:
     total: Share
     variance: float
     exact: bool
+
+
+@dataclass(frozen=True)
+class Component:
+    """A part of a function that depends on exactly the coordinates `axes`: its share of the variance and of the error.
+
+    Attributes
+    ----------
+    axes : tuple of int
+        Numbered from 0.
+    sensitivity : Sensitivity
+        Of these axes; sensitivity.component is the share of this part in the variance.
+    rmse, low, high : float
+        The error of the mean of this part over the sets of the largest n, with its interval, as in Integration. Set by set the
+        errors of all components add up to that of the function (those of three coordinates and more among them, which are not
+        listed). NaN unless the function is a spec of a product of functions of one coordinate.
+    part : float
+        rmse squared, divided by that of the function.
+    """
+
+    axes: Tuple[int, ...]
+    sensitivity: Sensitivity
+    rmse: float
+    low: float
+    high: float
+    part: float
+
+
+@dataclass(frozen=True, eq=False)
+class Integration:
+    """The error of the mean of a function over sets of n points, against n.
+
+    Attributes
+    ----------
+    integrand, pattern : str
+        pattern is "points" for points that were given.
+    dim, trials : int
+        trials is 1 for a deterministic pattern and for points.
+    sizes : ndarray of shape (k,)
+    rmse, low, high : ndarray of shape (k,)
+        Root mean square of estimate minus integral, and its 95 % interval. With one trial the absolute error. Where the
+        integral is not known, the standard deviation of the estimates.
+    mean, sd : ndarray of shape (k,)
+        Of the estimates.
+    gain : ndarray of shape (k,)
+        How many times more random points give this error; NaN if the variance is not known.
+    slope, slope_error, slope_low, slope_high : float
+        Of log rmse against log n, its standard error and 95 % interval; NaN with fewer than three sizes.
+    slope_sizes : int
+        How many sizes the slope is of: all but those whose error is only rounding.
+    integral, variance : float
+    components : tuple of Component
+        With integrate(anova=True): of each coordinate, and up to 16 of each pair; else empty.
+    """
+
+    integrand: str
+    pattern: str
+    dim: int
+    trials: int
+    sizes: npt.NDArray[np.int64]
+    rmse: npt.NDArray[np.float64]
+    low: npt.NDArray[np.float64]
+    high: npt.NDArray[np.float64]
+    mean: npt.NDArray[np.float64]
+    sd: npt.NDArray[np.float64]
+    gain: npt.NDArray[np.float64]
+    slope: float
+    slope_error: float
+    slope_low: float
+    slope_high: float
+    slope_sizes: int
+    integral: float
+    variance: float
+    components: Tuple[Component, ...] = ()
+
+    def _repr_html_(self) -> str:
+        from ._display import number, table
+
+        errors = zip(self.sizes, self.rmse, self.low, self.high, self.gain)
+        slope = "" if math.isnan(self.slope) else f"; slope {self.slope:.3f} ({self.slope_low:.3f} to {self.slope_high:.3f})"
+        page = table(("n", "rmse", "low", "high", "gain"), [(int(n), *map(float, row)) for n, *row in errors],
+                     f"{self.integrand} by {self.pattern}, {self.trials} set{'s' * (self.trials != 1)}{slope}")
+        if not self.components:
+            return page
+        return page + table(("axes", "share of the variance", "total", "rmse", "interval", "part of the error"),
+                            [(", ".join(map(str, c.axes)), c.sensitivity.component.value, c.sensitivity.total.value, c.rmse,
+                              "" if math.isnan(c.low) else f"{number(c.low)} to {number(c.high)}", c.part) for c in self.components],
+                            f"components; n = {max(self.sizes)}")
+
+    def __repr__(self) -> str:
+        several = "" if len(self.sizes) == 1 else f"..{self.sizes[-1]}"
+        slope = "" if math.isnan(self.slope) else f", slope {self.slope:.3f} ({self.slope_low:.3f} to {self.slope_high:.3f})"
+        return f"Integration({self.integrand!r}, {self.pattern!r}, n={self.sizes[0]}{several}: rmse {self.rmse[-1]:.3g}{slope})"
 
 
 def integrands() -> List[Member]:
@@ -181,20 +233,77 @@ def integrand(name: str, dim: SupportsIndex = 2) -> Integrand:
         return _facts(handle)
 
 
-def _estimates(function: Callable[[PointArray], npt.ArrayLike], pattern: str, sizes: Sequence[int], dim: int, trials: int, seed: int,
-               threads: SupportsIndex) -> npt.NDArray[np.float64]:
-    """[trial][size]; one trial of a deterministic pattern."""
-    if trials > 1 and np.array_equal(generate(pattern, sizes[0], dim, seed, threads=threads), generate(pattern, sizes[0], dim, seed + 1, threads=threads)):
+def _mean(function: Callable[[PointArray], npt.ArrayLike], points: PointArray) -> float:
+    """Of the function's values at the points."""
+    n, dim = points.shape
+    values = np.asarray(function(points), dtype=np.float64)
+    if values.shape != (n,):
+        raise ArgumentError(f"{_name_of(function)}: for points of shape ({n}, {dim}) it returned the shape {values.shape}, "
+                            f"not ({n},)")
+    return math.fsum(values) / int(n)
+
+
+def _estimates(function: Callable[[PointArray], npt.ArrayLike], source: Union[str, PointArray], sizes: Sequence[int], dim: int,
+               trials: int, seed: int, threads: SupportsIndex) -> npt.NDArray[np.float64]:
+    """[trial][size]; one trial of a deterministic pattern and of points."""
+    if not isinstance(source, str):
+        return np.array([[_mean(function, source)]])
+    pattern: str = source
+
+    def made(n: int, trial: int) -> PointArray:
+        return generate(pattern, n, dim, seed + trial, threads=threads)
+
+    if trials > 1 and np.array_equal(made(sizes[0], 0), made(sizes[0], 1)):
         trials = 1
-    estimates = np.empty((trials, len(sizes)))
-    for t in range(trials):
-        for i, n in enumerate(sizes):
-            values = np.asarray(function(generate(pattern, n, dim, seed + t, threads=threads)), dtype=np.float64)
-            if values.shape != (n,):
-                raise ArgumentError(f"{_name_of(function)}: for points of shape ({n}, {dim}) it returned the shape {values.shape}, "
-                                    f"not ({n},)")
-            estimates[t, i] = math.fsum(values) / n
-    return estimates
+    return np.array([[_mean(function, made(n, t)) for n in sizes] for t in range(trials)])
+
+
+def _summary(integral: float, variance: float, options: s.IntegrationOptions, estimates: npt.NDArray[np.float64]) -> s.Integration:
+    result = s.Integration()
+    options.trials = len(estimates)
+    check(core().koksma_integration_summary(integral, variance, byref(options), estimates.ctypes.data_as(POINTER(c_double)),
+                                            byref(result)))
+    return result
+
+
+def _errors(handle: c_void_p, source: Union[str, PointArray], options: s.IntegrationOptions, threads: SupportsIndex) -> s.Integration:
+    """Of an integrand of the table, or a component of one, over sets of a pattern or over points."""
+    if isinstance(source, str):
+        result, parsed = s.Integration(), spec("pattern", source)
+        call(core().koksma_integration_errors, handle, byref(parsed), byref(options), byref(result), threads=threads, run_at=3)
+        return result
+    mean, c_points, facts = c_double(), view(source), _facts(handle)
+    call(core().koksma_integrate, handle, byref(c_points), byref(mean), threads=threads, run_at=2)
+    return _summary(facts.value, facts.variance, options, np.array([[mean.value]]))
+
+
+def _component_error(handle: c_void_p, axes: Tuple[int, ...], source: Union[str, PointArray], options: s.IntegrationOptions,
+                     threads: SupportsIndex) -> Optional[s.IntegrationRow]:
+    """None if the components of the function are not known."""
+    part = c_void_p()
+    try:
+        check(core().koksma_integral_component(handle, (c_int * len(axes))(*axes), len(axes), byref(part)))
+    except UnsupportedError:
+        return None
+    try:
+        row: s.IntegrationRow = _errors(part, source, options, threads).rows[0]
+        return row
+    finally:
+        core().koksma_integral_close(part)
+
+
+def _components(handle: c_void_p, function: Function, source: Union[str, PointArray], sizes: Sequence[int], seed: int, trials: int,
+                rmse: float, samples: int, threads: SupportsIndex, raised: List[BaseException]) -> Tuple[Component, ...]:
+    """Of each coordinate and pair. rmse: of the function, at the largest of the sizes."""
+    axes, found = _facts(handle).axes, []
+    sets = [(a,) for a in range(axes)] + [(a, b) for a in range(axes) for b in range(a + 1, axes) if axes <= _MOST_PAIRED_AXES]
+    largest = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(max(sizes)), 1, seed, trials)
+    for chosen in sets:
+        share = _sensitivity(handle, function, chosen, samples, seed, threads, raised)
+        row = _component_error(handle, chosen, source, largest, threads) if isinstance(function, str) else None
+        error, low, high = (row.rmse, row.low, row.high) if row else (math.nan,) * 3
+        found.append(Component(chosen, share, error, low, high, error * error / (rmse * rmse) if rmse else math.nan))
+    return tuple(found)
 
 
 def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> Sequence[SupportsIndex]:
@@ -202,24 +311,31 @@ def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> 
     return [numbers] if hasattr(numbers, "__index__") and not np.ndim(numbers) else several(name, numbers)  # type: ignore[arg-type]
 
 
-def integrate(function: Function, pattern: str, n: Union[SupportsIndex, Sequence[SupportsIndex]],
+def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[SupportsIndex, Sequence[SupportsIndex], None] = None,
               dim: SupportsIndex = 2, *, trials: SupportsIndex = 32, seed: SupportsIndex = 0,
-              integral: float = math.nan, variance: float = math.nan, threads: SupportsIndex = 0) -> Integration:
+              integral: float = math.nan, variance: float = math.nan, anova: bool = False, samples: SupportsIndex = 0,
+              threads: SupportsIndex = 0) -> Integration:
     """Integrates a function by sets of a pattern, and measures the error.
 
     Parameters
     ----------
     function : str or callable
         A spec of an integrand, or a function of an (n, dim) array of points that returns its n values.
-    pattern : str
-        A spec, such as "sobol:scramble=owen".
+    pattern : str or array_like of shape (n, dim)
+        A spec, such as "sobol:scramble=owen"; or points, which are one set.
     n : int or sequence of int
-        Numbers of points; three or more give a slope.
+        Numbers of points of a pattern; three or more give a slope. Points have their own.
     dim : int
+        Of a pattern.
     trials, seed : int
         Sets of each size with the seeds seed .. seed + trials - 1; one of a deterministic pattern.
     integral, variance : float
         Of a callable, where they are known.
+    anova : bool
+        Says in `components` which coordinates, and up to 16 coordinates which pairs, carry the variance, and for products of
+        functions of one coordinate, which carry the error at the largest n.
+    samples : int
+        With anova: as of sensitivity().
     threads : int
         0: one for each processor.
 
@@ -233,32 +349,67 @@ def integrate(function: Function, pattern: str, n: Union[SupportsIndex, Sequence
     >>> found = koksma.integrate(lambda x: x[:, 0] * x[:, 1], "sobol:scramble=owen", [64, 256, 1024], integral=1/4)
     >>> found.slope < -1  # of random points -1/2
     True
+
+    A Latin hypercube integrates single coordinates well, and pairs as random points do:
+
+    >>> found = koksma.integrate("genz-gaussian", "latin-hypercube", 256, 3, anova=True)
+    >>> worst = max(found.components, key=lambda component: component.part)
+    >>> worst.axes, worst.sensitivity.component.value < 0.1, worst.part > 0.9
+    ((0, 1), True, True)
     """
-    sizes = [whole("n", k, 1, s.MAX_COORDINATES) for k in _each("n", n)]
+    sizes: List[int]
+    if isinstance(pattern, (list, tuple)) or hasattr(pattern, "__array__"):
+        points = as_points(pattern)
+        if n is not None:
+            raise ArgumentError(f"n must be None, not {n!r:.60}: points have their own number")
+        source: Union[str, PointArray] = points
+        sizes, dim, trials = [len(points)], points.shape[1], 1
+    elif n is None:
+        raise TypeError("n must be the number of points of a pattern, or several numbers, not None")
+    else:
+        source = _pattern(pattern)
+        sizes = [whole("n", k, 1, s.MAX_COORDINATES) for k in _each("n", n)]
     dim, trials = whole("dim", dim, 1, s.MAX_DIM), whole("trials", trials, 1, 1000000)
-    seed = whole("seed", seed, 0, s.MAX_SEED - trials)
+    seed, samples = whole("seed", seed, 0, s.MAX_SEED - trials), whole("samples", samples, 0, 1 << 20)
     if not 1 <= len(sizes) <= s.MAX_SIZES:
         raise ArgumentError(f"n must be 1 to {s.MAX_SIZES} sizes, not {len(sizes)}")
     options = s.IntegrationOptions((c_size_t * s.MAX_SIZES)(*sizes), len(sizes), seed, trials)
-    result, parsed = s.Integration(), spec("pattern", pattern)
-    if isinstance(function, str):
-        with _opened(function, dim, []) as handle:
-            facts = _facts(handle)
-            call(core().koksma_integration_errors, handle, byref(parsed), byref(options), byref(result), threads=threads,
-                 run_at=3)
-        name, integral, variance = facts.spec, facts.value, facts.variance
-    elif not callable(function):
-        raise TypeError(f"function must be a str or callable, not {function!r:.60}")
-    else:
-        estimates = _estimates(function, pattern, sizes, dim, trials, seed, threads)
-        options.trials, name = len(estimates), _name_of(function)
-        check(core().koksma_integration_summary(real("integral", integral, nan_too=True), real("variance", variance, nan_too=True), byref(options),
-                                                estimates.ctypes.data_as(POINTER(c_double)), byref(result)))
-    rows = result.rows[:len(sizes)]
+    raised: List[BaseException] = []
+    with _opened(function, dim, raised) as handle:
+        if isinstance(function, str):
+            facts, result = _facts(handle), _errors(handle, source, options, threads)
+            name, integral, variance = facts.spec, facts.value, facts.variance
+        else:
+            name, integral = _name_of(function), real("integral", integral, nan_too=True)
+            variance = real("variance", variance, nan_too=True)
+            result = _summary(integral, variance, options, _estimates(function, source, sizes, dim, trials, seed, threads))
+        rows = result.rows[:len(sizes)]
+        components = _components(handle, function, source, sizes, seed, trials, rows[int(np.argmax(sizes))].rmse, samples, threads,
+                                 raised) if flag("anova", anova) else ()
     columns = {key: np.array([getattr(row, key) for row in rows]) for key in ("rmse", "low", "high", "mean", "sd", "gain")}
-    return Integration(name, canonical(pattern), dim, rows[0].trials, np.array(sizes), **columns,
-                       slope=result.slope.value, slope_low=result.slope.low, slope_high=result.slope.high,
-                       integral=integral, variance=variance)
+    return Integration(name, canonical(source) if isinstance(source, str) else "points", dim, rows[0].trials, np.array(sizes), **columns,
+                       slope=result.slope.value, slope_error=result.slope.standard_error, slope_low=result.slope.low,
+                       slope_high=result.slope.high, slope_sizes=result.slope.count, integral=integral, variance=variance,
+                       components=components)
+
+
+def _pattern(pattern: Any) -> str:
+    """The text of a spec."""
+    return os.fsdecode(text(pattern, "pattern"))
+
+
+def _sensitivity(handle: c_void_p, function: Function, axes: Tuple[int, ...], samples: int, seed: int, threads: SupportsIndex,
+                 raised: List[BaseException]) -> Sensitivity:
+    """What a callable raised, which no C function can pass on, is raised here."""
+    result = s.Sensitivity()
+    try:
+        call(core().koksma_integral_sensitivity, handle, (c_int * max(1, len(axes)))(*axes), len(axes), samples, seed, byref(result),
+             threads=threads if isinstance(function, str) else 1, run_at=5)
+    finally:
+        if raised:
+            raise raised[0]
+    component, closed, total = (Share(x.value, x.low, x.high) for x in (result.component, result.closed, result.total))
+    return Sensitivity(component, closed, total, result.variance, result.exact)
 
 
 def sensitivity(function: Function, axes: Union[SupportsIndex, Sequence[SupportsIndex]], dim: SupportsIndex = 2, *,
@@ -291,15 +442,7 @@ def sensitivity(function: Function, axes: Union[SupportsIndex, Sequence[Supports
     """
     dim = whole("dim", dim, 1, s.MAX_DIM)
     chosen: Tuple[int, ...] = tuple(whole("axes", a, 0, dim - 1) for a in _each("axes", axes))
-    result = s.Sensitivity()
     raised: List[BaseException] = []
     with _opened(function, dim, raised) as handle:
-        try:
-            call(core().koksma_integral_sensitivity, handle, (c_int * max(1, len(chosen)))(*chosen), len(chosen),
-                 whole("samples", samples, 0, 1 << 20), whole("seed", seed, 0, s.MAX_SEED), byref(result),
-                 threads=threads if isinstance(function, str) else 1, run_at=5)
-        finally:
-            if raised:
-                raise raised[0]
-    component, closed, total = (Share(x.value, x.low, x.high) for x in (result.component, result.closed, result.total))
-    return Sensitivity(component, closed, total, result.variance, result.exact)
+        return _sensitivity(handle, function, chosen, whole("samples", samples, 0, 1 << 20), whole("seed", seed, 0, s.MAX_SEED), threads,
+                            raised)

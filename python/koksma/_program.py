@@ -8,6 +8,8 @@ from pathlib import Path
 def main() -> None:
     """Replaces this process by the program, with its arguments; the exit code is the program's."""
     program = Path(__file__).parent / "lib" / "koksma"
+    if sys.executable:  # `koksma rank --with mitsuba` runs the interpreter that has this package
+        os.environ.setdefault("KOKSMA_PYTHON", sys.executable)
     try:
         os.execv(program, ["koksma", *sys.argv[1:]])
     except OSError as error:

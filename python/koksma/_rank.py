@@ -90,6 +90,17 @@ class Ranking:
         """The pattern with the least error, in bands or not; None while it is undecided. What to use is `advised`."""
         return self.rows[0].pattern if self.settled else None
 
+    def __repr__(self) -> str:
+        from ._display import number
+
+        width = max(len(r.pattern) for r in self.rows)
+        lines = [f"Ranking({self.size[0]} x {self.size[1]} pixels, {self.metric}, "
+                 f"{f'use {self.advised}' if self.advised else 'undecided'}; place, pattern, error, interval)"]
+        for r in self.rows:
+            error = f"{number(r.error)} ({number(r.interval[0], 3)} to {number(r.interval[1], 3)})" if r.position else r.reason or r.state
+            lines.append(f"{r.position or '-':>4}  {r.pattern:{width}}  {error}{', bands' * r.coherent}")
+        return "\n".join(lines)
+
     def _repr_html_(self) -> str:
         from ._display import number, table
 

@@ -32,7 +32,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex,
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ArgumentError, UnsupportedError
+from ._library import ArgumentError, Error, UnsupportedError
 from ._points import canonical, generate
 from ._rank import Asked, Ranking
 from ._rank import rank as _rank
@@ -265,6 +265,17 @@ _KEPT = 16  # scenes that a Renderer keeps: one for each sampler, as a round of 
 OWN = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler")  #: Mitsuba's own samplers
 
 
+def _canonical(pattern: str) -> str:
+    """A pattern's spec; of a name that is like none of ours the message says which ones Mitsuba has. It is short: `koksma rank`
+    shows the first 207 characters of a line."""
+    try:
+        return canonical(pattern)
+    except Error as error:
+        if str(error).startswith("no pattern") and "did you mean" not in str(error):
+            raise ArgumentError(f"no sampler {pattern!r}: Mitsuba has {', '.join(OWN)}; koksma.patterns() ours") from None
+        raise
+
+
 class Renderer:
     """Renders a scene of Mitsuba with the samplers that koksma.rank asks for: Mitsuba's own by their names, Koksma's
     patterns by their specs. An ending "*F" (as in "jittered*0.8") multiplies the number of samples, for rankings at equal
@@ -300,7 +311,7 @@ class Renderer:
         sampler = mi.Properties("koksma" if pattern not in OWN else pattern)
         sampler["sample_count"] = spp
         if pattern not in OWN:
-            sampler["pattern"] = canonical(pattern)
+            sampler["pattern"] = _canonical(pattern)
         node = mi.parser.SceneNode()
         node.type, node.props = mi.ObjectType.Sampler, sampler
         state.nodes.append(node)
@@ -346,17 +357,17 @@ def times(scene: Union[str, "os.PathLike[str]", Dict[str, Any]], patterns: Seque
           size: Optional[Tuple[int, int]] = None, repeats: int = 5,
           clock: Callable[[], float] = time.perf_counter) -> List[float]:
     """The seconds of a picture by each sampler, the least of several after a first one, for rankings at equal time:
-    "NAME*F" in a ranking is a sampler with F times the samples. clock: time.process_time counts those of all threads, where
-    other programs take turns with this one."""
-    renderer, seconds = Renderer(scene), []
-    for pattern in patterns:
-        taken = []
+    "NAME*F" in a ranking is a sampler with F times the samples. Samplers take turns, so that a change of the machine's speed
+    meets all of them. clock: time.process_time counts those of all threads, where other programs take turns with this one."""
+    renderer = Renderer(scene)
+    taken: List[List[float]] = [[] for _ in patterns]
+    for first in range(0, len(patterns), _KEPT):  # so many scenes stay loaded
         for seed in range(repeats + 1):
-            start = clock()
-            renderer(Asked("", pattern, spp, size, seed))
-            taken.append(clock() - start)
-        seconds.append(min(taken[1:]))
-    return seconds
+            for i, pattern in list(enumerate(patterns))[first:first + _KEPT]:
+                start = clock()
+                renderer(Asked("", pattern, spp, size, seed))
+                taken[i].append(clock() - start)
+    return [min(seconds[1:]) for seconds in taken]
 
 
 def _main(arguments: List[str]) -> int:
@@ -368,10 +379,14 @@ def _main(arguments: List[str]) -> int:
         print("usage: python3 -m koksma.mitsuba SCENE SAMPLER SPP SEED WIDTH HEIGHT OUT", file=sys.stderr)
         return 2
     scene, pattern, spp, seed, width, height, out = arguments
-    mi.set_variant(os.environ.get("KOKSMA_MITSUBA_VARIANT", "llvm_ad_rgb"))
     size = (int(width), int(height)) if int(width) else None
-    pixels = Renderer(scene)(Asked(scene, pattern, int(spp), size, int(seed)))
-    mi.util.write_bitmap(out, pixels, write_async=False)
+    try:
+        mi.set_variant(os.environ.get("KOKSMA_MITSUBA_VARIANT", "llvm_ad_rgb"))
+        pixels = Renderer(scene)(Asked(scene, pattern, int(spp), size, int(seed)))
+        mi.util.write_bitmap(out, pixels, write_async=False)
+    except (Error, ImportError, RuntimeError) as error:  # rank shows the last line
+        print(f"koksma.mitsuba: {' '.join(str(error).split())}", file=sys.stderr)
+        return 1
     return 0
 
 

@@ -89,6 +89,7 @@ def main():
                             (command.replace("{out.pfm}", "x"), "lacks {out}"),
                             ("exit 5", "lacks {out}"),
                             ("exit 5; echo {out}", "exit code 5"),
+                            ("echo the beginning of %0900d; exit 5; echo {out}".replace("%0900d", "0" * 900), "exit code 5: the beginning of 0"),
                             ("echo text >{out}", "neither EXR nor PNG nor PFM nor JPG"),
                             ("true {out}", "No such file"),
                             (f"{command.replace('{width}', '9')}", "9 x ")):
@@ -100,6 +101,20 @@ def main():
                                   (["--reference", "random"], "--reference needs --with")):
             done = subprocess.run([PROGRAM, "rank", "ball", *arguments], capture_output=True, text=True)
             check(reason, done.returncode == 2 and reason in done.stderr, done)
+
+        # --with mitsuba: the module of the interpreter that KOKSMA_PYTHON names, here one that draws with RENDERER.
+        python = os.path.join(folder, "a python")
+        with open(python, "w") as file:
+            file.write(f'#!/bin/sh\n[ "$1 $2" = "-m koksma.mitsuba" ] || exit 9\nshift 2\nexec {sys.executable} -S {script} "$@"\n')
+        os.chmod(python, 0o755)
+        before = rank(command.replace("out.pfm", "out"), "fine,coarse", "--size", "48x32", "--max-trials", "8", "--one-size")
+        os.environ["KOKSMA_PYTHON"] = python
+        by_name = rank("mitsuba", "fine,coarse", "--size", "48x32", "--max-trials", "8", "--one-size")
+        check("--with mitsuba runs KOKSMA_PYTHON", [{**row, "with": ""} for row in before[1]] == [{**row, "with": ""} for row in by_name[1]]
+              and len(by_name[1]) == 2 and by_name[1][0]["error"] > 0, (before, by_name))
+        os.environ["KOKSMA_PYTHON"] = "/no/such/python"
+        by_name = rank("mitsuba", "fine,coarse", "--size", "48x32")
+        check("a missing interpreter is named", by_name[0] not in (0, 1) and "/no/such/python" in by_name[2], by_name)
 
         mark = os.path.join(folder, "started")
         with subprocess.Popen([PROGRAM, "rank", "s", "-p", "a", "--with", f"touch {mark}; sleep 1000; echo {{out}}"],

@@ -18,13 +18,17 @@ PROGRAM = os.path.join(sysconfig.get_path("scripts"), "koksma")
 
 
 def first_lines():
-    """The five lines of docs/install.md, but for the engine, which is SciPy's where that is installed."""
+    """The five lines of docs/install.md, then those of README; the engine is SciPy's where that is installed."""
     points = koksma.generate("poisson-disk:d=0.2", 16, seed=7)
     value = koksma.measure(points, "star")
     assert (f"{value.value:.6f}", value.witness.count) == ("0.175024", 10), value
     assert len(koksma.spectrum(points).ring_power) > 0
     assert koksma.render("ball", "multi-jittered", spp=4, size=(32, 24)).shape == (24, 32, 1)
     assert koksma.Engine("sobol:scramble=owen", d=2, seed=7).random(8).shape == (8, 2)
+    points = koksma.generate("sobol:scramble=owen", 16, seed=7)
+    assert koksma.measure(points, "star").value < 0.2  # random points: 0.29 on average
+    assert koksma.render("ball", "pmj02", spp=16).ndim == 3
+    assert koksma.Engine("sobol:scramble=owen", d=2).random(4).shape == (4, 2)
 
 
 def whole_package(folder):
@@ -54,6 +58,9 @@ def program(folder):
     run = subprocess.run([PROGRAM, "measure", "pattern:poisson-disk:d=0.2@16", "-m", "star", "--seed", "7"], capture_output=True,
                          text=True, check=True, cwd=folder)
     assert "0.17502" in run.stdout, run.stdout
+    said = subprocess.run([PROGRAM, "rank", "scene", "-p", "a", "--with", 'echo "$KOKSMA_PYTHON"; exit 3; : {out}'], capture_output=True,
+                          text=True, cwd=folder).stderr
+    assert sys.executable in said, said  # what `--with mitsuba` runs
     for what in ("patterns", "measures", "scenes"):
         subprocess.run([PROGRAM, "list", what], stdout=subprocess.DEVNULL, check=True)
 

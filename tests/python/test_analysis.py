@@ -286,6 +286,18 @@ class Docstrings(unittest.TestCase):
             finally:
                 os.chdir(before)
 
+    def test_readme(self):
+        """The five lines of README, as they stand there."""
+        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "README.md"), encoding="utf-8") as file:
+            code, = re.findall(r"^```python\n(.*?)^```", file.read(), re.M | re.S)
+        self.assertEqual(len(code.splitlines()), 5)
+        space = {}
+        exec(compile(code, "README.md", "exec"), space)
+        self.assertEqual(space["points"].shape, (16, 2))
+        self.assertGreater(space["value"].value, 0)
+        self.assertEqual(space["image"].ndim, 3)
+        self.assertEqual(space["engine"].random(4).shape, (4, 2))
+
     def test_functions(self):
         """Every public function says what it takes, under its names, and has an example that is run."""
         for name in koksma.__all__:

@@ -313,6 +313,32 @@ class Engines(unittest.TestCase):
         law = qmc.MultivariateNormalQMC(mean=[0, 0], engine=Engine("sobol", 2, seed=2).fast_forward(1))
         self.assertEqual(law.random(8).shape, (8, 2))
 
+    def test_distributions_of_scipys(self):
+        """What draws from an engine of the caller's: means, covariances and counts are those of the distributions."""
+        try:
+            from scipy.stats import norm, qmc
+        except ImportError:
+            self.skipTest("scipy is not installed")
+        cov = np.array([[2, 0.5], [0.5, 1]])
+        for spec in ("sobol:scramble=owen", "halton:scramble=owen", "n-rooks", "random"):
+            for inverse in (True, False):  # by the inverse of the distribution, or Box and Muller's
+                with self.subTest(spec=spec, inverse=inverse):
+                    law = qmc.MultivariateNormalQMC(mean=[1, -2], cov=cov, engine=Engine(spec, 2, seed=5), inv_transform=inverse)
+                    sample = law.random(4096)
+                    self.assertLess(np.abs(sample.mean(axis=0) - [1, -2]).max(), 6 * np.sqrt(2 / 4096))
+                    self.assertLess(np.abs(np.cov(sample.T) - cov).max(), 6 * 2 * np.sqrt(2 / 4096))
+            chances = np.array([0.2, 0.3, 0.5])
+            counts = qmc.MultinomialQMC(chances, n_trials=1000, engine=Engine(spec, 1, seed=5)).random(3)
+            np.testing.assert_array_equal(counts.sum(axis=1), 1000)
+            self.assertLess(np.abs(counts - 1000 * chances).max(), 6 * np.sqrt(250) if spec == "random" else 3)
+        try:
+            from scipy.stats.sampling import FastGeneratorInversion
+        except ImportError:
+            return  # scipy is older than 1.12
+        sample = FastGeneratorInversion(norm()).qrvs(256, d=2, qmc_engine=Engine("sobol:scramble=owen", 2, seed=5))
+        self.assertEqual(sample.shape, (256, 2))
+        self.assertLess(np.abs(sample.std(axis=0) - 1).max(), 0.02)
+
 
 class WithoutScipy(unittest.TestCase):
     def test_same_tests(self):

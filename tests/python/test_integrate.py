@@ -29,7 +29,8 @@ class Integrate(unittest.TestCase):
         for i, row in enumerate(said[:3]):
             self.assertEqual([row[k] for k in ("n", "rmse", "low", "high", "mean", "sd", "gain")],
                              [ours.sizes[i], ours.rmse[i], ours.low[i], ours.high[i], ours.mean[i], ours.sd[i], ours.gain[i]])
-        self.assertEqual((said[3]["slope"], said[3]["low"], said[3]["high"]), (ours.slope, ours.slope_low, ours.slope_high))
+        self.assertEqual([said[3][k] for k in ("slope", "standard_error", "low", "high", "sizes")],
+                         [ours.slope, ours.slope_error, ours.slope_low, ours.slope_high, ours.slope_sizes])
         self.assertIn("genz-gaussian:difficulty=3", repr(ours))
 
     def test_callables_are_integrands(self):
@@ -43,6 +44,75 @@ class Integrate(unittest.TestCase):
         self.assertAlmostEqual(unknown.rmse[0], unknown.sd[0], places=15)
         self.assertTrue(math.isnan(unknown.integral))
         self.assertEqual(koksma.integrate(lambda x: x[:, 0], "hammersley", 16, integral=0.5).trials, 1)
+
+    def test_points(self):
+        """One set: the mean of the program over a file, and of a callable."""
+        points = koksma.generate(SCRAMBLED, 32, 3, seed=4)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "points.npy")
+            koksma.write(path, points)
+            said = rows("genz-gaussian", path)[0]
+        for given in (points, points.tolist(), np.asfortranarray(points)):
+            ours = koksma.integrate("genz-gaussian", given)
+            self.assertEqual([said[k] for k in ("n", "dim", "trials", "rmse", "mean", "gain")],
+                             [ours.sizes[0], ours.dim, ours.trials, ours.rmse[0], ours.mean[0], ours.gain[0]])
+            self.assertTrue(math.isnan(ours.low[0]) and math.isnan(ours.sd[0]) and math.isnan(ours.slope))
+        ours = koksma.integrate(lambda x: x[:, 2]**2, points, integral=1/3)
+        self.assertAlmostEqual(ours.rmse[0], abs(np.mean(points[:, 2]**2) - 1/3), places=15)
+        self.assertEqual(repr(ours), f"Integration('<lambda>', 'points', n=32: rmse {ours.rmse[0]:.3g})")
+        for wrong, named in (((points, 32), "^n must be None"), ((points + 1,), "outside"), ((points[0],), "^points must be")):
+            with self.assertRaisesRegex(koksma.ArgumentError, named):
+                koksma.integrate("genz-gaussian", *wrong)
+        with self.assertRaisesRegex(TypeError, "^n must be the number"):
+            koksma.integrate("genz-gaussian", "random")
+
+    def test_components_as_the_program(self):
+        """All that --anova prints, in its order: shares of the variance, and errors at the largest size."""
+        for integrand, pattern, dim, samples in (("genz-gaussian", SCRAMBLED, 3, 0), ("genz-continuous", "sobol", 2, 0), ("exp", "random", 2, 64),
+                                                 ("genz-corner-peak", "n-rooks", 2, 32), ("bernoulli", "halton", 17, 0)):
+            with self.subTest(integrand=integrand, pattern=pattern):
+                said = rows(integrand, "-p", pattern, "-n", "64,16", "-d", str(dim), "-t", "8", "-s", "5", "--anova",
+                            *(["--samples", str(samples)] if samples else []))
+                shares, errors = ([row for row in said if key in row] for key in ("variance_of", "error_of"))
+                ours = koksma.integrate(integrand, pattern, [64, 16], dim, trials=8, seed=5, anova=True, samples=samples).components
+                self.assertEqual(len(ours), 17 if dim == 17 else dim * (dim + 1) // 2)
+                self.assertEqual([list(c.axes) for c in ours], [row["axes"] for row in shares])
+                for row, c in zip(shares, ours):
+                    self.assertEqual([row[k] for k in ("share", "low", "high", "total", "total_low", "total_high", "exact", "variance")],
+                                     [c.sensitivity.component.value, c.sensitivity.component.low, c.sensitivity.component.high,
+                                      c.sensitivity.total.value, c.sensitivity.total.low, c.sensitivity.total.high, c.sensitivity.exact,
+                                      c.sensitivity.variance])
+                    self.assertEqual(c.sensitivity, koksma.sensitivity(integrand, c.axes, dim, samples=samples, seed=5))
+                if not errors:
+                    self.assertEqual(integrand, "genz-corner-peak")  # the only one here that is no product
+                    self.assertTrue(all(math.isnan(x) for c in ours for x in (c.rmse, c.low, c.high, c.part)))
+                    continue
+                self.assertEqual(len(errors), len(ours))
+                for row, c in zip(errors, ours):
+                    said = [row["axes"], *(math.nan if row[k] is None else row[k] for k in ("rmse", "low", "high", "part"))]
+                    np.testing.assert_equal([list(c.axes), c.rmse, c.low, c.high, c.part], said)
+        self.assertEqual(koksma.integrate("exp", "random", 16).components, ())
+
+    def test_components_by_their_definition(self):
+        """exp(x + y) has the components (e - 1)(e^x - e + 1), the same in y, and the product of both brackets."""
+        points, m = koksma.generate("n-rooks", 50, seed=3), math.e - 1
+        x, y = np.exp(points).T - m
+        first, second, both = koksma.integrate("exp", points, anova=True).components
+        errors = [m * x.mean(), m * y.mean(), (x * y).mean()]
+        np.testing.assert_allclose([first.rmse, second.rmse, both.rmse], np.abs(errors), rtol=1e-10)
+        np.testing.assert_allclose([first.part, second.part, both.part], np.square(errors) / sum(errors)**2, rtol=1e-9)
+        variance = (math.e**2 - 1) / 2 - m * m  # of e^x
+        self.assertAlmostEqual(both.sensitivity.component.value, variance**2 / (2 * m * m * variance + variance**2), places=12)
+
+    def test_components_of_a_callable(self):
+        """Shares are estimated; the errors of parts are not known. Of x + 2y + 0z the parts are 1/5, 4/5 and nothing."""
+        found = koksma.integrate(lambda x: x[:, 0] + 2 * x[:, 1], "random", 16, 3, trials=2, anova=True, samples=64).components
+        self.assertEqual([c.axes for c in found], [(0,), (1,), (2,), (0, 1), (0, 2), (1, 2)])
+        for c, share in zip(found, (0.2, 0.8, 0, 0, 0, 0)):
+            self.assertAlmostEqual(float(c.sensitivity.component), share, delta=0.01)
+            self.assertTrue(math.isnan(c.rmse) and math.isnan(c.part))
+        with self.assertRaises(ZeroDivisionError):
+            koksma.integrate(lambda x: x[:, 0] if len(x) > 1 else 1 // 0, "random", 4, anova=True)
 
     def test_sensitivity(self):
         for axes in (0, [0, 1]):

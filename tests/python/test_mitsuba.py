@@ -152,6 +152,14 @@ class Rankings(unittest.TestCase):
             picture = koksma.read_image(out)
             self.assertEqual(picture.shape, (5, 6, 3))
             np.testing.assert_allclose(picture, km.Renderer(scene)(koksma.Asked(scene, "jittered", 4, (6, 5), 1)), rtol=1e-3)
+            for wrong, said in (((scene, "independant"), r"^koksma\.mitsuba: no sampler 'independant': Mitsuba has independent, stratified"),
+                                ((scene, "sobl"), r"^koksma\.mitsuba: no pattern 'sobl'; did you mean 'sobol'"),
+                                (("no.xml", "jittered"), r"^koksma\.mitsuba: .*no\.xml")):
+                done = subprocess.run([sys.executable, "-m", "koksma.mitsuba", *wrong, "4", "1", "6", "5", out], capture_output=True, text=True,
+                                      env={**os.environ, "KOKSMA_MITSUBA_VARIANT": VARIANT})
+                self.assertEqual(done.returncode, 1)
+                self.assertRegex(done.stderr, said)
+                self.assertEqual(done.stderr.count("\n"), 1)
 
 
 if __name__ == "__main__":

@@ -137,17 +137,20 @@ static koksma_status wait_for(pid_t child, const koksma_run *run, int *outcome)
     }
 }
 
-/* Copies the last line of the log that is not blank. */
+/* Copies the last line of the log that is not blank, or its beginning if it is long. */
 static void last_line(const char *log, char *line, size_t size)
 {
     FILE *file = fopen(log, "r");
     char read[KOKSMA_RANK_REASON];
+    bool begins = true; /* `read` is the beginning of a line */
     line[0] = 0;
     while (file && fgets(read, sizeof read, file)) {
+        const bool ends = strchr(read, '\n');
         read[strcspn(read, "\r\n")] = 0;
-        if (read[strspn(read, " \t")]) {
+        if (begins && read[strspn(read, " \t")]) {
             snprintf(line, size, "%.*s", (int)size - 1, read);
         }
+        begins = ends;
     }
     if (file) {
         fclose(file);
@@ -156,7 +159,7 @@ static void last_line(const char *log, char *line, size_t size)
 
 static koksma_status explain(const char *log, int outcome)
 {
-    char line[KOKSMA_RANK_REASON / 2];
+    char line[KOKSMA_RANK_REASON - 48]; /* which leaves room for the words before it */
     last_line(log, line, sizeof line);
     const bool killed = WIFSIGNALED(outcome);
     return koksma__fail(KOKSMA_IMPOSSIBLE, "the command ended with %s %d%s%s", killed ? "signal" : "exit code",
