@@ -50,7 +50,8 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, c
 
 /* Computes a void-and-cluster mask in space and time: a permutation of 0 .. size^2 frames - 1 whose voxels below
    any rank are spread evenly on the three-dimensional torus. The mask is blue noise in space and time together; a
-   single frame is less blue than a two-dimensional mask. It takes about 1.5 s for 32 x 32 x 16 voxels.
+   single frame has about half the low frequencies of white noise, a two-dimensional mask about a tenth. It takes
+   about 1.5 s for 32 x 32 x 16 voxels.
      size    pixels a side, KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_3D
      frames  number of frames, KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_3D
      ranks   size * size * frames numbers; pixel (x, y) of frame f is ranks[(f * size + y) * size + x]

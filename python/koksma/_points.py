@@ -26,7 +26,8 @@ _capsule_pointer.argtypes, _capsule_pointer.restype = [ctypes.py_object, ctypes.
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
            "grid", "net2", "net2-prefixes", "net-prefixes", "oa2", "oa3", "fraction", "maximal", "lattice", "blue",
-           "latin-prefixes", "independent", "pairs", "quadruples", "pairs-3", "quadruples-3")  # by their bits
+           "latin-prefixes", "independent", "pairs", "quadruples", "pairs-3", "quadruples-3", "classes",
+           "lattice-prefixes")  # by their bits
 
 
 @dataclass(frozen=True)

@@ -26,15 +26,21 @@
  * (lattice.h). Among other multipliers with bitwise equal sums the smallest is taken.
  * Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9 (docs/findings/lattices.md).
  *
- * With order=Q only projections of up to Q coordinates count (finite-order weights, a case of the order-dependent
- * weights of Cools, Kuo & Nuyens 2006; all projections of the same order have equal weights): only terms of up to Q
- * factors of the expanded product remain.
+ * With order=Q only projections of up to Q coordinates count (finite-order weights), and gamma2 .. gammaQ are the weights
+ * of all projections of 2 .. Q coordinates, those of single coordinates having the weight 1 (the order-dependent weights
+ * of Cools, Kuo & Nuyens 2006). With Gamma_l = gammal, or gamma^(l-1) where it is not given, the search minimises
+ *
+ *     P_2 = (1/n) sum_i sum_(l=1)^Q Gamma_l e_l(2 pi^2 B_2({i z_0 / n}), 2 pi^2 B_2({i z_1 / n}), ...)
+ *
+ * with e_l the elementary symmetric polynomials. LatNet Builder's weights order-dependent:0:1,0.1,0.01 are
+ * order=3,gamma2=0.1,gamma3=0.01. In two dimensions weights do not matter; with gamma2=0, z_1 is the best in two dimensions nevertheless.
  *
  * Time: The search takes O(dim n log n): half a second for 2^20 points in 10 dimensions, hardly more for a prime
  * number of points. The memory in addition to the points is 28 n bytes for powers of two, up to 95 n bytes for other
  * n, and 4 n Q bytes more with order=Q.
  */
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"
@@ -44,9 +50,33 @@
 
 enum { MAX_DIM = 256, MOST_ORDER = 8 };
 
-/* Finds all components of z. `sums` is scratch memory for koksma__lattice_extend_orders; NULL if all projections
-   count. */
-static koksma_status search_all(koksma__lattice_search *search, int dim, int order, double *sums, uint64_t *z)
+/* Computes the factors of the elementary symmetric polynomials of degree 0 .. order - 1, whose terms are 3/4 B_2 =
+   gamma 2 pi^2 B_2, in the factor of the next coordinate: Gamma_(l+1) / gamma^l for degree l. */
+static koksma_status weights_of(const koksma_args *args, int order, double factors[MOST_ORDER])
+{
+    double power = 1, sum = 0;
+    factors[0] = 1;
+    for (int l = 2; l <= MOST_ORDER; l++) {
+        const double weight = args->params[l - 1];
+        power *= 8 * M_PI * M_PI / 3;
+        KOKSMA__FAIL_IF(weight < 0 && weight != -1, KOKSMA_ARGUMENT,
+                        "lattice-rank1: gamma%d=%g; a weight of 0 or more would do, or -1 for the default", l,
+                        weight);
+        KOKSMA__FAIL_IF(weight >= 0 && l > order, KOKSMA_ARGUMENT,
+                        "lattice-rank1: gamma%d has no effect with order=%d; order=%d would do", l, order, l);
+        factors[l - 1] = weight < 0 ? 1 : weight * power;
+        sum += l <= order ? factors[l - 1] : 0;
+    }
+    KOKSMA__FAIL_IF(order && sum == 0, KOKSMA_ARGUMENT,
+                    "lattice-rank1: gamma2 to gamma%d are 0, so that every lattice is as good; one above 0 would do",
+                    order);
+    return KOKSMA_OK;
+}
+
+/* Finds all components of z. `sums` is scratch memory for koksma__lattice_extend_orders, with these factors; NULL if all
+   projections count. */
+static koksma_status search_all(koksma__lattice_search *search, int dim, int order, const double *factors,
+                                double *sums, uint64_t *z)
 {
     z[0] = 1;
     koksma_status status = dim > 1 ? koksma__lattice_second(search, &z[1]) : KOKSMA_OK;
@@ -63,7 +93,7 @@ static koksma_status search_all(koksma__lattice_search *search, int dim, int ord
         }
         if (!status && k < dim - 1) {
             if (sums) {
-                koksma__lattice_extend_orders(search, z[k], order, sums);
+                koksma__lattice_extend_orders(search, z[k], order, factors, sums);
             } else {
                 koksma__lattice_extend(search, z[k]);
             }
@@ -78,9 +108,10 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     uint64_t z[MAX_DIM] = {0};
     koksma_status status = KOKSMA_OK;
     const int order = (int)args->params[0];
-    double *sums = NULL;
+    double *sums = NULL, factors[MOST_ORDER];
     KOKSMA__FAIL_IF(order == 1, KOKSMA_ARGUMENT, "lattice-rank1: order=1 is not supported; 0, or 2 to %d, would do",
                     MOST_ORDER);
+    KOKSMA__TRY(weights_of(args, order, factors));
     if (order) {
         sums = calloc((out->n / 2 + 1) * (size_t)order, sizeof *sums);
         KOKSMA__REQUIRE_MEMORY(sums, (out->n / 2 + 1) * (size_t)order * sizeof *sums);
@@ -88,7 +119,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (out->n > 1) {
         koksma__lattice_search search;
         status = koksma__lattice_open(&search, out->n, args->run);
-        status = status ? status : search_all(&search, out->dim, order, sums, z);
+        status = status ? status : search_all(&search, out->dim, order, factors, sums, z);
         koksma__lattice_close(&search);
     }
     free(sums);
@@ -98,6 +129,14 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 static const koksma_param params[] = {
     {"order", "count only projections of up to this number of coordinates, 2 to 8; 0: count all", 0, 0, MOST_ORDER,
      NULL, true},
+    {"gamma2", "weight of projections of 2 coordinates, where single ones have 1; -1: 0.038", -1, -1, 1e6, NULL,
+     false},
+    {"gamma3", "weight of projections of 3 coordinates; -1: 0.038^2", -1, -1, 1e6, NULL, false},
+    {"gamma4", "weight of projections of 4 coordinates; -1: 0.038^3", -1, -1, 1e6, NULL, false},
+    {"gamma5", "weight of projections of 5 coordinates; -1: 0.038^4", -1, -1, 1e6, NULL, false},
+    {"gamma6", "weight of projections of 6 coordinates; -1: 0.038^5", -1, -1, 1e6, NULL, false},
+    {"gamma7", "weight of projections of 7 coordinates; -1: 0.038^6", -1, -1, 1e6, NULL, false},
+    {"gamma8", "weight of projections of 8 coordinates; -1: 0.038^7", -1, -1, 1e6, NULL, false},
     {0},
 };
 

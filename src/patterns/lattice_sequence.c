@@ -12,8 +12,8 @@
  * a hash, so that pairs of coordinates of 2^33 to 2^51 points are as even as those of a random vector
  * (docs/decisions/0055).
  * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000; embedded lattices: Cools, Kuo & Nuyens 2006; the weights are
- * those of lattice-rank1. For 2^m points, m = 4 to 12, l2-wraparound is at most 1.4 times that of lattice-rank1 in 2
- * to 10 dimensions (tests/patterns/test_lattices.c).
+ * those of lattice-rank1. For 2^m points, m = 4 to 18, the worst-case error is at most 1.41 times that of lattice-rank1 in
+ * 2 to 10 dimensions; Cools, Kuo & Nuyens report at most 1.6 (docs/findings/lattices.md).
  */
 #include <koksma/sampler.h>
 
@@ -70,7 +70,7 @@ const koksma_pattern koksma__pattern_lattice_sequence = {
     .cite = "hickernell2000 cools2006 nuyens2006",
     .min_dim = 1,
     .max_dim = sizeof z / sizeof *z,
-    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE_PREFIXES,
     .generate = generate,
     .ranges = koksma__ranges_always,
 };

@@ -12,6 +12,13 @@
  * random. Without shuffle=1 the points of two seeds are correlated: the numbers of the strata of point i for two
  * seeds differ only by an exclusive or with a constant.
  *
+ * Without shuffle=1 the points fall into classes that interleave (figure 1 of Christensen et al.): by the parity of bits
+ * 0, 2, 4, .. and of bits 1, 3, 5, .. of the index there are four, each a (0,m-2,2)-net in every aligned block of 2^m
+ * points. The points of even index are no such class: they all lie in one half of x.
+ *
+ * Known: for 2^m points root mean square errors fall about as N^-1.5 for smooth functions, as N^-0.75 for edges and as
+ * N^-1 for steps along an axis, as published (docs/findings/integration.md).
+ *
  * koksma_pmj02_2d of koksma/sampler.h computes single points of the set with shuffle=1.
  */
 #include <koksma/sampler.h>
@@ -117,7 +124,7 @@ const koksma_pattern koksma__pattern_pmj02 = {
     .min_dim = 2,
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES |
-              KOKSMA_CLAIM_UNBIASED,
+              KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_CLASSES,
     .params = params,
     .revision = 1,
     .generate = generate,

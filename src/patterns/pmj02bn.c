@@ -2,7 +2,7 @@
 /*
  * pmj02bn: pmj02 with blue noise: a nested scrambling of pmj02 for which the first 4, 16, 64, .. 4^levels points are
  * far from each other. The points have every property of pmj02 that nested (Owen) scrambling preserves: prefixes of
- * 2^m points, and all aligned blocks of 2^m points, are (0,m,2)-nets.
+ * 2^m points, and all aligned blocks of 2^m points, are (0,m,2)-nets, and so are the four classes of pmj02.c in them.
  *     x = x' XOR the mask for the first `levels` bits of x', x' from pmj02; y likewise, with other masks
  *     energy of 4^d points = sum over pairs in adjacent cells of max(0, 1 - |p - q|^2 / (1.2 / 2^d)^2)^8
  *
@@ -245,7 +245,8 @@ const koksma_pattern koksma__pattern_pmj02bn = {
     .cite = "christensen2018 helmer2021",
     .min_dim = 2,
     .max_dim = 2,
-    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES |
+              KOKSMA_CLAIM_CLASSES,
     .params = params,
     .generate = generate,
 };

@@ -227,6 +227,60 @@ static void patterns_keep_their_claims(void **state)
     }
 }
 
+/* Specs of the patterns whose operand is a vector or a file, with the file's text, for up to `dim` dimensions. `file` itself
+   reads points that the test writes. Patterns that run code claim nothing. */
+static const struct {
+    const char *name, *operand, *text;
+    int dim;
+} operands[] = {
+    {"lattice-vector", "1:182667:469891:498753:110745", NULL, 5},
+    {"lattice-file", "claims_lattice.txt", "1 1\n2 182667\n3 469891\n4 498753\n5 110745\n", 5},
+    {"lattice-file", "claims_lattice_3.txt", "# lattice\n3\n2187\n1\n608\n40\n", 3},
+    {"net-file", "claims_net.txt", "d s a m_i\n2 1 0 1\n3 2 1 1 3\n4 3 1 1 3 1\n5 3 2 1 1 1\n", 5},
+    {"net-file", "claims_net_5.txt", "# dnet\n5\n2\n4\n4\n125 25 5 1\n125 150 180 216\n", 2},
+    {"file", "claims_points.npy", NULL, 3},
+};
+
+static void write_operand(const char *name, const char *operand, const char *text)
+{
+    if (text) {
+        FILE *file = fopen(operand, "w");
+        assert_non_null(file);
+        assert_true(fputs(text, file) >= 0);
+        assert_int_equal(fclose(file), 0);
+    } else if (!strcmp(name, "file")) {
+        koksma_points points = test_points("random", 1000, 3, 9);
+        assert_ok(koksma_points_write(operand, &points, NULL, NULL));
+        koksma_points_fini(&points);
+    }
+}
+
+static void patterns_with_operands_keep_their_claims(void **state)
+{
+    (void)state;
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        bool served = !p->operand || p->claims == 0 || !wanted(p->name);
+        const bool skip = served;
+        for (size_t t = 0; t < sizeof operands / sizeof *operands && !skip; t++) {
+            char text[100];
+            koksma_spec spec;
+            if (strcmp(operands[t].name, p->name) != 0) {
+                continue;
+            }
+            write_operand(p->name, operands[t].operand, operands[t].text);
+            snprintf(text, sizeof text, "%s:%s", p->name, operands[t].operand);
+            assert_ok(koksma_pattern_spec(text, &spec));
+            for (size_t d = 0; d < N_DIMS && dims[d] <= operands[t].dim; d++) {
+                served |= walk(&spec, dims[d]);
+            }
+        }
+        if (!served) {
+            fail_msg("%s claims something; the table `operands` needs a spec of it", p->name);
+        }
+    }
+}
+
 /* Sets large enough for several blocks, of the patterns that are fast enough. */
 static void large_sets_are_equal_on_any_threads(void **state)
 {
@@ -316,6 +370,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patterns_keep_their_claims),
+        cmocka_unit_test(patterns_with_operands_keep_their_claims),
         cmocka_unit_test(large_sets_are_equal_on_any_threads),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(aliases_are_their_patterns),

@@ -107,18 +107,19 @@ static void evaluate(const double *xy, double *f)
 
 static double errors[INTEGRANDS][PIXELS];
 
-static void errors_of(uint64_t seed, uint32_t spp, bool independent)
+/* With keys for `of` samples a pixel; of = 0: independent pixels. */
+static void errors_of(uint64_t seed, uint32_t spp, uint32_t of)
 {
     for (uint32_t p = 0; p < PIXELS; p++) {
-        const koksma_keys keys = koksma_keys_of(seed, p % WIDTH, p / WIDTH, 0, spp);
+        const koksma_keys keys = koksma_keys_of(seed, p % WIDTH, p / WIDTH, 0, of ? of : spp);
         const koksma_domain pixel = koksma_domain_of_pixel(seed, p % WIDTH, p / WIDTH);
         double f[INTEGRANDS] = {0};
         for (uint32_t s = 0; s < spp; s++) {
             double xy[2];
-            if (independent) {
-                koksma_sobol_2d(pixel, s, xy);
-            } else {
+            if (of) {
                 koksma_keys_2d(&keys, s, xy);
+            } else {
+                koksma_sobol_2d(pixel, s, xy);
             }
             evaluate(xy, f);
         }
@@ -231,7 +232,7 @@ static void mean_squares_of_tiles(uint32_t spp, bool independent, double mean[2]
     double squares[2][INTEGRANDS] = {{0}};
     memset(mean, 0, 2 * sizeof *mean);
     for (uint64_t tile = 0; tile < TILES; tile++) {
-        errors_of(tile, spp, independent);
+        errors_of(tile, spp, independent ? 0 : spp);
         for (int k = 0; k < INTEGRANDS; k++) {
             double both[2];
             mean_squares(errors[k], &both[0], &both[1]);
@@ -279,6 +280,58 @@ static void errors_are_blue_and_small(void **state)
         }
         if (getenv("RATIOS")) {
             printf(" |\n");
+        }
+    }
+}
+
+/* Heitz & others 2019: a ranking key permutes the samples of its pixel. With 2^m samples its lower m bits change their
+   order alone: the set of all is the same for any of them, and the first sample is another one. */
+static void ranking_permutes_samples(void **state)
+{
+    (void)state;
+    for (uint32_t m = 0; m <= 6; m++) {
+        for (uint32_t p = 0; p < PIXELS; p += 61) {
+            const koksma_keys keys = koksma_keys_of(3, p % WIDTH, p / WIDTH, 0, 1u << m);
+            for (uint32_t rank = 1; rank < 1u << m; rank++) {
+                koksma_keys other = keys;
+                other.key ^= rank;
+                for (uint32_t s = 0; s < 1u << m; s++) {
+                    double a[2], b[2];
+                    koksma_keys_2d(&keys, s, a);
+                    koksma_keys_2d(&other, s ^ rank, b);
+                    assert_true(a[0] == b[0] && a[1] == b[1]);
+                    koksma_keys_2d(&other, s, b);
+                    assert_true(a[0] != b[0] && a[1] != b[1]);
+                }
+            }
+        }
+    }
+}
+
+/* They rank for all powers of two at once: the first 1, 2, 4, ... of 64 samples have blue errors, too. Blurred mean squares
+   over those of independent pixels; docs/findings/ranking-keys.md has the low frequencies. */
+static void prefixes_are_blue(void **state)
+{
+    (void)state;
+    enum { TILES = test_repeats(4, 1) };
+    for (uint32_t spp = 1; spp <= 64; spp *= 2) {
+        double sums[2][INTEGRANDS] = {{0}};
+        for (uint64_t tile = 0; tile < 2 * TILES; tile++) {
+            errors_of(tile / 2, spp, tile % 2 ? 0 : 64);
+            for (int k = 0; k < INTEGRANDS; k++) {
+                double plain, blurred;
+                mean_squares(errors[k], &plain, &blurred);
+                sums[tile % 2][k] += blurred;
+            }
+        }
+        for (int k = 0; k < INTEGRANDS; k++) {
+            if (getenv("RATIOS")) {
+                printf("%u of 64 samples, %s: %.3f\n", spp, integrands[k].name, sums[0][k] / sums[1][k]);
+            }
+            if (!(sums[0][k] < 0.8 * sums[1][k])) {
+                fail_msg("%u of 64 samples, %s: blurred mean squares are %.2f of those of independent pixels", spp,
+                         integrands[k].name, sums[0][k] / sums[1][k]);
+            }
         }
     }
 }
@@ -370,6 +423,8 @@ int main(void)
         cmocka_unit_test(cells_have_nets),
         cmocka_unit_test(a_pixel_has_the_distribution_of_independent_pixels),
         cmocka_unit_test(errors_are_blue_and_small),
+        cmocka_unit_test(ranking_permutes_samples),
+        cmocka_unit_test(prefixes_are_blue),
         cmocka_unit_test(cells_are_independent),
         cmocka_unit_test(pairs_are_independent),
     };

@@ -236,6 +236,9 @@ static void order_two_is_no_worse_than_others(void **state)
         if (!(own <= least)) {
             fail_msg("n = 2^%d: %.4g with order=2, %.4g by others", bits, own, least);
         }
+        /* the vector was made for 2^10 to 2^20 points at once: worst-case errors of at most 1.6 times those of a construction
+           for one n, as its paper reports */
+        assert_true(bits < 10 || p2_of_pairs(n, published[0], 10, WEIGHT) < 1.6 * 1.6 * own);
     }
 }
 
@@ -267,6 +270,45 @@ static void search_is_no_worse_than_others(void **state)
         assert_true(c > 20 || korobov < korobov_before / 1.5);
         before = own;
         korobov_before = korobov;
+    }
+}
+
+/* The multipliers of the sequence modulo 2^20: phi(2^19) = 2^-20. */
+static void sequence_multipliers(int dim, size_t *z)
+{
+    koksma_spec spec;
+    koksma_points point;
+    assert_ok(koksma_pattern_spec("lattice-sequence", &spec));
+    assert_ok(koksma_points_init(&point, 1, dim));
+    assert_ok(koksma_generate_range(&spec, 0, 0, 1 << 19, NULL, &point));
+    for (int k = 0; k < dim; k++) {
+        z[k] = (size_t)ldexp(point.xs[k], 20);
+    }
+    koksma_points_fini(&point);
+}
+
+/* What it costs to be good for all powers of two at once: Cools, Kuo & Nuyens 2006 report worst-case errors, roots of P_2,
+   of at most 1.6 times those of lattices that are constructed for one n, from 2^10 to 2^20 points. */
+static void embedded_lattices_cost_little(void **state)
+{
+    (void)state;
+    static const int dims[] = {2, 3, 5, 10};
+    size_t z[MAX_DIM];
+    sequence_multipliers(10, z);
+    for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
+        for (int bits = 4; bits <= MOST_BITS && bits <= 18; bits += 2) {
+            const size_t n = (size_t)1 << bits;
+            size_t own[MAX_DIM];
+            multipliers("lattice-rank1", n, dims[d], own);
+            const double ratio = sqrt(p2(n, z, dims[d], WEIGHT) / p2(n, own, dims[d], WEIGHT));
+            if (getenv("RATIOS")) {
+                printf("n = 2^%d, dim = %d: %.3f\n", bits, dims[d], ratio);
+            }
+            if (!(ratio < 1.6)) {
+                fail_msg("n = 2^%d, dim = %d: %.3f times the worst-case error of lattice-rank1", bits, dims[d],
+                         ratio);
+            }
+        }
     }
 }
 
@@ -383,6 +425,7 @@ int main(void)
         cmocka_unit_test(published_errors_are_found),
         cmocka_unit_test(search_is_no_worse_than_others),
         cmocka_unit_test(order_two_is_no_worse_than_others),
+        cmocka_unit_test(embedded_lattices_cost_little),
         cmocka_unit_test(worst_pairs_fall),
         cmocka_unit_test(shifted_lattices_converge),
         cmocka_unit_test(plane),

@@ -335,6 +335,91 @@ static void components_of_an_order_are_the_best(void **state)
     assert_memory_equal(all, limited, sizeof all);
 }
 
+/* n P_2 from its definition: the sum over all sets of coordinates u, of which weights[|u|] is the weight, and over i > 0, of
+   the product over k in u of 2 pi^2 B_2({i z_k / n}). */
+static long double error_of_weights(size_t n, const size_t *z, int dim, const double weights[9])
+{
+    const long double pi = acosl(-1);
+    long double sum = 0;
+    for (unsigned u = 1; u < 1u << dim; u++) {
+        int members = 0;
+        for (unsigned bits = u; bits; bits &= bits - 1) {
+            members++;
+        }
+        for (size_t i = 1; i < n && weights[members] > 0; i++) {
+            long double product = weights[members];
+            for (int k = 0; k < dim; k++) {
+                const long double x = (long double)(i * z[k] % n) / (long double)n;
+                product *= u >> k & 1 ? 2 * pi * pi * (x * x - x + 1.0L / 6) : 1;
+            }
+            sum += product;
+        }
+    }
+    return sum;
+}
+
+/* Each component is the best of all, with the weights of Cools, Kuo & Nuyens 2006 by order, as LatNet Builder writes them
+   (order-dependent:0:1,0.1,0.01): falling, equal, rising, and some 0. */
+static void components_of_weights_are_the_best(void **state)
+{
+    (void)state;
+    enum { DIM = 5 };
+    static const struct {
+        const char *spec;
+        double weights[9]; /* [l]: of projections of l coordinates */
+    } cases[] = {{"lattice-rank1:order=3,gamma2=0.1,gamma3=0.01", {0, 1, 0.1, 0.01}},
+                 {"lattice-rank1:order=4,gamma2=1,gamma3=1,gamma4=1", {0, 1, 1, 1, 1}},
+                 {"lattice-rank1:order=2,gamma2=7.5", {0, 1, 7.5}},
+                 {"lattice-rank1:order=3,gamma2=0.2,gamma3=5", {0, 1, 0.2, 5}},
+                 {"lattice-rank1:order=4,gamma2=0.3,gamma3=0,gamma4=2", {0, 1, 0.3, 0, 2}}};
+    static const size_t counts[] = {16, 31, 60, 67, 101};
+    for (size_t t = 0; t < sizeof cases / sizeof *cases; t++) {
+        for (size_t c = 0; c < test_repeats(sizeof counts / sizeof *counts, 4); c++) {
+            const size_t n = counts[c];
+            size_t z[DIM], other[DIM];
+            multipliers(cases[t].spec, n, DIM, z);
+            for (int k = 1; k < DIM; k++) {
+                long double least = HUGE_VALL;
+                memcpy(other, z, sizeof z);
+                for (other[k] = 1; other[k] <= n / 2; other[k]++) {
+                    least = common_divisor(other[k], n) == 1
+                                ? fminl(least, error_of_weights(n, other, k + 1, cases[t].weights))
+                                : least;
+                }
+                const double own = (double)error_of_weights(n, z, k + 1, cases[t].weights);
+                if (!(own <= (double)least + 1e-11 * fabs((double)least))) {
+                    fail_msg("%s, n = %zu: with %d coordinates %.15g, the best has %.15g", cases[t].spec, n, k + 1,
+                             own, (double)least);
+                }
+            }
+        }
+    }
+}
+
+/* The defaults are powers of 3 / (8 pi^2), and weights without effect are refused. */
+static void weights_of_orders(void **state)
+{
+    (void)state;
+    static const char *const wrong[] = {"gamma2=1", "order=2,gamma3=0.1", "order=3,gamma2=0,gamma3=0",
+                                        "order=2,gamma2=0", "order=2,gamma2=-0.5"};
+    size_t own[6], other[6];
+    multipliers("lattice-rank1:order=3", 251, 6, own);
+    multipliers("lattice-rank1:order=3,gamma2=0.037995443,gamma3=0.0014436537", 251, 6, other);
+    assert_memory_equal(own, other, sizeof own);
+    multipliers("lattice-rank1:order=3,gamma2=0.001,gamma3=50", 251, 6, other);
+    assert_memory_not_equal(own, other, sizeof own);
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+        char text[64];
+        koksma_spec spec;
+        koksma_points points;
+        snprintf(text, sizeof text, "lattice-rank1:%s", wrong[w]);
+        assert_ok(koksma_pattern_spec(text, &spec));
+        assert_ok(koksma_points_init(&points, 8, 3));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_ARGUMENT);
+        koksma_points_fini(&points);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -348,6 +433,8 @@ int main(void)
         cmocka_unit_test(embedded_lattices_are_good),
         cmocka_unit_test(vectors_of_specs),
         cmocka_unit_test(components_of_an_order_are_the_best),
+        cmocka_unit_test(components_of_weights_are_the_best),
+        cmocka_unit_test(weights_of_orders),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -174,7 +174,8 @@ double koksma__lattice_extend(koksma__lattice_search *s, uint64_t z)
     return sum;
 }
 
-void koksma__lattice_extend_orders(koksma__lattice_search *s, uint64_t z, int order, double *sums)
+void koksma__lattice_extend_orders(koksma__lattice_search *s, uint64_t z, int order, const double *factors,
+                                   double *sums)
 {
     uint64_t numerator = 0;
     for (size_t i = 1; i <= s->n / 2; i++) {
@@ -183,7 +184,7 @@ void koksma__lattice_extend_orders(koksma__lattice_search *s, uint64_t z, int or
         const double term = 0.75 * bernoulli(numerator, s->n);
         for (int l = order - 1; l > 0; l--) {
             of[l] += term * of[l - 1];
-            all += of[l];
+            all += factors[l] * of[l];
         }
         s->product[i] = all + of[0];
     }
