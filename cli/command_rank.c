@@ -200,7 +200,7 @@ static void say_unranked(const koksma_rank_options *options, const koksma_rank_r
 {
     bool said[MAX_PATTERNS] = {false};
     for (size_t i = ranking->n; i < options->n_patterns; i++) {
-        /* the advice reports if no pattern was ranked in time */
+        /* if no pattern was ranked, the advice has said that the time was too short; here only refusals are printed */
         if (said[i] || (!ranking->n && table[i].state != KOKSMA_RANK_REFUSED)) {
             continue;
         }

@@ -86,8 +86,9 @@ const cli_curve *cli_curve_find(cli_curve_list list, const char *name);
 const char *cli_curve_names(cli_curve_list list, const char *option, const char *comma, const char *last, char *text,
                             size_t size);
 
-/* Defines options of both `koksma curve` and `koksma plot`. list: "curve" or "chart", a placeholder that cli/texts.c
-   replaces. default_half: the default of --half in the help text. */
+/* Defines options of both `koksma curve` and `koksma plot`. list: "curve" or "chart", the first word of
+   placeholders such as {curve:trials}, which cli/texts.c replaces by the names of the curves that take this option.
+   default_half: the default of --half in the help text. */
 #define CLI_CURVE_OPTIONS(list, default_half)                                                                        \
     {'s', "seed", "S", "seed of patterns (default: 0)"},                                                             \
         {'t', "trials", "T",                                                                                         \

@@ -870,8 +870,8 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
    run of 2^m consecutive points. Each block of 2^32 samples has a different order; the blocks themselves are not
    shuffled.
 
-   The shuffle makes samples less even if N is not a power of two: N samples are then several runs of points, one
-   for each one bit of N, with gaps between the runs. Their RMS L2 star discrepancy is 1.19 times that of one run in
+   If N is not a power of two, the first N samples are less even than N consecutive points of the sequence: they are
+   several runs of points, one for each 1 among the binary digits of N, with gaps between the runs. Their RMS L2 star discrepancy is 1.19 times that of one run in
    the mean over N = 1 to 1024, and at most 1.64 times (N = 98). Without the shuffle the same coordinate of two
    domains would differ by a constant for every N. */
 KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])

@@ -209,8 +209,8 @@ static bool open_special(const char *path, output *o)
     return true;
 }
 
-/* Opens a temporary file below `folder`, whose descriptor the output then owns, following no symbolic links. If
-   it fails, it returns false and sets errno. */
+/* Opens a temporary file for `path`, which is relative to the open folder `folder`, following no symbolic links. It takes
+   over the descriptor `folder`, also if it fails; it then returns false and sets errno. */
 static bool open_within(int folder, const char *path, output *o)
 {
     struct stat info;

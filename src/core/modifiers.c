@@ -13,9 +13,9 @@
  *     mirror         x_k becomes 1 - 2^-53 - x_k or stays, with probability 1/2 each
  *     owen-base=B    owen's scrambling in base B: digit m goes through a random permutation, a different one for each
  *                    value of the digits before it
- *     tent           x_k becomes 1 - |2 x_k - 1|, the baker's or tent transform, at most 1 - 2^-53: after shift, a
- *                    lattice integrates smooth functions that are not periodic with errors near n^-2
- *                    (Hickernell 2002)
+ *     tent           x_k becomes 1 - |2 x_k - 1| (the baker's or tent transform), but at most 1 - 2^-53. A lattice
+ *                    with shift and then tent has errors near n^-2 for smooth functions, even if they are not
+ *                    periodic (Hickernell 2002)
  *
  * The first 53 digits are scrambled. owen hashes the node of the tree of digits to its random bit: one call of the
  * generator gives the 127 bits of the seven levels below a node. mirror flips all 53 digits, so that half-open strata

@@ -69,9 +69,9 @@ static bool is_channel_list(const unsigned char *value, size_t size)
     return at + 1 == size;
 }
 
-/* Whether a value's stated size is that of its type. For these types the C++ library reads the type's size and
-   ignores the stated one, so that it would look for the next attribute at another place than a reader that uses the
-   stated sizes. For all other types the C++ library uses the stated size. */
+/* Whether a value's stated size is that of its type, for the types in the table below. For these the C++ library
+   ignores the stated size: if it differed from the type's, the library would look for the next attribute at another
+   place than a reader that uses stated sizes. For all other types the C++ library uses the stated size. */
 static bool value_fits(const char *type, const unsigned char *value, size_t size)
 {
     static const struct {

@@ -9,9 +9,9 @@
  * noise. Taken alone, a pixel's points have the same distribution as sobol:scramble=hash-owen: for any spp the
  * pixel's error is as large as with independent scrambling.
  *
- * Sources: Georgiev & Fajardo 2016, who shift the points on the torus by two optimised masks, which void-and-cluster
- * masks (Ulichney 1993) replace here; the scrambling of Laine & Karras 2011 and Burley 2020. New in this project are
- * two things: the two masks shift only the digits below those of the net, and a third mask decides which strata in y
+ * Sources: Georgiev & Fajardo 2016, who shift the points on the torus by two optimised masks; here the masks are
+ * void-and-cluster masks (Ulichney 1993). Scrambling: Laine & Karras 2011, Burley 2020. New in this project are two
+ * things: the two masks shift only the digits below those of the net, and a third mask decides which strata in y
  * are paired with those in x.
  */
 #include <koksma/mask.h>

@@ -134,7 +134,7 @@ static koksma_status draw(const layout *a, double height, koksma_plot_format for
         y += a->lines[i].texts + a->lines[i].flexible;
     }
     const koksma_status closed = koksma__canvas_close(canvas, bytes, n);
-    if (status && !closed) { /* the caller may free *bytes after an error, too */
+    if (status && !closed) { /* drawing failed: frees the file, and leaves NULL, as the caller may free *bytes, too */
         free(*bytes);
         *bytes = NULL;
         *n = 0;

@@ -58,7 +58,8 @@ double koksma_filter_leakage(const koksma_filter *filter)
     for (int i = 0; i < BANDS; i++) {
         for (int side = -1; side <= 1; side += 2) {
             const double h = koksma_filter_response(filter, 0.5 / BANDS * (i + 0.5 + side * gauss));
-            passed += h * h * (0.5 / BANDS); /* counts both halves of the line; each band has two points */
+            /* the band's width 0.5 / BANDS, times 2 for the negative frequencies, over the 2 points of a band */
+            passed += h * h * (0.5 / BANDS);
         }
     }
     return 1 - passed / all;

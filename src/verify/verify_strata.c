@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * latin and stratified: whether each of n boxes of equal size, a partition of the cube, holds one point. latin cuts
- * one coordinate into n intervals; stratified cuts the first two coordinates into m x n/m cells for every divisor m
- * of n, or the cube of 3 or 4 dimensions into m^dim cells. The points in each box are counted; the value is the
- * number of empty boxes. O(n) for each partition.
+ * latin and stratified: whether each of n boxes of equal size, which partition the cube, holds one point. latin cuts
+ * each coordinate in turn into n intervals. stratified cuts the first two coordinates into m x n/m cells, for every
+ * divisor m of n except 1 and n; in 3 or 4 dimensions, if n is m^dim, it also cuts the cube into m^dim cells. The
+ * points in each box are counted; the value is the number of empty boxes. O(n) for each partition.
  */
 #include <math.h>
 #include <stdio.h>

@@ -51,10 +51,12 @@ static void chords_of_disk(const double p[2], koksma__chord chords[KOKSMA__MAX_C
     chords[0] = central ? (koksma__chord){{1, 0}, {0, 0}} : (koksma__chord){{0, p[1]}, {p[0], 0}};
 }
 
-/* Returns the mean distance of p, which is at distance rho from the centre, from a uniform point of the disk: (4/9
-   pi) ((rho^2 + 7) E
-   - 4 (1 - rho^2) K), where K and E are the complete elliptic integrals of modulus rho, by the arithmetic-geometric
-   mean. */
+/* Returns the mean distance between p and a uniform random point of the unit disk,
+
+       4 / (9 pi) ((rho^2 + 7) E - 4 (1 - rho^2) K),
+
+   where rho is the distance of p from the centre. K and E are the complete elliptic integrals of modulus rho, computed by
+   the arithmetic-geometric mean. */
 static double mean_distance_in_disk(const double *p)
 {
     const double m = fmin(p[0] * p[0] + p[1] * p[1], 1);

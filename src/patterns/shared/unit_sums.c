@@ -11,8 +11,9 @@
  * not periodic along it: beyond the length of the axis it repeats with a sign that depends on the line (see sign_of).
  * For small blocks the sums are computed as a product with a matrix.
  *
- * Then the sums of the blocks are added over the divisors of n, prime by prime: value[i] += value[p i mod n], because
- * the sum of z in the block of m/p is stored at p i.
+ * Then value[i] with i = r n/m holds the sum of block m for all z that are r modulo m; the sum of block m/p for the same
+ * z is at p i mod n. value[i] += value[p i mod n], for one prime p of n after the other, therefore adds the blocks of all
+ * divisors, and value[z] becomes the whole sum for z (i and n - i are the same).
  *
  * The numbers product[i] of a block are called its weights; their mean is subtracted from them. This changes the sums
  * of all z equally and removes most of the rounding error. The rounding error is assumed to be below 256 (1 + log2 m) u

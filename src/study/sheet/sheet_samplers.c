@@ -93,8 +93,9 @@ static size_t thin(size_t *sizes, size_t n)
     return kept;
 }
 
-/* Chooses the sizes of a family of files: those that have at least half as many sets as the size with the most sets,
-   and not too many points to be measured quickly, unless all sizes have too many. */
+/* Chooses the sizes (numbers of points) of a family of files. A size needs at least half as many sets as the size with the
+   most sets. The smallest such size is always chosen, larger ones only if they have few enough points to be measured
+   quickly; of many sizes KOKSMA__SHEET_SIZES are kept. */
 static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_sampler *sampler,
                                             const koksma__file_set *sets, size_t count)
 {

@@ -23,7 +23,8 @@
 
 enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 160, PROBES = 16 };
 
-/* Adds the scatter plot of a point set. note: text for the caption that says why there is no plot. */
+/* Adds the scatter plot of a point set. If the pattern runs code that the user has not allowed, there is no plot, and
+   `note` receives a text for the caption that says so; otherwise `note` is unchanged. */
 static koksma_status add_points(koksma__document *d, const koksma__figure *f, char note[NOTE])
 {
     koksma_spec spec;
@@ -93,9 +94,11 @@ static koksma_status add_strata(koksma__document *d, const koksma__figure *f, ko
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < (f->spaces.n ? f->spaces.n : strata->n_spaces); i++) {
         const koksma_space *space = f->spaces.n ? find_space(strata, f->spaces.at[i]) : &strata->spaces[i];
-        status =
-            space ? add_space(d, f, space)
-                  : koksma__fail(KOKSMA_ARGUMENT, "figure %s: no space '%s' in %s", f->id, f->spaces.at[i], f->scene);
+        status = space ? add_space(d, f, space)
+                       : koksma__fail(
+                             KOKSMA_ARGUMENT,
+                             "figure %s: 'spaces' names '%s', but the samples of scene %s have no space of that name",
+                             f->id, f->spaces.at[i], f->scene);
     }
     koksma_strata_fini(strata);
     return status;
