@@ -46,6 +46,11 @@ enum { CELLS = 32, STRIDE = CELLS + 7 };
 static uint32_t places[STRIDE * (CELLS + 4)], squares[N];
 static const koksma__dart_cells cells = {places, STRIDE, 1, N, squares};
 
+/* 53 digits each, and the nodes of all their first seven. */
+static uint64_t whole[N], scrambled[N];
+static koksma__nested_node nodes[1 << KOKSMA__NESTED_LEVELS];
+
+RUN(nested_bits, N, memcpy(scrambled, whole, sizeof whole); t->nested_bits(1, 2, nodes, N, scrambled))
 RUN(uniform, N, t->uniform(1, 2, 3, 0, N, out[0]))
 RUN(words, N, t->words(1, 2, 3, 0, N, found))
 RUN(draws, N, t->draws(1, 2, 3, 0, N, found))
@@ -106,6 +111,7 @@ static void prepare(void)
     ref->words(1, 2, 0, 0, BIG, words);
     ref->uniform(3, 4, 0, 0, 2 * BIG, units);
     for (uint32_t i = 0; i < N; i++) {
+        whole[i] = (uint64_t)(units[i] * 0x1p53);
         sorted[i] = i / (double)N;
         words[i] %= N;
         squares[i] = koksma__place(words[i] % CELLS << 1, words[i + 1] % CELLS << 1);
@@ -120,6 +126,7 @@ static void prepare(void)
                                                      y * KOKSMA__PLACE_UNITS + words[3 * N + i] % 4096);
     }
     memcpy(directions, words + N, sizeof directions);
+    memcpy(nodes, units, sizeof nodes);
 }
 
 static double now_ns(void)

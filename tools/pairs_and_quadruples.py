@@ -198,7 +198,7 @@ def images(_):
         if row["kind"] == "image":
             column = row["pattern"] if "pairing=native" in row["options"] else "padded"
             errors.setdefault((row["scene"], int(row["n"])), {}).setdefault(column, []).append(float(row["rmse"]))
-    columns = list(next(iter(errors.values())))
+    columns = [BASE, BASE + ",numbers=groups", "sz:owen=1", "cascaded-sobol:owen=1", "padded"]  # the order of the page
     print(f"| scene | samples | {' | '.join(columns)} |\n|---|---|{'---|' * len(columns)}")
     for (scene, spp), of in sorted(errors.items()):
         base, cells = relative(of[BASE]), []
@@ -209,7 +209,7 @@ def images(_):
         print(f"| `{scene}` | {spp} | {' | '.join(cells)} |")
     means = ["" if c == BASE else percent(*(sum(part) / len(logs[c]) ** (1 + i) for i, part in enumerate(zip(*logs[c]))))
              for c in columns]
-    print(f"| all | | {' | '.join(means)} |")
+    print(f"| all |  | {' | '.join(means)} |")
 
 
 def relative(numbers):

@@ -7,6 +7,21 @@
 
 #include "core/visibility.h"
 
+/* The modifiers, in the order of their table. */
+enum {
+    KOKSMA__MODIFIER_OWEN,
+    KOKSMA__MODIFIER_DIGITAL_SHIFT,
+    KOKSMA__MODIFIER_AXES,
+    KOKSMA__MODIFIER_MIRROR,
+    KOKSMA__MODIFIER_PHASE,
+    KOKSMA__MODIFIER_SHIFT,
+    KOKSMA__MODIFIER_OWEN_BASE,
+    KOKSMA__MODIFIER_TENT,
+    KOKSMA__MODIFIERS
+};
+
+enum { KOKSMA__MOST_BASE = 64 }; /* of owen-base */
+
 /* The parameters of a pattern (NULL: none), followed by the modifiers; an entry whose name is NULL ends the list. */
 typedef struct koksma__all_params {
     koksma_param params[KOKSMA_MAX_PARAMS + KOKSMA_MAX_MODIFIERS + 1];
@@ -18,9 +33,6 @@ void koksma__all_params_init(koksma__all_params *all, const koksma_param *own);
 /* Returns where the modifiers at the end of "PATH,shift=1,phase=3" begin: at a comma, or at the end of the text. A
    part with a dot or a slash still belongs to the path: x,shift=1.txt is a file's name. */
 KOKSMA__LAB const char *koksma__modifiers_of_path(const char *text);
-
-/* Applies all modifiers whose value is not 0 to points in [0,1), which stay in [0,1). */
-void koksma__modify(const double *values, uint64_t seed, koksma_points *points);
 
 /* Modifier i as a parameter. The default of a modifier, 0, may be below its range. */
 koksma_param koksma__modifier_param(size_t i);

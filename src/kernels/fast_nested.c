@@ -22,7 +22,8 @@ typedef struct strata {
     lanes64_u order[CHAINS];  /* digit number d begins at bit 4 d; number 0 is the digit of the point itself */
 } strata;
 
-/* to_doubles converts the lower halves of the lanes to doubles, to_words doubles to words. */
+/* to_doubles converts the low 32 bits of each lane to a double. to_words is its inverse: it converts whole doubles below
+   2^32 to words. */
 static inline lanes64_d to_doubles(lanes64_u x)
 {
     return (lanes64_d)lanes64_halves(x, lanes64_splat(0x4330000000000000u)) - 0x1p52;

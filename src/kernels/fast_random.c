@@ -30,6 +30,8 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
 void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
 void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs);
+void KERNEL_NAME(nested_bits)(uint64_t seed, uint32_t lane, const koksma__nested_node *first, size_t count,
+                              uint64_t *x);
 
 /* Values that are equal for all counters that differ only in their lowest word: w[0] and w[1] after round 0; w[3],
    and the word that is xored into w[2], after round 1. The keys of the other rounds follow; they are used as memory
@@ -362,5 +364,99 @@ void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, si
             xs[2 * (i + p)] = in_cell((double)(first + i + p), word[2 * p], (double)n);
             xs[2 * (i + p) + 1] = in_cell((double)rows[i + p], word[2 * p + 1], (double)n);
         }
+    }
+}
+
+/* What the first two rounds take for counters of any two low words: what is xored into w[0] after round 0, and the key of
+   w[2] in round 1. The stream has the rest; its w2_of_1 and w3_of_1 are of counters below 2^32. */
+typedef struct tree {
+    stream s;
+    lanes64_u w0_of_0, key_of_1;
+} tree;
+
+/* Replaces nodes, which are counters, by their random words: the words 0 and 1 in `low`, 2 and 3 in `high`. */
+INLINE void nested_words(const tree *t, int chains, lanes64_u *low, lanes64_u *high)
+{
+    const lanes64 m0 = (lanes64)lanes64_splat(multiplier[0]), m1 = (lanes64)lanes64_splat(multiplier[1]);
+    block b;
+    for (int c = 0; c < chains; c++) {
+        const lanes64_u p = (lanes64_u)lanes64_product((lanes64)low[c], m0);
+        const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)((low[c] >> 32) ^ t->w0_of_0), m0);
+        const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)((p >> 32) ^ t->s.w2_of_0), m1);
+        b.w[0][c] = (p1 >> 32) ^ t->s.w0_of_1;
+        b.w[1][c] = p1;
+        b.w[2][c] = (p0 >> 32) ^ (p ^ t->key_of_1);
+        b.w[3][c] = p0;
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        go_on(&t->s, round, chains, &b);
+    }
+    for (int c = 0; c < chains; c++) {
+        low[c] = lanes64_halves(b.w[0][c], b.w[1][c] << 32);
+        high[c] = lanes64_halves(b.w[2][c], b.w[3][c] << 32);
+    }
+}
+
+/* Returns koksma__nested_flips in each lane, below `flips`, the flips of the digits before. */
+INLINE lanes64_u nested_flips(lanes64_u low, lanes64_u high, lanes64_u path, lanes64_u flips)
+{
+    const lanes64_u one = lanes64_splat(1), leaf = (path & 127) | 128;
+    flips = (flips + flips) | (low >> 1 & one);
+    for (int level = 1; level < 6; level++) {
+        flips = (flips + flips) | (lanes64_shifted(low, leaf >> (7 - level)) & one);
+    }
+    return (flips + flips) | (lanes64_shifted(high, (leaf >> 1) - 64) & one);
+}
+
+/* Flips the digits of `chains` vectors of points. */
+INLINE void nested_points(const tree *t, const koksma__nested_node *first, int chains, uint64_t *x)
+{
+    enum { DIGITS = KOKSMA__NESTED_DIGITS + KOKSMA__NESTED_SPARE, LEVELS = KOKSMA__NESTED_LEVELS };
+    lanes64_u digits[CHAINS], flips[CHAINS], low[CHAINS], high[CHAINS];
+    for (int c = 0; c < chains; c++) {
+        memcpy(&digits[c], x + c * LANES64, sizeof *digits);
+        digits[c] <<= KOKSMA__NESTED_SPARE;
+        const lanes64_u node = digits[c] >> (DIGITS - LEVELS);
+        flips[c] = nested_flips(lanes64_of_triples(&first->low, node), lanes64_of_triples(&first->high, node),
+                                digits[c] >> (DIGITS - 2 * LEVELS), lanes64_of_triples(&first->flips, node));
+    }
+    for (int left = DIGITS - 2 * LEVELS; left > 0; left -= LEVELS) { /* digits after the node */
+        for (int c = 0; c < chains; c++) {
+            low[c] = (digits[c] >> left) | lanes64_splat((uint64_t)1 << (DIGITS - left));
+        }
+        nested_words(t, chains, low, high);
+        for (int c = 0; c < chains; c++) {
+            flips[c] = nested_flips(low[c], high[c], digits[c] >> (left - LEVELS), flips[c]);
+        }
+    }
+    for (int c = 0; c < chains; c++) {
+        digits[c] = (digits[c] ^ flips[c]) >> KOKSMA__NESTED_SPARE;
+        memcpy(x + c * LANES64, &digits[c], sizeof *digits);
+    }
+}
+
+_Static_assert(sizeof(koksma__nested_node) == 3 * sizeof(uint64_t), "nodes are triples");
+
+void KERNEL_NAME(nested_bits)(uint64_t seed, uint32_t lane, const koksma__nested_node *first, size_t count,
+                              uint64_t *x)
+{
+    tree t;
+    make_stream(seed, KOKSMA__PURPOSE_NESTED, 0, lane, ROUNDS, &t.s);
+    t.w0_of_0 = lanes64_splat((uint32_t)((uint64_t)lane * multiplier[1] >> 32) ^ (uint32_t)seed);
+    t.key_of_1 = lanes64_splat((uint32_t)(seed >> 32) + weyl[1]);
+    size_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        nested_points(&t, first, CHAINS, x + i);
+    }
+    for (; i + LANES64 <= count; i += LANES64) {
+        nested_points(&t, first, 1, x + i);
+    }
+    if (i < count) {
+        uint64_t last[LANES64];
+        for (size_t l = 0; l < LANES64; l++) {
+            last[l] = x[i + l < count ? i + l : i]; /* whose node `first` has */
+        }
+        nested_points(&t, first, 1, last);
+        memcpy(x + i, last, (count - i) * sizeof *x);
     }
 }

@@ -6,6 +6,7 @@
 
 #include "core/visibility.h"
 #include "kernels/dart_cells.h"
+#include "kernels/nested_node.h"
 
 typedef struct koksma__kernel_table {
     const char *isa; /* "ref", "baseline", "avx2", "avx512" */

@@ -15,6 +15,22 @@
 #include "kernels/kernels.def"
 #undef KERNEL
 
+void KERNEL_NAME(nested_bits)(uint64_t seed, uint32_t lane, const koksma__nested_node *first, size_t count,
+                              uint64_t *x)
+{
+    enum { DIGITS = KOKSMA__NESTED_DIGITS, LEVELS = KOKSMA__NESTED_LEVELS, SPARE = KOKSMA__NESTED_SPARE };
+    for (size_t i = 0; i < count; i++) {
+        const koksma__nested_node *node = &first[x[i] >> (DIGITS - LEVELS)];
+        uint64_t flips = node->flips << LEVELS | koksma__nested_flips(*node, x[i] >> (DIGITS - 2 * LEVELS));
+        for (int top = 2 * LEVELS; top < DIGITS; top += LEVELS) { /* the last LEVELS digits end in three zeros */
+            flips = flips << LEVELS |
+                    koksma__nested_flips(koksma__nested_node_of(koksma__nested_words(seed, x[i], top, lane)),
+                                         x[i] << SPARE >> (DIGITS + SPARE - LEVELS - top));
+        }
+        x[i] ^= flips >> SPARE;
+    }
+}
+
 void KERNEL_NAME(quotients)(size_t count, const double *xs, double add, double whole, double *out)
 {
     for (size_t i = 0; i < count; i++) {

@@ -176,6 +176,31 @@ static inline lanes64_u lanes64_upper_words(lanes64_u even, lanes64_u odd)
 #endif
 }
 
+/* Returns x >> counts, lane by lane; counts are below 64. SSE2 shifts both lanes by the same count. */
+static inline lanes64_u lanes64_shifted(lanes64_u x, lanes64_u counts)
+{
+#if defined(__SSE2__) && !defined(__AVX2__)
+    const __m128i low = _mm_srl_epi64((__m128i)x, (__m128i)counts);
+    const __m128i high = _mm_srl_epi64((__m128i)x, _mm_unpackhi_epi64((__m128i)counts, (__m128i)counts));
+    return (lanes64_u)_mm_castpd_si128(_mm_move_sd(_mm_castsi128_pd(high), _mm_castsi128_pd(low)));
+#else
+    return x >> counts;
+#endif
+}
+
+/* Returns table[3 i] for each lane i of `index`. */
+static inline lanes64_u lanes64_of_triples(const uint64_t *table, lanes64_u index)
+{
+    const lanes64_u at = index + index + index;
+#if defined(__AVX512F__)
+    return (lanes64_u)_mm512_i64gather_epi64((__m512i)at, table, 8);
+#elif defined(__AVX2__)
+    return (lanes64_u)_mm256_i64gather_epi64((const long long *)table, (__m256i)at, 8);
+#else
+    return (lanes64_u){table[at[0]], table[at[1]]};
+#endif
+}
+
 /* Returns whether the mask is set in any lane. */
 static inline bool lanes64_any(lanes64_i mask)
 {

@@ -85,6 +85,64 @@ static void cells_equal_reference(void **state)
     }
 }
 
+/* Counts with every remainder of the vectors; seeds and lanes with high bits. */
+static void nested_bits_equal_reference(void **state)
+{
+    (void)state;
+    const koksma__kernel_table *ref = koksma__kernels_find("ref");
+    koksma__nested_node first[1 << KOKSMA__NESTED_LEVELS];
+    uint64_t x[MAX];
+    for (size_t d = 0; d < sizeof first / sizeof *first; d++) {
+        first[d] = koksma__nested_node_of(koksma__random(8, KOKSMA__PURPOSE_TEST, d, 0));
+        first[d].flips = (uint64_t)d * 37 % 128;
+    }
+    for (size_t i = 0; i < MAX; i++) {
+        const koksma__words r = koksma__random(9, KOKSMA__PURPOSE_TEST, i, 0);
+        x[i] = (r.w[0] | (uint64_t)r.w[1] << 32) >> (i % 3 ? 11 : 30);
+    }
+    x[0] = 0;
+    x[1] = ((uint64_t)1 << KOKSMA__NESTED_DIGITS) - 1;
+    for (size_t isa = 0; isa < 3; isa++) {
+        const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+        for (size_t count = 0; fast && count <= MAX; count += 1 + count / 40) {
+            const uint64_t seed = count % 2 ? UINT64_MAX - count : 0x123456789abcdefu * count;
+            const uint32_t lane = count % 3 ? (uint32_t)count : UINT32_MAX;
+            uint64_t a[MAX], b[MAX];
+            memcpy(a, x, sizeof a);
+            memcpy(b, x, sizeof b);
+            ref->nested_bits(seed, lane, first, count, a);
+            fast->nested_bits(seed, lane, first, count, b);
+            assert_memory_equal(a, b, sizeof a);
+        }
+    }
+}
+
+/* The definition of nested scrambling, digit by digit: two numbers that agree in exactly their first m digits agree in
+   exactly these afterwards, and the flip of digit m depends on the digits before it alone. */
+static void nested_bits_keep_prefixes(void **state)
+{
+    (void)state;
+    koksma__nested_node first[1 << KOKSMA__NESTED_LEVELS];
+    for (size_t d = 0; d < sizeof first / sizeof *first; d++) {
+        first[d] = koksma__nested_node_of(koksma__random(8, KOKSMA__PURPOSE_TEST, d, 0));
+        first[d].flips = 77;
+    }
+    for (int m = KOKSMA__NESTED_LEVELS; m < KOKSMA__NESTED_DIGITS; m++) {
+        const koksma__words r = koksma__random(10, KOKSMA__PURPOSE_TEST, (uint64_t)m, 0);
+        const uint64_t digit = (uint64_t)1 << (KOKSMA__NESTED_DIGITS - 1 - m);
+        const uint64_t x = (r.w[0] | (uint64_t)r.w[1] << 32) >> 11, other = x ^ digit ^ (r.w[2] & (digit - 1));
+        for (size_t isa = 0; isa < 3; isa++) {
+            const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+            uint64_t pair[2] = {x, other};
+            if (fast) {
+                fast->nested_bits(3, 4, first, 2, pair);
+                const uint64_t differ = pair[0] ^ pair[1];
+                assert_true(differ >= digit && differ < 2 * digit);
+            }
+        }
+    }
+}
+
 /* Random123's known-answer vectors for philox4x32-10 and -7 with counter and key of all ones. */
 static void philox_known_answer(void **state)
 {
@@ -102,6 +160,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(uniform_equals_reference),     cmocka_unit_test(words_equal_reference),
         cmocka_unit_test(permutation_equals_reference), cmocka_unit_test(cells_equal_reference),
+        cmocka_unit_test(nested_bits_equal_reference),  cmocka_unit_test(nested_bits_keep_prefixes),
         cmocka_unit_test(philox_known_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -112,7 +112,7 @@ static void bound_tiles(searcher *s, const koksma__run_list *list, size_t side, 
 
 static void check_time(searcher *s)
 {
-    s->late = s->late || koksma__now_s() > s->p->deadline_s;
+    s->late = s->late || (s->p->deadline_s < HUGE_VAL && koksma__now_s() > s->p->deadline_s);
 }
 
 /* Measures the strips that no bound excludes, in the order in which they were found. */
@@ -251,10 +251,11 @@ static void gather(searcher *s, size_t from, size_t to)
     all->y[all->count++] = 1;
 }
 
-static bool open_searcher(const plane *p, searcher *s)
+/* n_lists: DEPTH, or 1 for a searcher of single strips or whole rows, which has no lists with runs. */
+static bool open_searcher(const plane *p, int n_lists, searcher *s)
 {
     const size_t n = p->n + 1, size = KOKSMA__RUN_CAPACITY;
-    const size_t bytes = 2 * n * sizeof(double) + (DEPTH - 1) * size * sizeof(koksma__run_place);
+    const size_t bytes = 2 * n * sizeof(double) + (size_t)(n_lists - 1) * size * sizeof(koksma__run_place);
     *s = (searcher){.p = p, .memory = malloc(bytes), .upper = -1, .budget = HUGE_VAL};
     if (!s->memory) {
         koksma__fail_memory(bytes);
@@ -263,7 +264,7 @@ static bool open_searcher(const plane *p, searcher *s)
     s->lists[0].x = s->memory;
     s->lists[0].y = s->lists[0].x + n;
     koksma__run_place *places = (koksma__run_place *)(s->lists[0].y + n);
-    for (int i = 1; i < DEPTH; i++) {
+    for (int i = 1; i < n_lists; i++) {
         koksma__run_list_init(&s->lists[i], places + size * (size_t)(i - 1));
     }
     return true;
@@ -301,7 +302,7 @@ static koksma_status search_block(void *context, size_t block)
     if (koksma__now_s() > p->deadline_s) {
         return KOKSMA_OK;
     }
-    if (!open_searcher(p, &s)) {
+    if (!open_searcher(p, DEPTH, &s)) {
         return KOKSMA_MEMORY;
     }
     s.best = p->best[block];
@@ -338,7 +339,7 @@ static koksma_status bound_row(void *context, size_t row)
 {
     const plane *p = context;
     searcher s;
-    if (!open_searcher(p, &s)) {
+    if (!open_searcher(p, 1, &s)) {
         return KOKSMA_MEMORY;
     }
     const size_t a = row * p->row_side;
@@ -381,11 +382,28 @@ static koksma_status bound_rest(plane *p, size_t n_blocks, const koksma_run *run
     return status;
 }
 
-/* Searches some strips first, so that pruning starts with a good value for any order of the search. */
-static koksma_status first_value(plane *p)
+/* Returns whether a strip may be better than the best: its excess is at most the number of its points, its deficit at
+   most its area. */
+static bool may_be_better(const searcher *s, size_t a, size_t b)
+{
+    const plane *p = s->p;
+    const double n = (double)p->n, points = (double)(p->sweep.first[b + 1] - p->sweep.first[a]);
+    return fmax(points, n * (p->levels[b] - p->levels[a])) + ROUNDING * n > s->best.value;
+}
+
+static void try_strip(searcher *s, size_t a, size_t b)
+{
+    if (may_be_better(s, a, b)) {
+        add_strip(s, (tile){a, b, HUGE_VAL});
+    }
+}
+
+/* Measures some strips first, so that pruning starts with a good value for any order of the search: those between
+   every `step`-th level. With few levels these are all strips, and *complete becomes true: there is nothing to search. */
+static koksma_status first_value(plane *p, bool *complete)
 {
     searcher s;
-    if (!open_searcher(p, &s)) {
+    if (!open_searcher(p, 1, &s)) {
         return KOKSMA_MEMORY;
     }
     s.best.value = -1;
@@ -393,14 +411,31 @@ static koksma_status first_value(plane *p)
     const size_t step = 1 + (p->n_levels - 1) / FIRST_LEVELS;
     for (size_t a = 0; a < p->n_levels && !s.late; a += step) {
         for (size_t b = a; b < p->n_levels && !s.late; b += step) {
-            add_strip(&s, (tile){a, b, HUGE_VAL});
+            try_strip(&s, a, b);
         }
-        add_strip(&s, (tile){a, p->n_levels - 1, HUGE_VAL});
+        if (step > 1) {
+            try_strip(&s, a, p->n_levels - 1);
+        }
     }
     flush(&s);
     p->best[0] = s.best;
+    *complete = step == 1 && !s.late;
     free(s.memory);
     return KOKSMA_OK;
+}
+
+/* Searches all blocks, or none if the first strips were all strips. */
+static koksma_status search_blocks(plane *p, size_t n_blocks, bool complete, const koksma_run *run)
+{
+    for (size_t block = 0; block < n_blocks; block++) {
+        p->best[block] = p->best[0];
+        p->upper[block] = -1;
+    }
+    if (!complete || p->method != KOKSMA__EXTREME_EITHER) {
+        KOKSMA__TRY(koksma__parallel(run, n_blocks, search_block, p));
+        return bound_rest(p, n_blocks, run);
+    }
+    return koksma__keep_going(run, 1) ? KOKSMA_OK : koksma__fail_interrupted();
 }
 
 /* Fills by_x with the indices of the points in order of x (the points themselves are in order of y), and `first` with
@@ -463,18 +498,11 @@ koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koks
     p.levels = p.upper + max_blocks;
     p.x = p.levels + n + 2;
     p.y = p.x + n;
+    bool complete = false;
     koksma_status status = prepare(&p, points, run, (uint32_t *)(p.y + n));
-    if (!status) {
-        status = first_value(&p);
-    }
+    status = status ? status : first_value(&p, &complete);
     const size_t n_blocks = (p.n_levels + COARSE - 1) / COARSE;
-    for (size_t block = 1; block < n_blocks && !status; block++) {
-        p.best[block] = p.best[0];
-    }
-    if (!status) {
-        status = koksma__parallel(run, n_blocks, search_block, &p);
-    }
-    status = status ? status : bound_rest(&p, n_blocks, run);
+    status = status ? status : search_blocks(&p, n_blocks, complete, run);
     if (!status) {
         best_strip best = p.best[0];
         double upper = -1;
