@@ -502,8 +502,8 @@ static void prefixes_cover_models(void **state)
                     random = fmin(random, distance_of(plain.xs + 7 * i, plain.xs + 7 * j, 3, false));
                 }
             }
-            print_message("%s, first %zu of %d: relative radius %.3f (plain %.3f), chi-squared %.2f\n", ordered[s],
-                          n, N, d / closest, random / closest, chi_squared(&part));
+            print_message("%s, first %zu of %d: relative radius %.3f (plain %.3f), chi-squared %.2f\n", ordered[s], n,
+                          N, d / closest, random / closest, chi_squared(&part));
             assert_true(d > 0.57 * closest && d > random + 0.02 * closest);
             assert_true(chi_squared(&part) < test_repeats(8, 16));
         }
