@@ -183,7 +183,7 @@ void free_sets_of_means(koksma_points sets[MEANS_SETS])
 static bool shows_means(size_t n)
 {
     static const size_t counts[] = {9, 16, 27, 4, 7, 32};
-    for (size_t i = 0; i < test_repeats(sizeof counts / sizeof *counts, 3); i++) {
+    for (size_t i = 0; i < test_repeats(sizeof counts / sizeof *counts, 2); i++) {
         if (counts[i] == n) {
             return true;
         }

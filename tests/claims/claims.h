@@ -59,7 +59,7 @@ bool is_net_in_base(const koksma_points *points, size_t n, size_t b);
 koksma_points projection_of(const koksma_points *points, int k, int count);
 
 /* The sets of a pattern that check_means_of takes, of seeds MEANS_SEED, MEANS_SEED + 1, ... */
-enum { MEANS_SETS = test_repeats(120, 60), MEANS_SEED = 1000 };
+enum { MEANS_SETS = test_repeats(120, 40), MEANS_SEED = 1000 };
 void make_sets_of_means(const koksma_spec *spec, size_t n, int dim, koksma_points sets[MEANS_SETS]);
 void free_sets_of_means(koksma_points sets[MEANS_SETS]);
 

@@ -35,10 +35,10 @@ static size_t largest_count(const char *name, int dim)
     }
     for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
         if (!strcmp(slow[i], name)) {
-            return dim <= 4 ? test_repeats(128, 64) : test_repeats(64, 32);
+            return dim <= 4 ? test_repeats(128, 32) : test_repeats(64, 16);
         }
     }
-    return dim <= 4 ? test_repeats(1024, 256) : test_repeats(256, 128);
+    return dim <= 4 ? test_repeats(1024, 64) : test_repeats(256, 49);
 }
 
 static bool generates(const koksma_spec *spec)
@@ -296,7 +296,7 @@ static void large_sets_are_equal_on_any_threads(void **state)
             const int dim = p->min_dim > 2 ? p->min_dim : p->max_dim < 2 ? 1 : 2;
             koksma_points points;
             const koksma_run run = {.threads = 1};
-            if (largest_count(p->name, dim) < test_repeats(1024, 256)) {
+            if (largest_count(p->name, dim) < test_repeats(1024, 64)) {
                 continue;
             }
             assert_ok(koksma_points_init(&points, test_repeats(65536, 8192), dim));

@@ -18,6 +18,7 @@ from pseudo_terminal import shown  # pylint: disable=wrong-import-position
 
 KOKSMA = os.path.abspath(sys.argv[1])
 SANITIZED = os.environ.get("KOKSMA_SANITIZED") == "1"
+PLANS = Path(__file__).resolve().parent / "plans"
 WIDTHS = (40,) if SANITIZED else (40, 60, 80, 132)
 failures, tables = [], 0
 
@@ -118,7 +119,9 @@ with tempfile.TemporaryDirectory() as folder:
         slow |= {"measure": ["random@100", "-m", "star,l2-star", "--trials", "3"], "verify": ["sobol@64", "halton@64"],
                  "generate": ["best-candidate", "-n", "400", "-o", "b.txt"], "curve": ["power", "random@100", "--trials", "9"],
                  "plot": ["random@100", "--curve", "power", "--trials", "9", "-o", "b.png"], "render": ["ball", "--size", "64x48", "-o", "b.png"],
-                 "optimise": ["l2-star", "-n", "8", "--steps", "2", "-o", "b.txt"]}
+                 "optimise": ["l2-star", "-n", "8", "--steps", "2", "-o", "b.txt"],
+                 "study": ["run", f"{PLANS}/small.json", "-o", "results", "--trials", "2"],
+                 "reproduce": [f"{PLANS}/small.json", "-o", "again", "--trials", "2"]}
     for command, more in slow.items():
         text = on_terminal([command, *more, "--seed", "1"] if command not in ("rank", "study", "reproduce") else [command, *more], 80, None, subprocess.STDOUT)
         # A message follows on the line that was cleared, perhaps with a percentage of its own, but has a colon.

@@ -312,7 +312,7 @@ static void methods_gain_and_keep(void **state)
                                                  .first = &from,
                                                  .keep = keep,
                                                  .seed = 4,
-                                                 .steps = 2,
+                                                 .steps = test_repeats(2, 1),
                                                  .processes = few_searches};
         const double before = kept_value(searches[i].measure, &from, keep);
         koksma_optimum one = optimised(searches[i].measure, options, 1);
@@ -345,7 +345,7 @@ static void optima_of_the_star_discrepancy(void **state)
     (void)state;
     static const double optima[] = {0.6180339887, 0.3660254038, 0.2847006554, 1.0 / 4, 1.0 / 5,      1.0 / 6,
                                     3.0 / 20,     17.0 / 128,   10.0 / 81,    1.0 / 9, 0.1030276927, 2.0 / 21};
-    for (size_t n = 1; n <= sizeof optima / sizeof *optima; n += test_repeats(1, 5)) {
+    for (size_t n = 1; n <= sizeof optima / sizeof *optima; n += test_repeats(1, 7)) {
         koksma_optimum best = optimised("star", (koksma_optimise_options){.n = n, .dim = 2, .steps = 1}, 3);
         assert_near(best.value, optima[n - 1], 1e-9);
         koksma_optimum_fini(&best);

@@ -76,7 +76,7 @@ static void same_bits_for_any_number_of_threads(void **state)
         const double budget = m % 2 ? 0 : 21.5;
         koksma_adaptive_report first, other;
         koksma_layers one = render(scene, methods[m / 2], budget, 1, &first);
-        for (int threads = 2; threads <= 5; threads += 3) {
+        for (int threads = 2; threads <= test_repeats(5, 2); threads += 3) {
             koksma_layers many = render(scene, methods[m / 2], budget, threads, &other);
             assert_memory_equal(one.image.pixels, many.image.pixels, PIXELS * sizeof(float));
             assert_memory_equal(one.samples.pixels, many.samples.pixels, PIXELS * sizeof(float));

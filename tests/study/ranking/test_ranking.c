@@ -455,21 +455,23 @@ static void assert_same_or_unchecked(const koksma_rank_check_result *a, const ko
 }
 
 /* Wherever the time limit cuts the work, on any number of threads: the same best pattern or none, the same decisions
-   or none, and always rows. */
+   or none, and always rows. Limits rise until two of them cut nothing; longer ones would repeat the whole work. */
 static void cut_everywhere(koksma_rank_options options, double step)
 {
     koksma_rank_row whole[3], rows[3];
     const koksma_ranking all = rank_small(&options, 1, whole);
-    size_t settled = 0, cut = 0, checked = 0;
+    size_t settled = 0, cut = 0, uncut = 0, checked = 0;
     assert_true(all.settled && all.complete && !all.cut_short && all.n == 3);
     assert_true(all.checks[0].advice.state && all.checks[1].advice.state);
     assert_true(all.checks[0].first.state && all.checks[1].first.state);
     koksma__set_clock(ticking);
-    for (double limit = 1; limit < 1e6; limit *= step) {
+    for (double limit = 1; uncut < 4; limit *= step) {
+        assert_true(limit < 1e6);
         for (int threads = 1; threads <= 2; threads++) {
             options.time_limit_s = limit;
             const koksma_ranking r = rank_small(&options, threads, rows);
             cut += r.cut_short;
+            uncut += !r.cut_short;
             settled += r.settled;
             assert_true(r.settled || r.needed_trials > 0);
             assert_true(r.width == 24 && r.height == 18 && r.n + r.n_slow == 3);
@@ -502,7 +504,7 @@ static void time_limits_only_cut(void **state)
     (void)state;
     static const char *const patterns[] = {"zaremba", "jittered", "random"};
     koksma_rank_options options = small();
-    cut_everywhere(options, 1.5);
+    cut_everywhere(options, TEST_SANITIZED ? 5 : 1.5);
     options.scene = "checker-45";
     options.patterns = patterns;
     cut_everywhere(options, 4);
@@ -589,7 +591,7 @@ static void slow_patterns_are_put_off(void **state)
     rank_small(&options, 1, whole);
     options.time_limit_s = 10000;
     koksma__set_clock(leaping);
-    for (unsigned long long call = 100; call < 160; call += 4) {
+    for (unsigned long long call = 100; call < 160; call += test_repeats(4, 8)) {
         for (int g = 0; g < 3; g++) {
             atomic_store(&ticks, 0);
             first_leap = call;
@@ -606,7 +608,7 @@ static void slow_patterns_are_put_off(void **state)
         }
     }
     koksma__set_clock(NULL);
-    assert_true(left_out >= 2 && settled >= 3);
+    assert_true(left_out >= test_repeats(2, 1) && settled >= 3);
 }
 
 static void patterns_that_cannot_serve(void **state)
