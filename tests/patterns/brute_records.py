@@ -24,16 +24,17 @@ def run(*arguments):
 
 
 def star(points):
-    """One box after the other by the first axis, all by the others at once."""
+    """The numbers of points in all boxes at once: sums along each axis of the numbers at the corners of the grid."""
     sides = [np.append(np.unique(x), 1.0) for x in points.T]
-    volumes = reduce(np.multiply.outer, sides[1:])
+    volumes = reduce(np.multiply.outer, sides)
     largest = 0.0
-    for below in (np.less, np.less_equal):
-        inside = [below(x, side[:, None]).astype(float) for x, side in zip(points.T, sides)]
-        rest = inside[2] if len(inside) == 3 else np.ones((1, len(points)))
-        for first, side in zip(inside[0], sides[0]):
-            counts = ((inside[1] * first) @ rest.T).reshape(volumes.shape)
-            largest = max(largest, np.abs(counts / len(points) - side * volumes).max())
+    for first in ("right", "left"):  # a point counts from the first side above it, or from its own
+        counts = np.zeros([len(side) + 1 for side in sides])
+        np.add.at(counts, tuple(np.searchsorted(side, x, first) for x, side in zip(points.T, sides)), 1)
+        for axis in range(len(sides)):
+            counts = counts.cumsum(axis)
+        counts = counts[tuple(slice(-1) for _ in sides)]
+        largest = max(largest, np.abs(counts / len(points) - volumes).max())
     return largest
 
 
