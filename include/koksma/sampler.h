@@ -871,9 +871,9 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
    shuffled.
 
    If N is not a power of two, the first N samples are less even than N consecutive points of the sequence: they are
-   several runs of points, one for each 1 among the binary digits of N, with gaps between the runs. Their RMS L2 star discrepancy is 1.19 times that of one run in
-   the mean over N = 1 to 1024, and at most 1.64 times (N = 98). Without the shuffle the same coordinate of two
-   domains would differ by a constant for every N. */
+   several runs of points, one for each 1 among the binary digits of N, with gaps between the runs. Their RMS L2 star
+   discrepancy is 1.19 times that of one run in the mean over N = 1 to 1024, and at most 1.64 times (N = 98). Without the
+   shuffle the same coordinate of two domains would differ by a constant for every N. */
 KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 {
     const uint64_t alpha[2] = {(uint64_t)0xC13FA9A9u << 32 | 0x02A6328Fu, (uint64_t)0x91E10DA5u << 32 | 0xC79E7B1Du};

@@ -33,7 +33,8 @@
  *     P_2 = (1/n) sum_i sum_(l=1)^Q Gamma_l e_l(2 pi^2 B_2({i z_0 / n}), 2 pi^2 B_2({i z_1 / n}), ...)
  *
  * with e_l the elementary symmetric polynomials. LatNet Builder's weights order-dependent:0:1,0.1,0.01 are
- * order=3,gamma2=0.1,gamma3=0.01. In two dimensions weights do not matter; with gamma2=0, z_1 is the best in two dimensions nevertheless.
+ * order=3,gamma2=0.1,gamma3=0.01. In two dimensions weights do not matter; with gamma2=0, z_1 is the best in two
+ * dimensions nevertheless.
  *
  * Time: The search takes O(dim n log n): half a second for 2^20 points in 10 dimensions, hardly more for a prime
  * number of points. The memory in addition to the points is 28 n bytes for powers of two, up to 95 n bytes for other

@@ -7,9 +7,9 @@
  *     x = (column + 1/2) / size, y = (row + 1/2) / size of the pixel of rank i
  *     energy of a pixel = sum over set pixels of exp(-d^2 / (2 s^2)), s = 1.5 pixels, d on the torus
  *
- * Source: Ulichney 1993. koksma/mask.h declares the function that makes the mask. Known (Ulichney 1988, of blue noise): with
- * a share g of the pixels set, the peak of the power is at about sqrt(g) cycles a pixel, for g up to 1/4, and 10 averaged
- * periodograms have an anisotropy of -10 dB (docs/findings/blue-noise.md).
+ * Source: Ulichney 1993. koksma/mask.h declares the function that makes the mask. Known (Ulichney 1988, of blue noise):
+ * with a share g of the pixels set, the peak of the power is at about sqrt(g) cycles a pixel, for g up to 1/4, and 10
+ * averaged periodograms have an anisotropy of -10 dB (docs/findings/blue-noise.md).
  */
 #include <koksma/mask.h>
 

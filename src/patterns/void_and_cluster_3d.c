@@ -7,8 +7,8 @@
  *     energy of a voxel = sum over set voxels of exp(-d^2 / (2 s^2)), s = 1.5 voxels, d on the torus
  *
  * Source: Ulichney 1993, in three dimensions. koksma/mask.h declares the function that makes the mask. Known: with a share
- * g of the voxels set the power has its peak at about the cube root of g cycles a voxel; a single frame is no blue noise: it
- * has half the low power of white noise (docs/findings/blue-noise.md).
+ * g of the voxels set the power has its peak at about the cube root of g cycles a voxel; a single frame is no blue
+ * noise: it has half the low power of white noise (docs/findings/blue-noise.md).
  */
 #include <koksma/mask.h>
 

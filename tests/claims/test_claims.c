@@ -227,8 +227,8 @@ static void patterns_keep_their_claims(void **state)
     }
 }
 
-/* Specs of the patterns whose operand is a vector or a file, with the file's text, for up to `dim` dimensions. `file` itself
-   reads points that the test writes. Patterns that run code claim nothing. */
+/* Specs of the patterns whose operand is a vector or a file, with the file's text, for up to `dim` dimensions. `file`
+   itself reads points that the test writes. Patterns that run code claim nothing. */
 static const struct {
     const char *name, *operand, *text;
     int dim;

@@ -113,7 +113,7 @@ with tempfile.TemporaryDirectory() as folder:
             "generate": ["best-candidate", "-n", "1500", "-o", "b.txt"], "curve": ["power", "random@400", "--trials", "9"],
             "plot": ["random@400", "--curve", "power", "--trials", "9", "-o", "b.png"], "render": ["ball", "-o", "b.png"],
             "rank": ["ball", "--size", "16x12", "--max-trials", "8", "--one-size", "-p", "random,jittered"],
-            "optimise": ["l2-star", "-n", "30", "--steps", "3", "-o", "b.txt"], "study": ["run", "./plan.json", "-o", "results", "--quick"],
+            "optimise": ["l2-star", "-n", "12", "--steps", "2", "-o", "b.txt"], "study": ["run", "./plan.json", "-o", "results", "--quick"],
             "reproduce": ["./plan.json", "-o", "again", "--quick"]}
     if SANITIZED:
         slow |= {"measure": ["random@100", "-m", "star,l2-star", "--trials", "3"], "verify": ["sobol@64", "halton@64"],

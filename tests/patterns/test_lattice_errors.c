@@ -236,8 +236,8 @@ static void order_two_is_no_worse_than_others(void **state)
         if (!(own <= least)) {
             fail_msg("n = 2^%d: %.4g with order=2, %.4g by others", bits, own, least);
         }
-        /* the vector was made for 2^10 to 2^20 points at once: worst-case errors of at most 1.6 times those of a construction
-           for one n, as its paper reports */
+        /* the vector was made for 2^10 to 2^20 points at once: worst-case errors of at most 1.6 times those of a
+           construction for one n, as its paper reports */
         assert_true(bits < 10 || p2_of_pairs(n, published[0], 10, WEIGHT) < 1.6 * 1.6 * own);
     }
 }

@@ -335,8 +335,8 @@ static void components_of_an_order_are_the_best(void **state)
     assert_memory_equal(all, limited, sizeof all);
 }
 
-/* n P_2 from its definition: the sum over all sets of coordinates u, of which weights[|u|] is the weight, and over i > 0, of
-   the product over k in u of 2 pi^2 B_2({i z_k / n}). */
+/* n P_2 from its definition: the sum over all sets of coordinates u, of which weights[|u|] is the weight, and over i >
+   0, of the product over k in u of 2 pi^2 B_2({i z_k / n}). */
 static long double error_of_weights(size_t n, const size_t *z, int dim, const double weights[9])
 {
     const long double pi = acosl(-1);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * lattice-file and net-file beside the numbers that were published with the files' lattices and nets: the figures of merit
- * that LatNet Builder prints in the head of its files, and the quality t of Niederreiter-Xing, Sobol' and Faure matrices. The
- * figures are computed here from the points that the patterns make of the files, by the definitions of the papers.
+ * that LatNet Builder prints in the head of its files, and the quality t of Niederreiter-Xing, Sobol' and Faure
+ * matrices. The figures are computed here from the points that the patterns make of the files, by the definitions of the
+ * papers.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -19,9 +20,9 @@ static void write_file(const char *name, const char *text)
 
 /* ---- Lattices ---------------------------------------------------------------------------------------------- */
 
-/* P_2 with product weights 0.7 of three lattices, as Lattice Builder prints it (umontreal-simul/latnetbuilder: its tests, and
-   the output of the tutorial's FilteredRCBC): the mean of prod_k (1 + 0.7 2 pi^2 B_2(x_k)), less 1. 256 points are a
-   lattice sequence in the file, 257 are not. */
+/* P_2 with product weights 0.7 of three lattices, as Lattice Builder prints it (umontreal-simul/latnetbuilder: its
+   tests, and the output of the tutorial's FilteredRCBC): the mean of prod_k (1 + 0.7 2 pi^2 B_2(x_k)), less 1. 256
+   points are a lattice sequence in the file, 257 are not. */
 static void lattices_have_the_printed_merits(void **state)
 {
     (void)state;
@@ -52,9 +53,9 @@ static void lattices_have_the_printed_merits(void **state)
     }
 }
 
-/* LatNet Builder's examples/examples-IO/test_l_polynomial_lat: -t lattice -c polynomial -s 2^10 -d 10 -f CU:P2 -q 2 -w product:0.1. For
-   digital nets in base 2 P_2 has 12 (1/6 - 2^(e-1)), 2^e <= x < 2^(e+1), in place of 2 pi^2 B_2(x); 2 for x = 0 (Dick,
-   Kuo, Pillichshammer & Sloan 2005). */
+/* LatNet Builder's examples/examples-IO/test_l_polynomial_lat: -t lattice -c polynomial -s 2^10 -d 10 -f CU:P2 -q 2 -w
+   product:0.1. For digital nets in base 2 P_2 has 12 (1/6 - 2^(e-1)), 2^e <= x < 2^(e+1), in place of 2 pi^2 B_2(x); 2
+   for x = 0 (Dick, Kuo, Pillichshammer & Sloan 2005). */
 static void polynomial_lattices_have_the_printed_merit(void **state)
 {
     (void)state;
@@ -162,8 +163,8 @@ static int largest_quality(const net *a)
     return largest;
 }
 
-/* LatNet Builder's examples/examples-IO/test_sobol_sob and test_n_polynomial_lat: -s 2^16 -d 10 -f projdep:t-value -q inf -w
-   order-dependent:0:0,1,1. */
+/* LatNet Builder's examples/examples-IO/test_sobol_sob and test_n_polynomial_lat: -s 2^16 -d 10 -f projdep:t-value -q
+   inf -w order-dependent:0:0,1,1. */
 static void nets_have_the_printed_t_values(void **state)
 {
     (void)state;
@@ -250,8 +251,8 @@ static void sequences_have_the_published_t_values(void **state)
     }
 }
 
-/* Powers of Pascal's matrix modulo a prime b give sequences with t = 0 in b dimensions (Faure 1982): entry (r, c) of power k
-   is binomial(c, r) k^(c - r). */
+/* Powers of Pascal's matrix modulo a prime b give sequences with t = 0 in b dimensions (Faure 1982): entry (r, c) of
+   power k is binomial(c, r) k^(c - r). */
 static void faures_matrices_give_nets(void **state)
 {
     (void)state;

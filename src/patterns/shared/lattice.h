@@ -42,7 +42,8 @@ double koksma__lattice_extend(koksma__lattice_search *search, uint64_t z);
 /* Appends a coordinate in a search in which only projections of up to `order` coordinates have a weight. The factor of
    the next coordinate is then the sum of the elementary symmetric polynomials of degree 0 to order - 1 of all earlier
    terms, that of degree l times factors[l]; factors[0] is 1. `sums` are (n/2 + 1) * order numbers; those of point i
-   begin at i * order. Before the first call the caller sets degree 0 to search->product[i] as koksma__lattice_start leaves it, and all other degrees to 0. */
+   begin at i * order. Before the first call the caller sets degree 0 to search->product[i] as koksma__lattice_start
+   leaves it, and all other degrees to 0. */
 void koksma__lattice_extend_orders(koksma__lattice_search *search, uint64_t z, int order, const double *factors,
                                    double *sums);
 

@@ -352,8 +352,8 @@ static koksma_status nobody_can_serve(const koksma__contest *c)
     return koksma__fail(KOKSMA_ARGUMENT, "none of the patterns can be ranked: %s", c->contestants[c->n - 1].reason);
 }
 
-/* Whether to check the best patterns at other image sizes too, half and twice the size that was asked for. If another renderer is used and the options give no size, none are checked, because
-   that renderer may support only one size. */
+/* Whether to check the best patterns at other image sizes too, half and twice the size that was asked for. If another
+   renderer is used and the options give no size, none are checked, because that renderer may support only one size. */
 static bool check_sizes(const koksma_rank_options *options)
 {
     return !options->one_size && (!options->render || options->width);
