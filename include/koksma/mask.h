@@ -77,6 +77,7 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster_3d(int size, int frames, u
    The fewer dimensions, the less low-frequency error: of a function of two coordinates .01 to .15 of that of white noise
    with dim = 2, .03 to .3 with 4, .13 to .4 with 8 (docs/findings/blue-noise.md). Seeds differ in the shift and in the
    arrangement; the bits depend on neither threads nor machine.
+   The points of the pattern `mask-offset:masks=vectors` are the mask with dim = 2.
    It takes about 1.2 s for size 64 with dim = 2 and 1.6 s with dim = 8; the time is proportional to size^2 (22 s for
    256).
      size    KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_VECTORS
