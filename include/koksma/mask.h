@@ -7,6 +7,7 @@
  *     koksma_mask_2d           gives each pixel a scrambled (0,2)-sequence that three void-and-cluster masks
  *                              select; a single mask can serve as a threshold image
  *     koksma_mask_void_and_cluster_3d   computes a void-and-cluster mask in space and time
+ *     koksma_mask_vectors      computes a vector mask: one sample of up to 8 dimensions for each pixel
  *     koksma_keys_2d           (koksma/keys.h) blocks of one sequence for 32 x 32 pixels, in an order optimised for
  *                              1, 2, 4 ... 64 samples per pixel
  *     koksma_z_rank            (koksma/sampler.h) gives pixel (x, y) the samples rank * spp .. rank * spp + spp - 1
@@ -38,7 +39,13 @@
 extern "C" {
 #endif
 
-enum { KOKSMA_MASK_MIN = 4, KOKSMA_MASK_MAX = 1024, KOKSMA_MASK_MAX_3D = 64 };
+enum {
+    KOKSMA_MASK_MIN = 4,
+    KOKSMA_MASK_MAX = 1024,
+    KOKSMA_MASK_MAX_3D = 64,
+    KOKSMA_MASK_MAX_VECTORS = 256,
+    KOKSMA_MASK_MAX_DIM = 8
+};
 
 /* Computes the void-and-cluster mask of Ulichney (1993): a permutation of 0 .. size^2 - 1 whose pixels below any
    rank are spread evenly on the torus. O(size^2 log size): about 15 ms for size 64, 0.25 s for 256, 5 s for 1024.
@@ -58,6 +65,26 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, c
    Errors: ARGUMENT (size, frames), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_mask_void_and_cluster_3d(int size, int frames, uint64_t seed, const koksma_run *run,
                                                          uint32_t *ranks);
+
+/* Computes a vector mask (Georgiev & Fajardo 2016): each pixel of a square tile has a vector of dim numbers in [0,1),
+   and neighbouring pixels have distant vectors. A pixel with one sample takes its vector as the sample; then the errors of
+   neighbouring pixels differ and average out, whatever function of the vector is integrated.
+   The vectors are a rank-1 lattice with a random shift: for each coordinate, each of the size^2 intervals of length
+   1 / size^2 has one vector. Their arrangement minimises, by simulated annealing with 256 proposed swaps a pixel,
+
+       sum over pixels p, q of exp(-|p - q|^2 / 2.1^2 - |v_p - v_q|^(dim/2)),  distances of pixels on the torus
+
+   The fewer dimensions, the less low-frequency error: of a function of two coordinates .01 to .15 of that of white noise
+   with dim = 2, .03 to .3 with 4, .13 to .4 with 8 (docs/findings/blue-noise.md). Seeds differ in the shift and in the
+   arrangement; the bits depend on neither threads nor machine.
+   The points of the pattern `mask-offset:masks=vectors` are the mask with dim = 2.
+   It takes about 1.2 s for size 64 with dim = 2 and 1.6 s with dim = 8; the time is proportional to size^2 (22 s for
+   256).
+     size    KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_VECTORS
+     dim     numbers in a vector, 1 to KOKSMA_MASK_MAX_DIM
+     values  size * size * dim numbers; coordinate k of pixel (x, y) is values[(y * size + x) * dim + k]
+   Errors: ARGUMENT (size, dim), MEMORY, INTERRUPTED. */
+KOKSMA_API koksma_status koksma_mask_vectors(int size, int dim, uint64_t seed, const koksma_run *run, double *values);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,10 @@
  * noise. Taken alone, a pixel's points have the same distribution as sobol:scramble=hash-owen: for any spp the
  * pixel's error is as large as with independent scrambling.
  *
+ * With masks=vectors a pixel has one sample, its vector in koksma_mask_vectors. That is bluer where the integrand depends
+ * on both coordinates together: a disk has .13 of the low-frequency power of white noise, not .38 (for all:
+ * docs/findings/blue-noise.md).
+ *
  * Sources: Georgiev & Fajardo 2016, who shift the points on the torus by two optimised masks; here the masks are
  * void-and-cluster masks (Ulichney 1993). Scrambling: Laine & Karras 2011, Burley 2020. New in this project are two
  * things: the two masks shift only the digits below those of the net, and a third mask decides which strata in y
@@ -59,9 +63,25 @@ static koksma_status fill_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
+/* Fills the tile with one vector a pixel. */
+static koksma_status fill_vectors(uint64_t seed, const koksma_args *args, size_t width, koksma_points *out)
+{
+    KOKSMA__FAIL_IF(width > KOKSMA_MASK_MAX_VECTORS, KOKSMA_ARGUMENT,
+                    "mask-offset: width=%zu is above %d, the most with masks=vectors", width,
+                    KOKSMA_MASK_MAX_VECTORS);
+    KOKSMA__FAIL_IF(
+        out->n != width * width, KOKSMA_N,
+        "mask-offset: masks=vectors has one sample in each of the %zu pixels, not n = %zu; n = %zu would do",
+        width * width, out->n, width * width);
+    return koksma_mask_vectors((int)width, 2, seed, args->run, out->xs);
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const size_t width = (size_t)args->params[0], pixels = width * width;
+    if (args->params[1] != 0) {
+        return fill_vectors(seed, args, width, out);
+    }
     KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
                     "mask-offset: n = %zu is not a multiple of the %zu pixels; n = %zu would do", out->n, pixels,
                     (out->n / pixels + 1) * pixels);
@@ -80,8 +100,12 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     return status;
 }
 
+static const char *const masks[] = {"void-and-cluster", "vectors", NULL};
+
 static const koksma_param params[] = {
     {"width", "width of the tile in pixels", 64, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX, NULL, true},
+    {"masks", "what varies the pixels: three void-and-cluster masks, or a vector mask (one sample a pixel)", 0, 0, 1,
+     masks, true},
     {0},
 };
 

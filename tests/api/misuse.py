@@ -87,6 +87,7 @@ VALID = {
     "koksma_adaptive_find.name": "\"contrast\"", "koksma_strata_fini.strata": "a_zero(sizeof(koksma_strata))",
     "koksma_adaptive_parse.text": "\"contrast\"", "koksma_adaptive_parse.out": "a_buffer(sizeof(koksma_adaptive_options))",
     "koksma_mask_void_and_cluster.size": "4", "koksma_mask_void_and_cluster_3d.size": "4", "koksma_mask_void_and_cluster_3d.frames": "4",
+    "koksma_mask_vectors.size": "4", "koksma_mask_vectors.dim": "1",
     "koksma_mask_void_and_cluster_3d.ranks": "a_buffer(64 * sizeof(uint32_t))", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
     "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_left_out.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
     "koksma_study_images.places": "work_path(\"in_{trial}.pfm\")", "koksma_study_images.reference": "work_path(\"in.pfm\")", "koksma_study_images.folder": "work_path(\"images\")",

@@ -285,6 +285,23 @@ static void the_header_has_the_patterns_points(void **state)
     assert_int_equal(koksma_mask_value(5, 16, 0), 0x50000000u);
 }
 
+static void a_pixel_can_have_its_vector(void **state)
+{
+    (void)state;
+    double values[2 * 25];
+    assert_ok(koksma_mask_vectors(5, 2, 8, NULL, values));
+    koksma_points points = test_points("mask-offset:width=5,masks=vectors", 25, 2, 8);
+    assert_memory_equal(points.xs, values, sizeof values);
+    koksma_spec spec;
+    assert_ok(koksma_pattern_spec("mask-offset:width=4,masks=vectors", &spec));
+    assert_int_equal(koksma_generate(&spec, 8, NULL, &points), KOKSMA_N);
+    koksma_points_fini(&points);
+    assert_ok(koksma_pattern_spec("mask-offset:width=257,masks=vectors", &spec));
+    assert_ok(koksma_points_init(&points, 257 * 257, 2));
+    assert_int_equal(koksma_generate(&spec, 8, NULL, &points), KOKSMA_ARGUMENT);
+    koksma_points_fini(&points);
+}
+
 static void pixels_have_nets(void **state)
 {
     (void)state;
@@ -440,6 +457,7 @@ int main(void)
         cmocka_unit_test(masks_keep_their_bits),
         cmocka_unit_test(thresholded_masks_are_blue),
         cmocka_unit_test(the_header_has_the_patterns_points),
+        cmocka_unit_test(a_pixel_can_have_its_vector),
         cmocka_unit_test(pixels_have_nets),
         cmocka_unit_test(pixels_err_like_independent_ones),
         cmocka_unit_test(neighbours_errors_cancel),

@@ -1,0 +1,370 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Vector masks against what Georgiev & Fajardo (2016) ask of them: the energy of the arrangement, computed here by its
+ * definition over all pairs of pixels, is as small as that of another search, no swap lowers it by much, and functions
+ * of the vectors are blue noise. The vectors are a set of low discrepancy with one value in each interval of length
+ * 1 / size^2 along every axis.
+ */
+#include <koksma/mask.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "test.h"
+
+static double *mask_of(int size, int dim, uint64_t seed)
+{
+    double *values = malloc((size_t)(size * size * dim) * sizeof *values);
+    assert_non_null(values);
+    assert_ok(koksma_mask_vectors(size, dim, seed, NULL, values));
+    return values;
+}
+
+static void every_interval_has_one_value(void **state)
+{
+    (void)state;
+    static const int cases[][2] = {{4, 1}, {4, 8}, {5, 2}, {7, 3}, {12, 2}, {13, 4}, {14, 1}};
+    const size_t n_cases = test_repeats(sizeof cases / sizeof *cases, 4);
+    for (size_t t = 0; t < n_cases; t++) {
+        const int size = cases[t][0], dim = cases[t][1], n = size * size;
+        double *values = mask_of(size, dim, t);
+        for (int k = 0; k < dim; k++) {
+            bool seen[256] = {false};
+            for (int p = 0; p < n; p++) {
+                const double x = values[p * dim + k];
+                assert_true(x >= 0 && x < 1);
+                const int interval = (int)(x * n);
+                if (seen[interval]) {
+                    fail_msg("size %d, dim %d: coordinate %d has two values in interval %d", size, dim, k, interval);
+                }
+                seen[interval] = true;
+            }
+        }
+        free(values);
+    }
+}
+
+/* The star discrepancy is below 2.2 log(n) / n, which good lattices in two dimensions have (Niederreiter 1992, chapter 5):
+   .048 for 256 points, of which random ones have some .07. */
+static void vectors_have_a_low_discrepancy(void **state)
+{
+    (void)state;
+    enum { SIZE = test_repeats(16, 8), N = SIZE * SIZE };
+    double *values = mask_of(SIZE, 2, 3);
+    const koksma_points points = {N, 2, values};
+    const koksma_value star = test_measure("star", &points);
+    if (!(star.value < 2.2 * log(N) / N)) {
+        fail_msg("star discrepancy %.4f", star.value);
+    }
+    free(values);
+}
+
+static int on_torus(int d, int size)
+{
+    d = abs(d);
+    return d < size - d ? d : size - d;
+}
+
+/* The two factors of the energy's terms: of pixels p and q element p n + q, of vectors i and j element i n + j. */
+typedef struct factors {
+    int n;
+    double *pixels, *vectors;
+} factors;
+
+static factors factors_of(const double *values, int size, int dim)
+{
+    const int n = size * size;
+    factors f = {n, malloc((size_t)(n * n) * sizeof(double)), malloc((size_t)(n * n) * sizeof(double))};
+    assert_true(f.pixels && f.vectors);
+    for (int p = 0; p < n; p++) {
+        for (int q = 0; q < n; q++) {
+            const int x = on_torus(p % size - q % size, size), y = on_torus(p / size - q / size, size);
+            double square = 0;
+            for (int k = 0; k < dim; k++) {
+                square += (values[p * dim + k] - values[q * dim + k]) * (values[p * dim + k] - values[q * dim + k]);
+            }
+            f.pixels[p * n + q] = p == q ? 0 : exp(-(x * x + y * y) / (2.1 * 2.1));
+            f.vectors[p * n + q] = exp(-pow(square, dim / 4.0));
+        }
+    }
+    return f;
+}
+
+static void forget(factors *f)
+{
+    free(f->pixels);
+    free(f->vectors);
+}
+
+/* The energy of pixel p with all others, where pixel q has the vector at[q]. */
+static double energy_at(const factors *f, const int *at, int p)
+{
+    double energy = 0;
+    for (int q = 0; q < f->n; q++) {
+        energy += f->pixels[p * f->n + q] * f->vectors[at[p] * f->n + at[q]];
+    }
+    return energy;
+}
+
+static double energy_of(const factors *f, const int *at)
+{
+    double energy = 0;
+    for (int p = 0; p < f->n; p++) {
+        energy += energy_at(f, at, p) / 2;
+    }
+    return energy;
+}
+
+static void shuffle(int *at, int n, uint64_t seed)
+{
+    for (int i = 0; i < n; i++) {
+        at[i] = i;
+    }
+    for (int i = n - 1; i > 0; i--) {
+        const koksma__words random = koksma__random(seed, KOKSMA__PURPOSE_TEST, (uint64_t)i, 7);
+        const int j = (int)koksma__below(random.w[0], (uint32_t)i + 1), point = at[i];
+        at[i] = at[j];
+        at[j] = point;
+    }
+}
+
+/* Returns by how much swapping pixels p and q raises the energy; the swap stays if it does not raise it. */
+static double descend(const factors *f, int *at, int p, int q)
+{
+    const double before = energy_at(f, at, p) + energy_at(f, at, q);
+    const int point = at[p];
+    at[p] = at[q];
+    at[q] = point;
+    const double growth = energy_at(f, at, p) + energy_at(f, at, q) - before;
+    if (growth > 0) {
+        at[q] = at[p];
+        at[p] = point;
+    }
+    return growth;
+}
+
+/* The energy lies below the mean of random arrangements by as much, within 3 %, as the best of the arrangements in which
+   a descent by swaps of all pairs ends; and no swap lowers it by more than 1 % of that. */
+static void the_energy_is_small(void **state)
+{
+    (void)state;
+    enum { SIZE = test_repeats(12, 8), N = SIZE * SIZE, RANDOM = test_repeats(20, 4), DESCENTS = test_repeats(2, 1) };
+    for (int dim = 1; dim <= test_repeats(4, 2); dim++) {
+        double *values = mask_of(SIZE, dim, (uint64_t)dim), random = 0, least = INFINITY;
+        factors f = factors_of(values, SIZE, dim);
+        int at[N];
+        for (uint64_t r = 0; r < RANDOM; r++) {
+            shuffle(at, N, r);
+            random += energy_of(&f, at) / RANDOM;
+        }
+        for (uint64_t r = 0; r < DESCENTS; r++) {
+            shuffle(at, N, 100 + r);
+            bool moved = true;
+            for (int round = 0; round < test_repeats(30, 2) && moved; round++) {
+                moved = false;
+                for (int pair = 0; pair < N * N; pair++) {
+                    moved |= pair / N < pair % N && descend(&f, at, pair / N, pair % N) < -1e-9;
+                }
+            }
+            least = fmin(least, energy_of(&f, at));
+        }
+        for (int i = 0; i < N; i++) {
+            at[i] = i;
+        }
+        const double energy = energy_of(&f, at);
+        if (!(random - energy > 0.97 * (random - least))) {
+            fail_msg("dim %d: energy %.4f; random %.4f, descents %.4f", dim, energy, random, least);
+        }
+        double gain = 0;
+        for (int pair = 0; pair < N * N; pair++) {
+            int swapped[N];
+            memcpy(swapped, at, sizeof at);
+            if (pair / N < pair % N) {
+                gain = fmax(gain, -descend(&f, swapped, pair / N, pair % N));
+            }
+        }
+        if (!(gain < 0.01 * (random - energy))) {
+            fail_msg("dim %d: a swap lowers the energy by %.4f, of %.4f below random", dim, gain, random - energy);
+        }
+        forget(&f);
+        free(values);
+    }
+}
+
+/* Sizes at which the window is the whole torus, and sizes at which it is a part: the energy per pixel is lower than that of
+   random arrangements by some .05 in the smallest tiles and by more than .1 from 12 pixels on. */
+static void the_energy_is_small_at_every_size(void **state)
+{
+    (void)state;
+    static const struct {
+        int size;
+        double least; /* gain of the energy per pixel, at least */
+    } cases[] = {{4, 0.04}, {5, 0.05}, {6, 0.05}, {12, 0.1}, {13, 0.1}, {20, 0.1}};
+    const size_t n_cases = test_repeats(sizeof cases / sizeof *cases, 4);
+    for (size_t t = 0; t < n_cases; t++) {
+        const int size = cases[t].size, n = size * size;
+        double *values = mask_of(size, 2, t), random = 0;
+        factors f = factors_of(values, size, 2);
+        int *at = malloc((size_t)n * sizeof *at);
+        assert_non_null(at);
+        for (uint64_t r = 0; r < 4; r++) {
+            shuffle(at, n, r);
+            random += energy_of(&f, at) / 4;
+        }
+        for (int i = 0; i < n; i++) {
+            at[i] = i;
+        }
+        const double gain = (random - energy_of(&f, at)) / n;
+        if (!(gain > cases[t].least)) {
+            fail_msg("size %d: the energy per pixel is %.3f below that of random arrangements", size, gain);
+        }
+        forget(&f);
+        free(at);
+        free(values);
+    }
+}
+
+enum { FUNCTIONS = 6 };
+
+static double function(int which, double x, double y)
+{
+    switch (which) {
+    case 0:
+        return x;
+    case 1:
+        return y;
+    case 2:
+        return x * y;
+    case 3:
+        return exp(-x * x - y * y);
+    case 4:
+        return x < 0.31830988618379;
+    default:
+        return x * x + y * y < 0.63661977236758;
+    }
+}
+
+/* The mean power at frequencies below size/8 cycles in the tile, a quarter of the highest; 1 for white noise. */
+static double low_power(const double *f, int size)
+{
+    const double turn = 2 * acos(-1) / size;
+    double mean = 0, variance = 0, sum = 0;
+    int bins = 0;
+    for (int p = 0; p < size * size; p++) {
+        mean += f[p] / (size * size);
+    }
+    for (int p = 0; p < size * size; p++) {
+        variance += (f[p] - mean) * (f[p] - mean);
+    }
+    for (int v = -size / 8; v <= size / 8; v++) {
+        for (int u = 0; u <= size / 8; u++) {
+            double re = 0, im = 0;
+            if ((u == 0 && v == 0) || u * u + v * v >= size * size / 64) {
+                continue;
+            }
+            for (int p = 0; p < size * size; p++) {
+                const double phase = turn * (u * (p % size) + v * (p / size));
+                re += f[p] * cos(phase);
+                im += f[p] * sin(phase);
+            }
+            sum += (re * re + im * im) / variance;
+            bins++;
+        }
+    }
+    return sum / bins;
+}
+
+/* With two dimensions, functions of the vector have at most a tenth of the low power of white noise if they are smooth,
+   three tenths if they have a jump; with four, twice as much. The few frequencies of the small tile that is used with
+   sanitizers vary more. */
+static void functions_of_the_vectors_are_blue(void **state)
+{
+    (void)state;
+    enum { SIZE = test_repeats(32, 16), N = SIZE * SIZE };
+    for (int dim = 2; dim <= test_repeats(4, 2); dim += 2) {
+        double *f = malloc(N * sizeof *f);
+        assert_non_null(f);
+        double *values = mask_of(SIZE, dim, 3);
+        for (int which = 0; which < FUNCTIONS; which++) {
+            for (int p = 0; p < N; p++) {
+                const double *at = values + (size_t)p * (size_t)dim;
+                f[p] = function(which, at[0], at[dim - 1]);
+            }
+            const double power = low_power(f, SIZE), most = (which < 4 ? 0.1 : 0.3) * (dim == 2 ? 1 : 2);
+            if (!(power < most * test_repeats(1, 1.5))) {
+                fail_msg("dim %d, function %d: low power %.3f, not below %.2f", dim, which, power, most);
+            }
+        }
+        free(values);
+        free(f);
+    }
+}
+
+/* Every pixel's vector is uniform over the seeds: the mean of a product over seeds is that of the square, within 4
+   standard errors. */
+static void pixels_are_unbiased(void **state)
+{
+    (void)state;
+    enum { SEEDS = test_repeats(200, 10), N = 16 };
+    double sum[N] = {0}, value[N * 2];
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        assert_ok(koksma_mask_vectors(4, 2, seed, NULL, value));
+        for (int p = 0; p < N; p++) {
+            sum[p] += value[2 * p] * value[2 * p + 1] / SEEDS;
+        }
+    }
+    for (int p = 0; p < N; p++) {
+        assert_near(sum[p], 0.25, 4 * sqrt((1.0 / 9 - 1.0 / 16) / SEEDS));
+    }
+}
+
+static bool stop_later(void *context, double fraction_done)
+{
+    int *left = context;
+    assert_true(fraction_done >= 0 && fraction_done <= 1);
+    return (*left)-- > 0;
+}
+
+static void masks_depend_on_the_seed_alone(void **state)
+{
+    (void)state;
+    enum { SIZE = 8, N = SIZE * SIZE * 2 };
+    double first[N], again[N], other[N];
+    assert_ok(koksma_mask_vectors(SIZE, 2, 5, &(koksma_run){.threads = 1}, first));
+    assert_ok(koksma_mask_vectors(SIZE, 2, 5, &(koksma_run){.threads = 3}, again));
+    assert_memory_equal(first, again, sizeof first);
+    assert_ok(koksma_mask_vectors(SIZE, 2, 6, NULL, other));
+    int moved = 0; /* the first pixel's interval differs, and the differences to it, too: not only the shift */
+    for (int p = 1; p < SIZE * SIZE; p++) {
+        const double d = first[2 * p] - first[0] - other[2 * p] + other[0];
+        moved += fabs(d - floor(d + 0.5)) > 1e-9;
+    }
+    assert_true(moved > SIZE * SIZE / 2);
+    /* There are 256 swaps a pixel, and the search asks before every 4,096: 4 times. One dimension needs no lattice. */
+    for (int calls = 0; calls < 4; calls++) {
+        int left = calls;
+        const koksma_run run = {.threads = 1, .keep_going = stop_later, .context = &left};
+        assert_int_equal(koksma_mask_vectors(SIZE, 1, 5, &run, again), KOKSMA_INTERRUPTED);
+    }
+    static const int wrong[][2] = {
+        {3, 2}, {KOKSMA_MASK_MAX_VECTORS + 1, 2}, {8, 0}, {8, KOKSMA_MASK_MAX_DIM + 1}, {8, -1}};
+    for (size_t t = 0; t < sizeof wrong / sizeof *wrong; t++) {
+        assert_int_equal(koksma_mask_vectors(wrong[t][0], wrong[t][1], 5, NULL, other), KOKSMA_ARGUMENT);
+    }
+    assert_int_equal(koksma_mask_vectors(SIZE, 2, 5, NULL, NULL), KOKSMA_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_interval_has_one_value),
+        cmocka_unit_test(vectors_have_a_low_discrepancy),
+        cmocka_unit_test(the_energy_is_small),
+        cmocka_unit_test(the_energy_is_small_at_every_size),
+        cmocka_unit_test(functions_of_the_vectors_are_blue),
+        cmocka_unit_test(pixels_are_unbiased),
+        cmocka_unit_test(masks_depend_on_the_seed_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
