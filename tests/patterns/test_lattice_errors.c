@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lattices.h"
 #include "patterns/shared/unit_sums.h"
 #include "test.h"
 
@@ -11,20 +12,6 @@ enum { MAX_DIM = 64, MOST_BITS = test_repeats(20, 14) };
 
 /* gamma of the criterion that patterns/lattice_rank1.c states, times 2 pi^2. */
 #define WEIGHT 0.75
-
-static void multipliers(const char *pattern, size_t n, int dim, size_t *z)
-{
-    koksma_points points = test_points(pattern, n, dim, 0);
-    for (int k = 0; k < dim; k++) {
-        z[k] = (size_t)(points.xs[dim + k] * (double)n + 0.5);
-    }
-    koksma_points_fini(&points);
-}
-
-static size_t common_divisor(size_t a, size_t b)
-{
-    return b ? common_divisor(b, a % b) : a;
-}
 
 static double kernel(size_t numerator, size_t n)
 {
@@ -82,7 +69,7 @@ static void error_is_that_of_the_dual_lattice(void **state)
     for (size_t n = 2; n <= 24; n++) {
         for (int dim = 1; dim <= (n <= 12 ? 4 : 3); dim++) {
             size_t z[4];
-            multipliers("lattice-rank1", n, dim, z);
+            lattices_multipliers("lattice-rank1", n, dim, z);
             const double error = p2(n, z, dim, WEIGHT), unweighted = p2(n, z, dim, 19.7);
             assert_near(error, dual_p2(n, z, dim, WEIGHT), 1e-11 * error);
             assert_near(unweighted, dual_p2(n, z, dim, 19.7), 1e-11 * unweighted);
@@ -123,7 +110,7 @@ static void sums_are_those_of_the_definition(void **state)
         assert_ok(koksma__unit_sums_find(sums, NULL, product, values, &bound));
         assert_true(bound < 2e-12); /* else many are left open */
         for (size_t z = 1; z <= n / 2; z += n > 1000 && z > 50 ? 37 : 1) {
-            if (common_divisor(z, n) != 1) {
+            if (lattices_common_divisor(z, n) != 1) {
                 assert_true(isinf(values[z]));
                 continue;
             }
@@ -149,7 +136,7 @@ static void components_are_the_best_of_all(void **state)
             break;
         }
         size_t z[DIM];
-        multipliers("lattice-rank1", n, DIM, z);
+        lattices_multipliers("lattice-rank1", n, DIM, z);
         double *product = malloc((n / 2 + 1) * sizeof *product);
         assert_non_null(product);
         for (size_t i = 0; i <= n / 2; i++) {
@@ -158,7 +145,7 @@ static void components_are_the_best_of_all(void **state)
         for (int k = 0; k < DIM; k++) {
             double least = HUGE_VAL;
             for (size_t other = 1; other <= n / 2 && k > 0; other++) {
-                least = common_divisor(other, n) == 1 ? fmin(least, sum_of(n, other, product)) : least;
+                least = lattices_common_divisor(other, n) == 1 ? fmin(least, sum_of(n, other, product)) : least;
             }
             const double own = sum_of(n, z[k], product);
             if (k > 0 && !(own <= least + 1e-12 * (double)n)) {
@@ -226,8 +213,8 @@ static void order_two_is_no_worse_than_others(void **state)
     for (int bits = 8; bits <= MOST_BITS; bits += 2) {
         const size_t n = (size_t)1 << bits;
         size_t z[10], all[10];
-        multipliers("lattice-rank1:order=2", n, 10, z);
-        multipliers("lattice-rank1", n, 10, all);
+        lattices_multipliers("lattice-rank1:order=2", n, 10, z);
+        lattices_multipliers("lattice-rank1", n, 10, all);
         const double own = p2_of_pairs(n, z, 10, WEIGHT);
         double least = p2_of_pairs(n, all, 10, WEIGHT);
         for (int v = 0; v < PUBLISHED; v++) {
@@ -254,8 +241,8 @@ static void search_is_no_worse_than_others(void **state)
         if (n >> MOST_BITS > 1 || (n >> MOST_BITS == 1 && n & (n - 1))) {
             continue;
         }
-        multipliers("lattice-rank1", n, 10, z);
-        multipliers("korobov", n, 10, powers);
+        lattices_multipliers("lattice-rank1", n, 10, z);
+        lattices_multipliers("korobov", n, 10, powers);
         const double own = p2(n, z, 10, WEIGHT), korobov = p2(n, powers, 10, WEIGHT);
         double least = HUGE_VAL;
         for (int v = 0; v < PUBLISHED; v++) {
@@ -273,20 +260,6 @@ static void search_is_no_worse_than_others(void **state)
     }
 }
 
-/* The multipliers of the sequence modulo 2^20: phi(2^19) = 2^-20. */
-static void sequence_multipliers(int dim, size_t *z)
-{
-    koksma_spec spec;
-    koksma_points point;
-    assert_ok(koksma_pattern_spec("lattice-sequence", &spec));
-    assert_ok(koksma_points_init(&point, 1, dim));
-    assert_ok(koksma_generate_range(&spec, 0, 0, 1 << 19, NULL, &point));
-    for (int k = 0; k < dim; k++) {
-        z[k] = (size_t)ldexp(point.xs[k], 20);
-    }
-    koksma_points_fini(&point);
-}
-
 /* What it costs to be good for all powers of two at once: Cools, Kuo & Nuyens 2006 report worst-case errors, roots of P_2,
    of at most 1.6 times those of lattices that are constructed for one n, from 2^10 to 2^20 points. */
 static void embedded_lattices_cost_little(void **state)
@@ -294,12 +267,12 @@ static void embedded_lattices_cost_little(void **state)
     (void)state;
     static const int dims[] = {2, 3, 5, 10};
     size_t z[MAX_DIM];
-    sequence_multipliers(10, z);
+    lattices_sequence_multipliers(10, z);
     for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
         for (int bits = 4; bits <= MOST_BITS && bits <= 18; bits += 2) {
             const size_t n = (size_t)1 << bits;
             size_t own[MAX_DIM];
-            multipliers("lattice-rank1", n, dims[d], own);
+            lattices_multipliers("lattice-rank1", n, dims[d], own);
             const double ratio = sqrt(p2(n, z, dims[d], WEIGHT) / p2(n, own, dims[d], WEIGHT));
             if (getenv("RATIOS")) {
                 printf("n = 2^%d, dim = %d: %.3f\n", bits, dims[d], ratio);
@@ -321,7 +294,7 @@ static void worst_pairs_fall(void **state)
         const size_t n = (size_t)1 << bits;
         size_t z[10];
         double worst = 0;
-        multipliers("lattice-rank1", n, 10, z);
+        lattices_multipliers("lattice-rank1", n, 10, z);
         for (int k = 1; k < 10; k++) {
             for (int l = 0; l < k; l++) {
                 worst = fmax(worst, p2(n, (size_t[]){z[l], z[k]}, 2, WEIGHT));
@@ -363,7 +336,7 @@ static void shifted_lattices_converge(void **state)
     for (int bits = 10; bits <= MOST_BITS && bits <= 20; bits += 2) {
         const size_t n = (size_t)1 << bits;
         size_t z[8];
-        multipliers("lattice-rank1", n, 8, z);
+        lattices_multipliers("lattice-rank1", n, 8, z);
         const double error = shifted_error(z, n);
         if (!(error < before / 2)) {
             fail_msg("n = 2^%d: %.3g after %.3g with a quarter of the points", bits, error, before);
@@ -380,8 +353,8 @@ static void plane(void **state)
     double before = HUGE_VAL;
     for (size_t n = 8, last = 5; n >> 17 == 0 && n >> MOST_BITS == 0; n += last, last = n - last) {
         size_t z[2], other[2];
-        multipliers("lattice-rank1", n, 2, z);
-        multipliers("korobov", n, 2, other);
+        lattices_multipliers("lattice-rank1", n, 2, z);
+        lattices_multipliers("korobov", n, 2, other);
         const double own = p2(n, z, 2, 2 * acos(-1) * acos(-1)), error = p2(n, (size_t[]){1, last}, 2, 19.7392088);
         assert_int_equal(z[1], other[1]);
         assert_near(own, error, 1e-7 * error);

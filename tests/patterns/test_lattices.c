@@ -4,24 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lattices.h"
 #include "test.h"
 
 enum { MAX_DIM = 256 };
-
-/* The multipliers stand in the second point: x_k = z_k / n. */
-static void multipliers(const char *pattern, size_t n, int dim, size_t *z)
-{
-    koksma_points points = test_points(pattern, n, dim, 0);
-    for (int k = 0; k < dim; k++) {
-        z[k] = (size_t)(points.xs[dim + k] * (double)n + 0.5);
-    }
-    koksma_points_fini(&points);
-}
-
-static size_t common_divisor(size_t a, size_t b)
-{
-    return b ? common_divisor(b, a % b) : a;
-}
 
 static bool is_among(size_t z, size_t n, const size_t *taken, int count)
 {
@@ -55,7 +41,7 @@ static long double least_error(size_t n, const size_t *z, int k)
     long double least = HUGE_VALL;
     memcpy(other, z, (size_t)k * sizeof *z);
     for (other[k] = 1; other[k] < n; other[k]++) {
-        if (common_divisor(other[k], n) == 1) {
+        if (lattices_common_divisor(other[k], n) == 1) {
             least = fminl(least, error_of(n, other, k + 1));
         }
     }
@@ -67,10 +53,10 @@ static void components_are_the_best(void **state)
     (void)state;
     for (size_t n = 5; n <= 80; n += n < 40 ? 1 : 5) {
         size_t z[8];
-        multipliers("lattice-rank1", n, 8, z);
+        lattices_multipliers("lattice-rank1", n, 8, z);
         assert_int_equal(z[0], 1);
         for (int k = 1; k < 8; k++) {
-            assert_int_equal(common_divisor(z[k], n), 1);
+            assert_int_equal(lattices_common_divisor(z[k], n), 1);
             assert_near((double)error_of(n, z, k + 1), (double)least_error(n, z, k), 1e-13 * (double)n);
         }
     }
@@ -84,13 +70,13 @@ static void powers_are_the_best(void **state)
     for (size_t n = 29; n <= 61; n += 16) {
         for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
             size_t z[MAX_DIM], other[MAX_DIM] = {1};
-            multipliers("korobov", n, dims[d], z);
+            lattices_multipliers("korobov", n, dims[d], z);
             long double least = HUGE_VALL;
             for (size_t a = 1; a < n; a++) {
                 for (int k = 1; k < dims[d]; k++) {
                     other[k] = other[k - 1] * a % n;
                 }
-                least = common_divisor(a, n) == 1 ? fminl(least, error_of(n, other, dims[d])) : least;
+                least = lattices_common_divisor(a, n) == 1 ? fminl(least, error_of(n, other, dims[d])) : least;
             }
             const double error = (double)error_of(n, z, dims[d]);
             assert_near(error, (double)least, 1e-12 * error);
@@ -105,7 +91,7 @@ static void error_is_wraparound(void **state)
     for (int dim = 1; dim <= 6; dim++) {
         size_t z[6];
         koksma_points points = test_points("lattice-rank1", 55, dim, 0);
-        multipliers("lattice-rank1", 55, dim, z);
+        lattices_multipliers("lattice-rank1", 55, dim, z);
         const long double mean = (error_of(55, z, dim) + powl(1.125L, dim)) / 55;
         const double value = test_measure("l2-wraparound", &points).value;
         assert_near(value * value, (double)(powl(4.0L / 3, dim) * (mean - 1)), 1e-13);
@@ -130,7 +116,7 @@ static void multipliers_are_distinct(void **state)
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         size_t z[MAX_DIM];
-        multipliers(cases[c].pattern, cases[c].n, cases[c].dim, z);
+        lattices_multipliers(cases[c].pattern, cases[c].n, cases[c].dim, z);
         for (int k = 0; k < cases[c].dim; k++) {
             const int first = k - k % cases[c].distinct;
             if (is_among(z[k], cases[c].n, z + first, k - first)) {
@@ -194,26 +180,11 @@ static void planar_multipliers_stay(void **state)
                                      {1024, 275}, {1999, 872}, {2048, 857}, {10136, 3921}, {19897, 7554}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         size_t z[2];
-        multipliers("lattice-rank1", rows[i][0], 2, z);
+        lattices_multipliers("lattice-rank1", rows[i][0], 2, z);
         assert_int_equal(z[1], rows[i][1]);
-        multipliers("korobov", rows[i][0], 2, z);
+        lattices_multipliers("korobov", rows[i][0], 2, z);
         assert_int_equal(z[1], rows[i][1]);
     }
-}
-
-/* The multipliers of the sequence, modulo 2^20: phi(2^19) = 2^-20. */
-static void sequence_multipliers(int dim, size_t *z)
-{
-    koksma_spec spec;
-    koksma_points point;
-    assert_ok(koksma_pattern_spec("lattice-sequence", &spec));
-    assert_ok(koksma_points_init(&point, 1, dim));
-    assert_ok(koksma_generate_range(&spec, 0, 0, 1 << 19, NULL, &point));
-    for (int k = 0; k < dim; k++) {
-        z[k] = (size_t)(point.xs[k] * 0x1p20);
-        assert_true(z[k] % 2 == 1 && (double)z[k] == point.xs[k] * 0x1p20);
-    }
-    koksma_points_fini(&point);
 }
 
 /* The first 2^m points are {i z / 2^m}; none of the multipliers comes twice. */
@@ -222,7 +193,7 @@ static void embedded_lattices(void **state)
     (void)state;
     const int dim = koksma_pattern_find("lattice-sequence")->max_dim;
     size_t z[MAX_DIM];
-    sequence_multipliers(dim, z);
+    lattices_sequence_multipliers(dim, z);
     for (int k = 0; k < dim; k++) {
         assert_false(is_among(z[k], 1 << 20, z, k));
     }
@@ -317,21 +288,22 @@ static void components_of_an_order_are_the_best(void **state)
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
             const size_t n = counts[c];
             size_t z[7], other[7];
-            multipliers(order == 2 ? "lattice-rank1:order=2" : "lattice-rank1:order=3", n, 7, z);
+            lattices_multipliers(order == 2 ? "lattice-rank1:order=2" : "lattice-rank1:order=3", n, 7, z);
             for (int k = 1; k < 7; k++) {
                 long double least = HUGE_VALL;
                 memcpy(other, z, sizeof z);
                 for (other[k] = 1; other[k] < n; other[k]++) {
-                    least = common_divisor(other[k], n) == 1 ? fminl(least, error_of_order(n, other, k + 1, order))
-                                                             : least;
+                    least = lattices_common_divisor(other[k], n) == 1
+                                ? fminl(least, error_of_order(n, other, k + 1, order))
+                                : least;
                 }
                 assert_near((double)error_of_order(n, z, k + 1, order), (double)least, 1e-13 * (double)n);
             }
         }
     }
     size_t all[5], limited[5];
-    multipliers("lattice-rank1", 1021, 5, all);
-    multipliers("lattice-rank1:order=8", 1021, 5, limited);
+    lattices_multipliers("lattice-rank1", 1021, 5, all);
+    lattices_multipliers("lattice-rank1:order=8", 1021, 5, limited);
     assert_memory_equal(all, limited, sizeof all);
 }
 
@@ -377,12 +349,12 @@ static void components_of_weights_are_the_best(void **state)
         for (size_t c = 0; c < test_repeats(sizeof counts / sizeof *counts, 4); c++) {
             const size_t n = counts[c];
             size_t z[DIM], other[DIM];
-            multipliers(cases[t].spec, n, DIM, z);
+            lattices_multipliers(cases[t].spec, n, DIM, z);
             for (int k = 1; k < DIM; k++) {
                 long double least = HUGE_VALL;
                 memcpy(other, z, sizeof z);
                 for (other[k] = 1; other[k] <= n / 2; other[k]++) {
-                    least = common_divisor(other[k], n) == 1
+                    least = lattices_common_divisor(other[k], n) == 1
                                 ? fminl(least, error_of_weights(n, other, k + 1, cases[t].weights))
                                 : least;
                 }
@@ -403,10 +375,10 @@ static void weights_of_orders(void **state)
     static const char *const wrong[] = {"gamma2=1", "order=2,gamma3=0.1", "order=3,gamma2=0,gamma3=0",
                                         "order=2,gamma2=0", "order=2,gamma2=-0.5"};
     size_t own[6], other[6];
-    multipliers("lattice-rank1:order=3", 251, 6, own);
-    multipliers("lattice-rank1:order=3,gamma2=0.037995443,gamma3=0.0014436537", 251, 6, other);
+    lattices_multipliers("lattice-rank1:order=3", 251, 6, own);
+    lattices_multipliers("lattice-rank1:order=3,gamma2=0.037995443,gamma3=0.0014436537", 251, 6, other);
     assert_memory_equal(own, other, sizeof own);
-    multipliers("lattice-rank1:order=3,gamma2=0.001,gamma3=50", 251, 6, other);
+    lattices_multipliers("lattice-rank1:order=3,gamma2=0.001,gamma3=50", 251, 6, other);
     assert_memory_not_equal(own, other, sizeof own);
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
         char text[64];
