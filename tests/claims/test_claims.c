@@ -260,9 +260,11 @@ static void patterns_with_operands_keep_their_claims(void **state)
     (void)state;
     const koksma_pattern *p;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
-        bool served = !p->operand || p->claims == 0 || !wanted(p->name);
-        const bool skip = served;
-        for (size_t t = 0; t < sizeof operands / sizeof *operands && !skip; t++) {
+        bool served = false;
+        if (!p->operand || p->claims == 0 || !wanted(p->name)) {
+            continue;
+        }
+        for (size_t t = 0; t < sizeof operands / sizeof *operands; t++) {
             char text[100];
             koksma_spec spec;
             if (strcmp(operands[t].name, p->name) != 0) {
