@@ -56,9 +56,9 @@ KOKSMA_API const koksma_integrand *koksma_integrand_find(const char *name);
 typedef struct koksma_function {
     const char *name; /* 1 to 63 characters */
     int min_dim, max_dim;
-    double (*at)(const double *x, int dim, void *context); /* returns the value at x, 0 <= x[k] <= 1, which must
-                                                              depend on x alone. Several threads call it at once
-                                                              unless koksma_run.threads is 1 */
+    double (*at)(const double *x, int dim, void *context); /* returns the value at x, where 0 <= x[k] <= 1. The value
+                                                              must depend on x alone. Several threads call the
+                                                              function at once unless koksma_run.threads is 1 */
     void *context;                                         /* passed to at */
     double integral; /* the integral over [0,1]^dim, or NaN if it is not known */
 } koksma_function;
@@ -106,11 +106,11 @@ typedef struct koksma_integration_row {
     uint64_t trials; /* number of point sets; always 1 for a deterministic pattern */
     double mean, sd; /* mean and standard deviation of the estimates; sd is NaN with one set */
     double rmse;     /* root mean square of estimate minus integral; with one set the absolute error. If the integral
-                        is not known, rmse is set to sd, which equals it for unbiased estimates */
+                        is not known, rmse is set to sd, which estimates it if the estimates are unbiased */
     /* 95 % confidence interval of rmse (delta method on its logarithm, Student's t), or NaN with one set */
     double low, high;
-    double gain; /* variance / n / rmse^2: how many times more random points would be needed for this error, or NaN if
-                    the variance is not known or the error is only rounding */
+    double gain; /* variance / n / rmse^2: how many times as many random points would be needed for this error, or NaN
+                    if the variance is not known or the error is only rounding */
 } koksma_integration_row;
 
 /* The slope of log rmse against log n by least squares, with its 95 % interval. With several trials the standard

@@ -16,9 +16,9 @@
  * There are seven tables of keys, for 2^m = 1, 2, 4 ... 64 samples per pixel. A key has two parts. Ten bits are the
  * number of the block, which differs for each of the 1,024 pixels of the cell. The other m bits rank the samples
  * within the block: they decide which part of the block comes first, so that the errors are blue noise also for fewer
- * samples. Above 64 samples per pixel m is log2 spp rounded up, and a key is one of the last table followed by m - 6
- * random bits of the pixel. Each cell draws from the seed its own scrambling and one of the 8 symmetries of the square,
- * so cells do not repeat points.
+ * than 2^m samples. Above 64 samples per pixel m is log2 spp rounded up, and a key is one of the last table followed
+ * by m - 6 random bits of the pixel. Each cell draws from the seed its own scrambling and one of the 8 symmetries of
+ * the square, so cells do not repeat points.
  *
  * The samples of one pixel have the same probability distribution as those of an independently Owen-scrambled pixel,
  * for each number of samples: the mean of any integrand is unbiased, and its mean square error over the seeds is that

@@ -300,13 +300,14 @@ KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
 /* Generates points first .. first + out->n - 1 of the set of koksma_generate, in the time and memory of out->n
    points.
      spec   a pattern that has ranges (koksma_has_ranges). A sequence (KOKSMA_CLAIM_SEQUENCE) accepts indices up to
-            KOKSMA_MAX_INDEX. halton and faure end before that in many dimensions: at the largest power of their
-            largest base up to 2^53, because a double has no more digits. Sequences in base 2 have coordinates of 32
-            binary digits below point 2^32, and of 53 beyond
+            KOKSMA_MAX_INDEX. In many dimensions halton and faure end earlier: at the largest power of their largest
+            base that is at most 2^53, because a double has no more digits. Sequences in base 2 have coordinates of 32
+            binary digits up to point 2^32 - 1, and of 53 from point 2^32 on
      n      number of points of the whole set, whose last index is n - 1. Unused for a sequence
      first  index of the first point to generate, from 0
      out    points initialised by koksma_points_init with the number of points to generate
-   Errors: those of koksma_generate; N also for points past the end, UNSUPPORTED for a pattern without ranges. */
+   Errors: those of koksma_generate; also N for points past the end of the set, and UNSUPPORTED for a pattern without
+   ranges. */
 KOKSMA_API koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint64_t n, uint64_t first,
                                                const koksma_run *run, koksma_points *out);
 
@@ -356,15 +357,15 @@ typedef struct koksma_witness {
 /* The result of a measure. */
 typedef struct koksma_value {
     double value;          /* the measure; for an L2 measure the root of the mean square */
-    double square;         /* square of value, if it is known to more digits; otherwise NaN */
+    double square;         /* square of value, if it is known to more digits than value; otherwise NaN */
     double lower, upper;   /* proven lower and upper bounds; both equal `value` if exact is true */
     double standard_error; /* standard error of a sampled measure, NaN with one sample; 0 for other measures */
     bool exact;            /* true: value is exact up to rounding */
     koksma_witness witness;
 } koksma_value;
 
-/* The kind of region for which a measure compares the share of points with the volume. Known rates of decay depend
-   on this kind. */
+/* The kind of region for which a measure compares the share of points with the volume. The proven rates at which
+   measures decrease with n (koksma_rate) depend on this kind. */
 typedef enum koksma_family {
     KOKSMA_FAMILY_NONE, /* the measure has no regions: a distance, or the quality of a digital net */
     KOKSMA_FAMILY_BOXES,
@@ -391,8 +392,8 @@ struct koksma_measure {
     int revision;          /* starts at 0 and increases by 1 with every change of any bit of the values */
     bool on_torus;         /* true: shifting all points on the torus does not change the value */
     /* Computes the square of the measure and its n * dim derivatives with respect to the coordinates. At a kink,
-       where coordinates coincide, the derivative is a value between the one-sided derivatives. NULL: the measure
-       has no derivative, or none is implemented. */
+       where coordinates coincide, the derivative is a value between the one-sided derivatives. NULL: the measure has
+       no derivative, or the library does not implement it. */
     koksma_status (*gradient)(const koksma_points *points, const koksma_args *args, double *square, double *gradient);
 };
 

@@ -34,7 +34,7 @@ KOKSMA_API const char *koksma_plan_name_at(size_t i);
    operand is a file, a program or a library, as in "exec:PATH" or in a group of uses, "jittered;lens=net-file:PATH". A
    plan's relative paths start at the folder of the plan.
      text  a pattern, or a group of uses with their patterns
-     from  characters to leave out
+     from  number of characters to skip at the beginning of `text`
    Returns 0 if no path begins after `from`. */
 KOKSMA_API size_t koksma_plan_path(const char *text, size_t from);
 
@@ -63,7 +63,8 @@ typedef struct koksma_study_options {
                            a run */
     const char *folder; /* folder of the study, which is created if it does not exist; NULL: only
                            koksma_study_estimate can be called */
-    long long trials;   /* number of trials that replaces those in the plan; 0: use those in the plan */
+    long long trials;   /* number of trials to use instead of the numbers in the plan; 0: use the numbers in the
+                           plan */
     bool quick;         /* true: use the `quick` number of trials of each block of the plan that has one */
 } koksma_study_options;
 
@@ -77,9 +78,10 @@ KOKSMA_API koksma_status koksma_study_open(const koksma_study_options *options, 
    nevertheless). */
 KOKSMA_API koksma_status koksma_study_close(koksma_study *study);
 
-/* Returns line i of the list of what has no results, NULL past the last line: first the combinations that blocks with
-   `skip` leave out, "PATTERN, N = 8, 32: reason", then those whose jobs failed when they ran, "PATTERN, N = 64 (3 of 100
-   trials): reason". The string is valid until the study runs or is closed. */
+/* Returns line i of the list of combinations without results, or NULL past the last line. First come the combinations
+   that blocks of the plan with `skip` leave out, "PATTERN, N = 8, 32: reason", then the combinations whose jobs
+   failed when they ran, "PATTERN, N = 64 (3 of 100 trials): reason". The string is valid until the study runs or is
+   closed. */
 KOKSMA_API const char *koksma_study_left_out_at(const koksma_study *study, size_t i);
 
 /* Statistics of a run. */
@@ -98,10 +100,10 @@ typedef struct koksma_study_summary {
 /* Runs all jobs that are not done.
      run      a time limit ends the run early, without an error
      summary  may be NULL
-   A job fails when its pattern finds no set, or the search of its measure ends with bounds. All other jobs are done, and
-   koksma_study_left_out_at lists the failed ones.
-   Errors: INTERRUPTED (finished jobs are kept), IMPOSSIBLE (jobs failed in a block without `skip`; the message names the
-   first, and the report can be written. If a reference image is impossible, the run ends), IO, and those of
+   A job fails when its pattern finds no set, or when the search of its measure is cut short and finds only bounds.
+   All other jobs are done, and koksma_study_left_out_at lists the failed ones.
+   Errors: INTERRUPTED (finished jobs are kept), IMPOSSIBLE (jobs failed in a block without `skip`; the message names
+   the first, and the report can be written. A run whose reference image fails ends at once), IO, and those of
    koksma_generate, koksma_evaluate and koksma_render. */
 KOKSMA_API koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary);
 
@@ -156,7 +158,8 @@ typedef struct koksma_audit_options {
 typedef struct koksma_audit {
     long long rows;         /* number of rows that this version's generators made, according to their revisions
                                (koksma_pattern.revision) */
-    long long other_rows;   /* number of rows that other versions made, which this program cannot compare */
+    long long other_rows;   /* number of rows made by versions whose revisions differ, which this program cannot
+                               compare */
     long long drawn, agree; /* number of rows drawn from `rows`; number of these whose recomputed values are equal
                                bit for bit */
     double bound;           /* upper 95 % confidence bound of the fraction of `rows` that is wrong (Clopper &
@@ -307,8 +310,8 @@ typedef struct koksma_rank_options {
                                     not used, and width 0 means the size of the first image, without checks at other
                                     sizes */
     void *render_context;
-    const char *reference; /* for an external renderer: pattern of the reference image, whose images must have the
-                              true mean and depend on their seed (NULL: the first pattern) */
+    const char *reference; /* for an external renderer: pattern of the reference image. Its images must be unbiased
+                              and depend on the seed (NULL: the first pattern) */
     /* true: end when the pattern with the least error is decided, without advice, checks at other sizes, or the
        order of the other patterns */
     bool best_only;
@@ -317,7 +320,7 @@ typedef struct koksma_rank_options {
 /* Whether a pattern was ranked. */
 typedef enum koksma_rank_state {
     KOKSMA_RANK_RANKED,
-    KOKSMA_RANK_TOO_SLOW, /* the pattern was too slow for its part of the time limit */
+    KOKSMA_RANK_TOO_SLOW, /* the pattern was too slow for its share of the time limit */
     KOKSMA_RANK_REFUSED,  /* the pattern cannot render this scene with these options; `reason` says why */
 } koksma_rank_state;
 
@@ -432,19 +435,21 @@ typedef struct koksma_scene_gain {
     double listed_error;
     double gain, low, high; /* 1 - error / listed_error, and its 95 % interval */
     long long trials;       /* number of images of the set */
-    bool settled;           /* true: it is decided which leaves the least error, the set or a listed pattern */
+    bool settled;           /* true: it is decided whether the set or a listed pattern has the least error */
     bool coherent;          /* true: the error of the set has bands or another pattern (koksma_coherence_values) */
 } koksma_scene_gain;
 
 /* The result of koksma_optimise_scene. */
 typedef struct koksma_scene_optimum {
     koksma_points points; /* the set */
-    bool chosen;          /* false: the images have not yet chosen among the candidates; points are the first */
+    bool chosen;          /* false: no candidate has been chosen yet by its images; points is the first candidate */
     const char *measure;  /* the L2 discrepancy that the set was made for */
-    size_t phase;         /* number of its shift on the torus, from 0 */
-    size_t candidates, eliminated; /* number of candidates, shifts included; number that have a larger error */
+    size_t phase;         /* index of the set's shift on the torus; 0: not shifted */
+    size_t candidates, eliminated; /* number of candidates, with each shift counted as one; number of candidates that
+                                      are decided to have a larger error than the best */
     double shares[3];              /* shares of a pixel's variance along x, along y, and of their interaction */
-    koksma_scene_gain gains[1 + KOKSMA_MAX_HELD_OUT]; /* gains[0] in the scene itself, then in the held-out scenes */
+    koksma_scene_gain gains[1 + KOKSMA_MAX_HELD_OUT]; /* gains[0] is for the scene itself, all others are for the
+                                                         held-out scenes */
     size_t n_gains;         /* number of gains that are known: fewer after an interruption */
     double gain, low, high; /* means over the held-out scenes; NaN: there are none */
 } koksma_scene_optimum;
@@ -470,9 +475,9 @@ typedef struct koksma_scene_search {
 } koksma_scene_search;
 
 /* Searches for a point set that gives the image of one scene a small error if every pixel uses it, and compares it
-   with other patterns, there and in scenes that took no part in the search. The candidates are sets of low L2
-   discrepancy and their shifts; the weights of the projections on x, on y and on the plane come from the scene.
-   Equal options give equal results on any number of threads. A time limit of run has no effect.
+   with other patterns, in that scene and in scenes that took no part in the search. The candidates are sets of low L2
+   discrepancy and their shifts; the weights of the discrepancies in x, in y and in the plane are estimated from
+   images of the scene. Equal options give equal results on any number of threads. A time limit of run has no effect.
      out  receives the result, which koksma_scene_optimum_fini frees, also after INTERRUPTED
    Errors: ARGUMENT, UNKNOWN, MISSING, MALFORMED, MEMORY, INTERRUPTED (out then has what was found), and those of
    options->found. */
