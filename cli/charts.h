@@ -42,7 +42,8 @@ int cli_draw_panels(const cli_curves *c, const char *title, const koksma_panel *
 /* Returns a source's text without "pattern:" at its beginning. */
 const char *cli_label(const char *source);
 
-/* Returns `text`: "SPEC, n = N" for a pattern, followed by ", d = DIM" above 2 dimensions; the path for a file. */
+/* Writes the title of a source to `text` and returns it: "SPEC, n = N" for a pattern, followed by ", d = DIM" above 2
+   dimensions; the path for a file. */
 const char *cli_title(const char *source, char text[CLI_CHART_LABEL]);
 
 /* Chooses the colours of all operands: numbers[i] is the colour of operand i. */

@@ -97,7 +97,8 @@ static koksma_status write_difference(const char *path, const koksma_image *imag
     return status;
 }
 
-/* Prints an error. If two images could not be compared it names both, because either may be the wrong one. */
+/* Prints an error. If two images could not be compared, the message names both, because either may be the wrong
+   one. */
 static int fail(const cli_arguments *arguments, const comparison *c, const char *reference, koksma_status status)
 {
     if (!c->compared) {

@@ -37,7 +37,8 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
     return true;
 }
 
-/* Takes pattern:SPEC as SPEC, as all commands do. Returns false, after an error, for SPEC@N: a sheet has many n. */
+/* Takes pattern:SPEC as SPEC, as all commands do. Returns false, after an error, for SPEC@N, because a datasheet
+   chooses the n. */
 static bool take_sampler(const cli_arguments *arguments, const char **text)
 {
     static const char prefix[] = "pattern:";
@@ -145,7 +146,7 @@ const cli_command cli_command_datasheet = {
         "\n"
         "A name with {n} and {seed} stands for many files: my_256_3.npy has the 256 points of seed 3. The command "
         "measures all sizes n for which files exist, with consecutive seeds from the smallest one. It renders scenes "
-        "with as many samples per pixel as a size has points, such as 16; each pixel and use then takes one of the "
+        "with as many samples per pixel as a file has points, such as 16; each pixel and use then takes one of the "
         "files of that size at random. --beside accepts such names, too. FILE is a single set of points.\n"
         "\n"
         "The numbers of sets and images are fixed, so that equal sets give equal results. There are 16 sets of each "

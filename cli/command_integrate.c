@@ -232,8 +232,8 @@ static int put_share(job *j, const koksma_integral *integral, const char *name, 
 }
 
 /* Prints the error of integrating the component of these coordinates over the largest sets of a series, and the
-   component's part of `square`, the mean squared error. Components are known for products of functions of one
-   coordinate; for other integrands nothing is printed. Returns the exit code. */
+   square of this error divided by `square`, the mean squared error of the integrand itself. Components are known for
+   products of functions of one coordinate; for other integrands nothing is printed. Returns the exit code. */
 static int put_component(job *j, const koksma_integral *integral, const char *name, series *s, double square,
                          const int *axes, size_t n_axes)
 {

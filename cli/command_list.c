@@ -107,7 +107,7 @@ static const char *scene_title(const char *name)
     return title;
 }
 
-/* Returns what a pattern takes from the text after the colon of its spec, which may be the path of a file. */
+/* Returns what a pattern takes from the text after the colon of its spec, or from the file that this text names. */
 static const char *reads(const koksma_pattern *p)
 {
     return !p->operand                  ? "-"

@@ -102,7 +102,8 @@ static int first_set(job *j, bool counted, koksma_points *from)
             return cli_usage_error(j->arguments, "-n N, the number of points, is missing");
         }
         if (source.n && ((counted && source.n != j->options.n) || (dim_given && source.dim != j->options.dim))) {
-            return cli_usage_error(j->arguments, "--from %s: it differs from -n or -d", text);
+            return cli_usage_error(j->arguments,
+                                   "--from %s: its number of points or dimensions differs from -n or -d", text);
         }
         j->options.n = source.n ? source.n : j->options.n;
         j->options.dim = source.n ? source.dim : j->options.dim;

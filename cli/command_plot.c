@@ -7,8 +7,8 @@
 #include "source.h"
 #include "warps.h"
 
-/* Returns the number of sets that every source must have. The number is 1 if the curve may compare a file, which is
-   one set, with means over the sets of a pattern. */
+/* Returns the number of sets that every source must provide. The number is 1 if the picture may show a file, which is
+   one set, beside means over several sets of a pattern. */
 static uint64_t trials_of_all(const cli_curves *c)
 {
     const cli_arguments *arguments = c->arguments;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma render`: renders a scene into an image file and prints one row with the options, the number of rays and the
- * time. --aov adds layers to an EXR file, or files beside one of another format. Before it starts it computes how much
- * memory the image takes, and refuses an image that takes more than the machine has. When it is interrupted it writes
- * the image with the pixels that are done.
+ * time. --aov adds layers to an EXR file, or writes further files beside an image of another format. Before it starts
+ * it computes how much memory the image takes, and refuses an image that takes more than the machine has. When it is
+ * interrupted it writes the image with the pixels that are done.
  */
 #include <stdio.h>
 #include <string.h>
@@ -77,7 +77,7 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
     }
 }
 
-/* Makes the name of an AOV in files: with '-' for ':'. */
+/* Writes the name that an AOV has in files, with '-' instead of ':'. */
 static void name_layer(const char *aov, char out[16])
 {
     snprintf(out, 16, "%s", aov);

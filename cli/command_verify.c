@@ -90,9 +90,9 @@ static bool disappoints(const char *list, const char *source, const koksma_point
     return false;
 }
 
-/* --record: prints the exact value of a measure for the points, and the best known value for as many points in as
-   many dimensions, that of the set that the pattern `record` stores. *is_record: the points have a lower value, or no
-   such set is known. Returns the exit code. */
+/* --record: prints the exact value of a measure for the points, and the best known value for this number of points
+   and dimensions, which is the value of the set that the pattern `record` stores. *is_record: the points have a lower
+   value, or no such set is known. Returns the exit code. */
 static int put_record(const cli_arguments *arguments, cli_rows *rows, const char *source, const koksma_points *points,
                       const koksma_run *run, bool *is_record)
 {
