@@ -40,9 +40,8 @@ struct cli_arguments {
     char **operands;
     /* values[i] of option i: "" for a flag that is set, NULL when the option is not given */
     const char *values[CLI_MAX_OPTIONS];
-    char *joined[CLI_MAX_OPTIONS]; /* owns the values of options that were repeated */
-    char **made;                   /* owns the operands of commands whose options -p and -n can add operands
-                                   (cli/source.c) */
+    char *joined[CLI_MAX_OPTIONS]; /* the joined values of repeated options, to be freed */
+    char **made;                   /* operands that the options -p and -n have added (cli/source.c), to be freed */
     int n_made;
 };
 
@@ -113,7 +112,7 @@ const char *cli_filter_name(const void *table, size_t i);
    characters. command: the NAME, or "" for a message of the program as a whole. */
 void cli_say(const char *command, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* Prints what is wrong with the command line, in the form of cli_say. Returns the exit code 2. */
+/* Prints a message about a mistake in the command line, as cli_say does. Returns the exit code 2. */
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Prints the library's error text on stderr. Returns the exit code of `status`. */
@@ -134,7 +133,7 @@ typedef struct cli_work {
     const char *what;    /* the text before the progress bar; may be changed while running */
     double begin, share; /* a progress p of `run`, 0 to 1, is shown as begin + share * p */
     double fraction;     /* the progress shown so far, 0 to 1; it never decreases */
-    double limit_s;      /* the work ends by this time after its start, perhaps earlier; 0: unknown */
+    double limit_s;      /* the work takes at most this number of seconds; 0: unknown */
     bool hidden;         /* show nothing */
     double started_s, updated_s;
 } cli_work;
@@ -151,7 +150,7 @@ void cli_work_hide(cli_work *work);
 void cli_work_end(void);
 bool cli_interrupted(void);
 double cli_seconds(void);                                        /* the monotonic clock's time, as in started_s */
-const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* Returns `text`, such as "1 min 15 s". */
+const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* writes "1 min 15 s" or so to `text`; returns it */
 
 /* Prints that the interrupted study in `folder` can continue. folder is NULL in the MPI ranks above 0, which print
    nothing. Returns the exit code. */

@@ -169,7 +169,7 @@ static void put_options(const cli_command *command)
     fputs("-h --help", stdout);
 }
 
-/* Prints assignments in the common syntax of bash and zsh, which set list, files and words. */
+/* Prints assignments to the shell variables `list`, `files` and `words`, in the common syntax of bash and zsh. */
 static void put_answer(const answer *a)
 {
     printf("%s%swords=\"%s\";;\n", a->list ? "list=yes; " : "", a->files ? "files=yes; " : "", a->words);

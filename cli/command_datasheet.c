@@ -126,7 +126,7 @@ static const cli_option options[] = {
     {0, "scenes", "SCENE,..|none", "scenes to render (default: ball,checker,cornell)"},
     CLI_UNKNOWN_OPTION,
     {'m', "metric", "METRIC", "metric of the errors in scenes: mae (default), relmse, ldr-flip, ..."},
-    {0, "quick", NULL, "use fewer sets, sizes and images; takes less than a minute"},
+    {0, "quick", NULL, "use fewer sets, numbers of points and images; takes less than a minute"},
     {0, "json", NULL, "print the data on stdout instead of writing a page"},
     CLI_RUN_OPTIONS,
     {0},

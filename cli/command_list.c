@@ -175,7 +175,7 @@ LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, x.t
 LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, x.title, (void)x)
 LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, x.title, (void)x)
 
-/* The macro LIST cannot define the functions below; plans, for example, have no descriptions. */
+/* The macro LIST does not fit the tables of the functions below: plans, for example, have no descriptions. */
 static void list_plans(cli_rows *rows)
 {
     for (size_t i = 0; koksma_plan_name_at(i); i++) {

@@ -48,8 +48,8 @@ static int run(const cli_arguments *arguments)
     const bool compare = cli_flag(arguments, "compare");
     const char *name = cli_text(arguments, "curve", compare ? cli_curve_compare.name : cli_curve_points.name);
     if (compare && strcmp(name, cli_curve_compare.name) != 0) {
-        return cli_usage_error(arguments, "--compare excludes --curve %s, because it draws a fixed set of charts",
-                               name);
+        return cli_usage_error(arguments,
+                               "--compare excludes --curve %s, because --compare draws a fixed set of charts", name);
     }
     if (arguments->n_operands < 1 || !cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments, "it takes points and a picture, as in points.txt -o points.svg");

@@ -263,7 +263,7 @@ static const cli_option options[] = {
     {0, "sky", "L",
      "light of this radiance from all directions; replaces the sky of the scene or the default lights of a mesh "
      "file"},
-    {0, "environment", "FILE", "light from an image in latitude and longitude, times --sky"},
+    {0, "environment", "FILE", "light from an environment map in latitude and longitude, multiplied by --sky"},
     {0, "aov", "LIST",
      "further layers: direct, indirect, bounce:N, id, half; in the .exr, or in files such as IMAGE.direct.png"},
     {'o', "output", "FILE", "the image file, {image-formats}; an .exr has all layers"},

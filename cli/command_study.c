@@ -535,8 +535,8 @@ static const cli_option options[] = {
     {'s', "seed", "SEED", "audit: seed of the random draw (default: 1)"},
     {0, "reference", "FILE", "images: the reference image"},
     {0, "metric", "METRIC,..",
-     "quick, images: metric of the error that ranks: mae (default), relmse, hdr-flip, ...; quick: further ones to "
-     "measure"},
+     "quick, images: metric of the error that ranks: mae (default), relmse, hdr-flip, ...; quick: also further "
+     "metrics to measure"},
     {0, "format", "csv|json|npy|sha256", "export: the format (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,

@@ -117,7 +117,7 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
         return cli_fail(arguments, status);
     }
     /* The stored coordinates of the known sets are rounded, so the same set with unrounded coordinates can have a
-       slightly lower value. A record must be lower by more than that. */
+       slightly lower value. The value of a record must be lower by more than this difference. */
     *is_record = !here || value.value < here->value - 1e-11;
     cli_row_text(rows, "source", source);
     cli_row_whole(rows, "n", points->n);

@@ -171,8 +171,8 @@ typedef struct koksma_sensitivity {
 enum { KOKSMA_MAX_ANOVA_AXES = 8 };
 
 /* Computes the Sobol' indices of the coordinates axes[0] .. axes[n_axes - 1], numbered from 0.
-     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different coordinates below dim. An exact component evaluates 2^n_axes closed
-              forms, an estimated one 2^n_axes function values for each sample
+     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different coordinates below dim. Cost: 2^n_axes closed forms for an exact
+              component, 2^n_axes function values per sample for an estimated one
      samples  number of points in each of the 16 sets, up to 2^20; 0: use the closed form if there is one, else 4096
               points
    Errors: ARGUMENT (bad axes or samples, a function with variance 0), MEMORY, INTERRUPTED. */

@@ -87,9 +87,9 @@ typedef const char *koksma_name_at(const void *table, size_t i);
    is similar, or if the word is empty or longer than 64 characters. Upper and lower case are equal.
      name, table  name(table, i) is called for i = 0, 1, ... until it returns NULL; table may be NULL */
 KOKSMA_API const char *koksma_closest_name(const char *word, koksma_name_at *name, const void *table);
-/* Turns a text into one line of valid UTF-8, like every error text: control characters and bytes that are not
-   UTF-8, which a file name may contain, become \xNN. size is the capacity of the buffer `text` in bytes; a result
-   that does not fit is cut. text may be NULL. */
+/* Turns a text into one line of valid UTF-8: control characters and bytes that are not UTF-8, which a file name may
+   contain, become \xNN. The library does the same with every error text. size is the capacity of the buffer `text` in
+   bytes; a result that does not fit is cut. text may be NULL. */
 KOKSMA_API void koksma_text_escape(char *text, size_t size);
 
 /* Returns the instruction set that the inner loops of this process use: "avx512", "avx2", "baseline" or "ref"
@@ -248,9 +248,9 @@ struct koksma_pattern {
     bool runs_code;
 };
 
-/* A modifier: a map of the unit cube to itself that every pattern accepts after its own parameters. Several
-   modifiers are applied in the order of the table. In a renderer each pixel has a seed, so a random modifier
-   differs between pixels. */
+/* A modifier: a map of the unit cube to itself that every pattern accepts after its own parameters. Several modifiers
+   are applied in the order of koksma_modifier_at. In a renderer each pixel has a seed, so a random modifier differs
+   between pixels. */
 typedef struct koksma_modifier {
     const char *name, *title, *cite;
     double min, max;        /* range of its value, a whole number; the value 0 means not applied */
@@ -364,8 +364,8 @@ typedef struct koksma_value {
     koksma_witness witness;
 } koksma_value;
 
-/* The kind of region for which a measure compares the share of points with the volume. The proven rates at which
-   measures decrease with n (koksma_rate) depend on this kind. */
+/* The kind of regions in which a measure compares the fraction of the points with the volume. The proven rates at
+   which measures decrease with n (koksma_rate) depend on this kind. */
 typedef enum koksma_family {
     KOKSMA_FAMILY_NONE, /* the measure has no regions: a distance, or the quality of a digital net */
     KOKSMA_FAMILY_BOXES,

@@ -4,8 +4,8 @@
  * errors of neighbouring pixels differ and average out for the eye. Part of libkoksma; koksma_mask_value and
  * koksma_mask_2d are inline.
  *
- *     koksma_mask_2d           gives each pixel a scrambled (0,2)-sequence that three void-and-cluster masks
- *                              select; a single mask can serve as a threshold image
+ *     koksma_mask_2d           gives each pixel a (0,2)-sequence whose scrambling three void-and-cluster masks
+ *                              select; a single mask can serve as a threshold image for dithering
  *     koksma_mask_void_and_cluster_3d   computes a void-and-cluster mask in space and time
  *     koksma_mask_vectors      computes a vector mask: one sample of up to 8 dimensions for each pixel
  *     koksma_keys_2d           (koksma/keys.h) blocks of one sequence for 32 x 32 pixels, in an order optimised for

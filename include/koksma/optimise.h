@@ -111,7 +111,8 @@ KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                                          const koksma_run *run, koksma_optimum *out);
 
-/* Computes a target for options->power: the radial power of n points at the frequencies 1 .. rings.
+/* Computes a target for options->power: the mean power that n points should have in the rings of frequencies 1 ..
+   rings.
      text   "step" (0 below the frequency sqrt(n / pi), else 1), "gaussian" (1 - exp(-pi f^2 / n)), a pattern (the
             mean of 16 sets), or a file of lines with a frequency in units of sqrt(n) and a power
      rings  1 to KOKSMA_SPECTRUM_MAX_HALF

@@ -114,8 +114,8 @@ KOKSMA_API koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plo
                                            unsigned char **bytes, size_t *n_bytes);
 
 /* Finds colour numbers for n patterns of one picture. Each family of patterns has its colour: the first pattern of a
-   family has it in all pictures, others of the family get colours that no pattern of the picture has. From the ninth
-   pattern on colours repeat with other dashes. The shape of a curve's marks also depends on its number.
+   family has it in all pictures, others of the family get colours that no other pattern of the picture has. From the
+   ninth pattern on colours repeat with other dashes. The shape of a curve's marks also depends on its number.
      specs    specs or names of patterns; other texts get the remaining colours
      numbers  receives n
    Errors: ARGUMENT. */

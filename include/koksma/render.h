@@ -41,7 +41,8 @@ typedef struct koksma_entry {
     char fields[256];
 } koksma_entry;
 
-/* Sets *out to kind i of the members "materials", "lights" or "shapes" of a scene file; returns false past the end. */
+/* Sets *out to kind i of the objects that a member of a scene file lists: `member` is "materials", "lights" or
+   "shapes". Returns false past the end. */
 KOKSMA_API bool koksma_scene_kind_at(const char *member, size_t i, koksma_entry *out);
 
 /* Sets *out to pipeline i of the renderer; returns false past the end. The renderer chooses the fastest pipeline that

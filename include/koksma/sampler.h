@@ -23,8 +23,8 @@
  *     koksma_sobol_4d    its first two dimensions equal koksma_sobol_2d; its first dimension is koksma_sobol_1d, its
  *                        first three are koksma_sobol_3d
  *     koksma_pmj02_2d    every aligned block is a (0,m,2)-net in base 2
- *     koksma_cmj_2d      all columns * rows samples: one in each cell of the grid and in each stratum of each axis;
- *                        fewer samples have no guarantee
+ *     koksma_cmj_2d      all columns * rows samples together have one sample in each cell of the grid and in each
+ *                        stratum of each axis; fewer samples have no guarantee
  *     koksma_r_2d        every aligned block is 2^m consecutive points of the R-sequence, shifted on the torus
  *     koksma_white_4d    independent random numbers without stratification
  *

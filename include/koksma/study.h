@@ -210,7 +210,7 @@ typedef struct koksma_study_row {
     double mean, low, high; /* our mean over the trials and its 95 % interval (NaN with one trial) */
     double sd, max;         /* in image tables: means over the trials of each image's standard deviation and
                                maximum. In discrepancy tables: standard deviation over the sets, and mean of the
-                               largest value of 100 sets (of all sets, if there are fewer) */
+                               largest values of blocks of 100 sets (with fewer sets, the largest value of all) */
     double converged;       /* in image tables: mean error against the last reference of the plan */
     size_t trials;
     koksma_study_verdict verdict; /* verdict on the mean */
@@ -426,7 +426,8 @@ KOKSMA_API koksma_status koksma_rank_patterns(const koksma_rank_options *options
 enum { KOKSMA_MAX_AGAINST = 64, KOKSMA_MAX_HELD_OUT = 16 };
 
 /* How a set of koksma_optimise_scene compares with the listed patterns in one scene. Errors are mean absolute errors
-   in luminance. The texts are those of the options, or of the library. */
+   in luminance. `scene` and `best_listed` point to texts of the options, or to texts of the library where the options
+   are NULL. */
 typedef struct koksma_scene_gain {
     const char *scene;
     int width, height;
