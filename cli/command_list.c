@@ -345,9 +345,9 @@ const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
     .synopsis = "[{lists}] [--json]",
-    .details = "uses: a use is a purpose of sample dimensions, such as the position on the lens. 'koksma render -p "
-               "USE=PATTERN' gives one use its own pattern; '-p USE+USE=PATTERN' gives several uses one pattern with "
-               "the dimensions of all of them.",
+    .details = "uses: a use is a purpose for which a sample needs one or two dimensions, such as the position on the "
+               "lens. 'koksma render -p USE=PATTERN' gives one use its own pattern; '-p USE+USE=PATTERN' gives "
+               "several uses one pattern with the dimensions of all of them.",
     .examples = "koksma list patterns\n"
                 "koksma list scenes --json\n",
     .options = options,

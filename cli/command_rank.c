@@ -384,8 +384,8 @@ const cli_command cli_command_rank = {
                 "[--reference PATTERN]] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
-        "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared "
-        "with their modifiers, such as random shifts.\n"
+        "mean over the images of --metric, by default the mean absolute error in luminance. Each pattern is used "
+        "with the modifiers in its spec, such as shift=1.\n"
         "\n"
         "The sequence of work depends on the command line, not on the machine. It begins with rounds of 8, 16, 32,\n"
         "... trials until the best pattern, and the best pattern without bands, are decided. Then such rounds are\n"
