@@ -23,7 +23,7 @@ void cli_close_store(cli_chart_store *s);
 /* Returns the arrays of the next curve: xs begin at [0], ys at [per], errors at [2 per]. */
 double *cli_next_numbers(const cli_chart_store *s);
 
-/* Adds the next curve to the store: the first n numbers of each of its arrays. */
+/* Adds the next curve to the store, with the first n numbers of each of its arrays. */
 void cli_push_curve(cli_chart_store *s, size_t n, size_t colour, const char *label);
 
 /* Computes the rows of all operands and makes a chart of them, with the axes of `curve`. The caller must close the

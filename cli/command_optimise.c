@@ -19,7 +19,7 @@ typedef struct job {
     const koksma_spec *measure;
     cli_work work;
     koksma_optimise_options options;
-    koksma_status written; /* the result of the last write */
+    koksma_status written; /* status of the last write of the set */
     uint64_t last_gain;
     double gained_s;
     uint64_t projections[MOST_PROJECTIONS];

@@ -225,8 +225,8 @@ static void advise_undecided(const koksma_rank_options *options, const koksma_ra
     fprintf(stderr, " would %s", ranking->n_slow ? "rank them" : "decide it");
 }
 
-/* Prints if another pattern than that of row 0 leaves the least error at another size, with or without bands, or if
-   this is undecided and the advice has not said so. */
+/* Prints which pattern leaves the least error at another size, with or without bands, if that is not the pattern of
+   row 0. Prints that it is undecided, unless the advice has said so. */
 static void advise_first(const koksma_rank_options *options, const koksma_rank_row *rows,
                          const koksma_rank_check *check)
 {

@@ -5,9 +5,9 @@
  *
  *     random                   independent points that follow the density or area: the baseline
  *     sample-elimination       weighted sample elimination of `factor` candidates a point (Yuksel 2015)
- *     progressive-elimination  the same, in an order whose prefixes are blue noise
+ *     progressive-elimination  sample elimination, in an order whose prefixes are blue noise
  *     poisson-disk             dart throwing: no two points closer than d
- *     poisson-disk-maximal     dart throwing until nothing fits, at the d that gives n points or at the given one
+ *     poisson-disk-maximal     dart throwing until nothing fits, with the given d or the d that gives n points
  *     dart-throwing            dart throwing: n points, no two closer than f times the distance in the densest packing
  *     best-candidate           each point is the candidate furthest from all points before it (Mitchell 1991)
  *     gaussian-blue-noise      points that repel each other and are drawn to the density (Ahmed, Ren & Wonka 2022)
@@ -33,7 +33,7 @@ extern "C" {
    fills the square; its bottom row is at y = 0. Distances wrap around the square only for poisson-disk with torus=1.
    The d of poisson-disk and poisson-disk-maximal is the smallest distance where the density equals its mean.
      spec  one of the patterns above, without modifiers
-     map   luminance: finite, nowhere negative, somewhere positive
+     map   an image whose luminance is finite, nowhere negative and somewhere positive
      out   points initialised by koksma_points_init, in 2 dimensions
    Cost: O(factor n log n) if the density varies by a factor of less than about 100; more for wide ranges. In a second
    one processor makes about 5,000 points by poisson-disk-maximal or 300 by gaussian-blue-noise.
@@ -44,12 +44,12 @@ KOKSMA_API koksma_status koksma_generate_density(const koksma_spec *spec, uint64
                                                  const koksma_run *run, koksma_points *out);
 
 /* Generates out->n points on the triangles of a model, uniform in area, in the coordinates of its file.
-     spec  as above; d is in the model's units
+     spec  one of the patterns above, without modifiers; d is in the model's units
      path  a model: .obj, .ply, .ply.gz, .off, .gltf, .glb or .serialized
      out   points initialised by koksma_points_init, in 3 dimensions: x y z; or in 6: also the triangle's unit normal,
            on the side from which its corners are in counterclockwise order; or in 7: also the number of the triangle,
            from 0
-   Errors: as above; MISSING, MALFORMED (the model). */
+   Errors: those of koksma_generate_density, but MISSING and MALFORMED concern the model. */
 KOKSMA_API koksma_status koksma_generate_on(const koksma_spec *spec, uint64_t seed, const char *path,
                                             const koksma_run *run, koksma_points *out);
 

@@ -98,7 +98,7 @@ KOKSMA_API koksma_status koksma_integral_values(const koksma_integral *integral,
 KOKSMA_API koksma_status koksma_integrate(const koksma_integral *integral, const koksma_points *points,
                                           const koksma_run *run, double *out);
 
-/* ---- Errors over randomisations and sizes ------------------------------------------------------------- */
+/* ---- Errors against the number of points -------------------------------------------------------------- */
 
 /* Statistics of the estimates of an integral by sets of n points. */
 typedef struct koksma_integration_row {

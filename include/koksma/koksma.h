@@ -339,7 +339,8 @@ typedef enum koksma_witness_kind {
 } koksma_witness_kind;
 
 /* The region where a measure reaches its supremum. To check it, count the points in the region with doubles:
-     box         compare each coordinate with lo and hi. A box of the star discrepancy contains its sides at 0
+     box         compare each coordinate with lo and hi. A box of the star discrepancy contains the points on its
+                 sides at 0, whether it is closed or not
      half-plane  compare lo[0] x + lo[1] y (+ lo[2] z) with hi[0]
      disk        compare a a + b b with hi[0] hi[0]; (a, b) is the difference from the centre on the torus: with d the
                  plain difference of a coordinate, a = d - round(d)

@@ -117,7 +117,7 @@ KOKSMA_API koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plo
    family has it in all pictures, others of the family get colours that no other pattern of the picture has. From the
    ninth pattern on colours repeat with other dashes. The shape of a curve's marks also depends on its number.
      specs    specs or names of patterns; other texts get the remaining colours
-     numbers  receives n
+     numbers  receives n colour numbers
    Errors: ARGUMENT. */
 KOKSMA_API koksma_status koksma_plot_colours(const char *const *specs, size_t n, size_t *numbers);
 

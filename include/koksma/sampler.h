@@ -874,8 +874,9 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
 
    If N is not a power of two, the first N samples are less even than N consecutive points of the sequence: they are
    several runs of points, one for each 1 among the binary digits of N, with gaps between the runs. Their RMS L2 star
-   discrepancy is 1.19 times that of one run in the mean over N = 1 to 1024, and at most 1.64 times (N = 98). Without the
-   shuffle the same coordinate of two domains would differ by a constant for every N. */
+   discrepancy is 1.19 times that of one run in the mean over N = 1 to 1024, and at most 1.64 times (N = 98). The
+   samples are shuffled nevertheless, because otherwise the same coordinate of two domains would differ by the same
+   number, modulo 1, in all samples. */
 KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 {
     const uint64_t alpha[2] = {(uint64_t)0xC13FA9A9u << 32 | 0x02A6328Fu, (uint64_t)0x91E10DA5u << 32 | 0xC79E7B1Du};
@@ -896,7 +897,7 @@ KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 /* Returns element j, 0 to 3, of the permutation of 0 .. 3 that a random word chooses. */
 KOKSMA_INLINE uint32_t koksma_permute4(uint32_t j, uint32_t word)
 {
-    uint32_t order = 0xe4u, i; /* four fields of two bits */
+    uint32_t order = 0xe4u, i; /* four fields of two bits: at first 0, 1, 2, 3 */
     KOKSMA_ASSERT(j < 4);
     for (i = 3; i > 0; i--) {
         const uint32_t other = (word & 0x3ffu) * (i + 1) >> 10;

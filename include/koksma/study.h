@@ -168,8 +168,8 @@ typedef struct koksma_audit {
                                             equal */
     size_t references_missing;           /* number of reference images whose files are missing */
     size_t differences;                  /* number of differences found */
-    char other[128];                     /* revisions of one of the other_rows and of this program; empty if there
-                                            are none */
+    char other[128];                     /* revisions of one of the other_rows and of this program; empty if
+                                            other_rows is 0 */
 } koksma_audit;
 
 /* Audits a study: computes rows again from their keys, renders all reference images again, and compares them with
@@ -235,7 +235,8 @@ typedef struct koksma_images_row {
     size_t trials;
     double mean, low, high;   /* mean over the trials of the metric, and its 95 % interval (NaN with one trial) */
     double robust, top_share; /* means over the trials of these members of koksma_metric_value */
-    double sd, max, rmse;     /* means over the trials of these members of koksma_image_error, for any metric */
+    double sd, max, rmse;     /* means over the trials of these members of koksma_image_error, whatever the metric
+                                 is */
     double slope, slope_low, slope_high;    /* log-log slope of the group's mean over {spp} and its interval; NaN
                                                with one {spp} */
     koksma_coherence_values coherence;      /* coherence of the errors of all trials, in their order */
@@ -312,7 +313,7 @@ typedef struct koksma_rank_options {
     void *render_context;
     const char *reference; /* for an external renderer: pattern of the reference image. Its images must be unbiased
                               and depend on the seed (NULL: the first pattern) */
-    /* true: end when the pattern with the least error is decided, without advice, checks at other sizes, or the
+    /* true: end when it is decided which pattern has the least error, without advice, checks at other sizes, or the
        order of the other patterns */
     bool best_only;
 } koksma_rank_options;
@@ -384,21 +385,21 @@ typedef struct koksma_rank_check {
 typedef struct koksma_ranking {
     size_t n;         /* number of ranked patterns, which are in rows 0 .. n - 1; the other patterns follow */
     size_t n_slow;    /* number of patterns that were too slow */
-    bool settled;     /* true: the best pattern is decided and in row 0 */
+    bool settled;     /* true: it is decided that the pattern in row 0 is the best */
     bool complete;    /* true: every pair of patterns is decided */
     bool cut_short;   /* true: the time limit ended the work */
-    long long trials; /* number of trials of the pattern that has the most */
-    /* if not settled: approximate number of trials of each pattern that would decide the best; 0: unknown, or the
-       reference is too noisy for any number of trials to decide */
+    long long trials; /* largest number of trials of one pattern */
+    /* if not settled: approximate number of trials of each pattern that would decide which is the best; 0: unknown,
+       or the reference is too noisy for any number of trials to decide */
     long long needed_trials;
     double needed_s; /* seconds that needed_trials would take; 0: unknown */
     int width, height;
     double reference_error; /* expected mean absolute error of the reference (NaN: the reference was not finished) */
     koksma_rank_check checks[KOKSMA_RANK_CHECKS]; /* checks at half and at twice the image size */
     double seconds;
-    bool advised;       /* true: the pattern with the least error among those whose error is not coherent is
-                           decided */
-    size_t advised_row; /* row of this advised pattern, if advised is true */
+    bool advised;       /* true: it is decided which pattern has the least error among those whose error is not
+                           coherent */
+    size_t advised_row; /* row of that pattern, if `advised` is true */
     size_t n_coherent;  /* number of ranked patterns whose error is coherent */
 } koksma_ranking;
 
@@ -451,14 +452,14 @@ typedef struct koksma_scene_optimum {
     double shares[3];              /* shares of a pixel's variance along x, along y, and of their interaction */
     koksma_scene_gain gains[1 + KOKSMA_MAX_HELD_OUT]; /* gains[0] is for the scene itself, all others are for the
                                                          held-out scenes */
-    size_t n_gains;         /* number of gains that are known: fewer after an interruption */
-    double gain, low, high; /* means over the held-out scenes; NaN: there are none */
+    size_t n_gains;         /* number of members of gains that are set: fewer after an interruption */
+    double gain, low, high; /* means over the held-out scenes; NaN if there are none */
 } koksma_scene_optimum;
 
 /* Options of koksma_optimise_scene. */
 typedef struct koksma_scene_search {
     const char *scene;    /* as for koksma_scene_open */
-    int spp;              /* number of points of the set, 1 to 4096: samples of a pixel */
+    int spp;              /* number of points of the set and of samples per pixel, 1 to 4096 */
     int width, height;    /* size of the images; 0: that of the scene, halved until it has at most 1,200 pixels */
     uint64_t seed;        /* below 2^32 */
     size_t candidates;    /* number of candidate sets, at most 1000; 0: 8 */
