@@ -60,7 +60,7 @@ struct cli_curve {
         int (*draw)(cli_curves *c);
         const char *title;             /* heading of a chart, unless --title gives another */
         const char *x_label, *y_label; /* labels of a chart's axes; x_per_root: x is divided by sqrt(n) */
-        int y, error;                  /* columns of y and of its error; error 0: there are no error bars */
+        int y, error;                  /* indices of the columns of y and of its error; error 0: no error bars */
         bool x_per_root;
         double (*level)(const cli_curves *c); /* the value that random points have, drawn as a dashed line */
         bool of_filters;                      /* the operands are names of pixel filters */

@@ -122,7 +122,8 @@ KOKSMA_INLINE koksma__four koksma__two_words(uint32_t a, uint32_t b)
     return x;
 }
 
-/* Returns sample i of a pixel and pair of dimensions as 32-bit fractions, the first two of four words. */
+/* Returns sample i of a pixel and pair of dimensions as 32-bit fractions, which are the first two of the four
+   words. */
 KOKSMA_INLINE koksma__four koksma__keys_four(const koksma_keys *keys, uint32_t i)
 {
     const uint32_t index = keys->key ^ (keys->ordered ? koksma__shuffled_by_octaves(i, keys->order) : i);

@@ -8,8 +8,8 @@
  *                              select; a single mask can serve as a threshold image for dithering
  *     koksma_mask_void_and_cluster_3d   computes a void-and-cluster mask in space and time
  *     koksma_mask_vectors      computes a vector mask: one sample of up to 8 dimensions for each pixel
- *     koksma_keys_2d           (koksma/keys.h) blocks of one sequence for 32 x 32 pixels, in an order optimised for
- *                              1, 2, 4 ... 64 samples per pixel
+ *     koksma_keys_2d           (koksma/keys.h) gives the 32 x 32 pixels of a cell different blocks of one sequence,
+ *                              in an order optimised for 1, 2, 4 ... 64 samples per pixel
  *     koksma_z_rank            (koksma/sampler.h) gives pixel (x, y) the samples rank * spp .. rank * spp + spp - 1
  *                              of one sequence (Ahmed & Wonka 2020)
  *
