@@ -5,7 +5,8 @@
 
 #include "cli.h"
 
-/* Returns whether a value is only a bound although its measure gives exact values: the search was cut short. */
+/* Returns whether a value is only a bound although its measure gives exact values, because the search was cut
+   short. */
 bool cli_is_cut_short(const koksma_spec *measure, const koksma_value *value);
 
 /* Prints a line on stderr with the number of values of `what` that are only bounds because a search was cut short.

@@ -23,7 +23,7 @@ void cli_close_store(cli_chart_store *s);
 /* Returns the arrays of the next curve: xs begin at [0], ys at [per], errors at [2 per]. */
 double *cli_next_numbers(const cli_chart_store *s);
 
-/* Adds the next curve to the store: the first n numbers of each of its arrays. */
+/* Adds the next curve to the store, with the first n numbers of each of its arrays. */
 void cli_push_curve(cli_chart_store *s, size_t n, size_t colour, const char *label);
 
 /* Computes the rows of all operands and makes a chart of them, with the axes of `curve`. The caller must close the
@@ -42,7 +42,8 @@ int cli_draw_panels(const cli_curves *c, const char *title, const koksma_panel *
 /* Returns a source's text without "pattern:" at its beginning. */
 const char *cli_label(const char *source);
 
-/* Returns `text`: "SPEC, n = N" for a pattern, followed by ", d = DIM" above 2 dimensions; the path for a file. */
+/* Writes the title of a source to `text` and returns it: "SPEC, n = N" for a pattern, followed by ", d = DIM" above 2
+   dimensions; the path for a file. */
 const char *cli_title(const char *source, char text[CLI_CHART_LABEL]);
 
 /* Chooses the colours of all operands: numbers[i] is the colour of operand i. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the commands share. Each command is one file that defines one cli_command; its option table parses the command
- * line and prints the help. Results go to stdout, messages to stderr; exit codes are those of
+ * Types and functions that all commands use. Each command is one file that defines one cli_command; its option table
+ * parses the command line and prints the help. Results go to stdout, messages to stderr; exit codes are those of
  * koksma_status_exit_code().
  */
 #ifndef KOKSMA_CLI_CLI_H
@@ -15,10 +15,10 @@ enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2, CLI_DIGITS 
 typedef struct cli_option {
     char letter;      /* 0: no short option */
     const char *name; /* an option table ends at a NULL name */
-    /* NULL for a flag. Otherwise the argument as --help shows it: its choices, "csv|json|npy", or a noun, where
-       "MEASURE,.." is a list. An option whose argument ends in "..." may be repeated; its values are joined, one per
-       line. The argument of a file to write has the endings that are accepted, "FILE.txt|.csv". The noun decides
-       which completions the completion scripts offer. */
+    /* NULL for a flag. Otherwise the text that --help shows for the argument: its choices ("csv|json|npy"), or a noun
+       ("FILE"), with ",.." behind it for a list ("MEASURE,.."). If the text ends in "...", the option may be
+       repeated; its values are joined, one per line. For a file to write the text has the endings that are accepted
+       ("FILE.txt|.csv"). The noun decides which completions the completion scripts offer. */
     const char *argument;
     const char *help;
 } cli_option;
@@ -40,9 +40,8 @@ struct cli_arguments {
     char **operands;
     /* values[i] of option i: "" for a flag that is set, NULL when the option is not given */
     const char *values[CLI_MAX_OPTIONS];
-    char *joined[CLI_MAX_OPTIONS]; /* owns the values of options that were repeated */
-    char **made;                   /* owns the operands of commands whose options -p and -n can add operands
-                                   (cli/source.c) */
+    char *joined[CLI_MAX_OPTIONS]; /* the joined values of repeated options, to be freed */
+    char **made;                   /* operands that the options -p and -n have added (cli/source.c), to be freed */
     int n_made;
 };
 
@@ -80,7 +79,7 @@ const cli_command *cli_command_find(const char *name);
     }
 
 /* cli_text returns the text of an option, or `fallback` when the option is not given; cli_flag returns whether a flag
-   is set. The option table must have the name. */
+   is set. The option table must contain an option of that name. */
 const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback);
 bool cli_flag(const cli_arguments *arguments, const char *name);
 
@@ -96,11 +95,11 @@ bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *
 bool cli_size(const cli_arguments *arguments, int *width, int *height);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
 
-/* Returns `text`: "did you mean 'NAME'? " with the name in a table that is closest to `word` (koksma_closest_name()),
-   or "" if no name is close. */
+/* Writes "did you mean 'NAME'? " to `text` and returns it. NAME is the name in a table that is closest to `word`
+   (koksma_closest_name()); if no name is close, the text is empty. */
 const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96]);
 
-/* The same for a word of a list as messages have it, such as "auto, always or never". */
+/* Like cli_meant, for a list of names as messages write it, such as "auto, always or never". */
 const char *cli_meant_of(const char *word, const char *list, char text[96]);
 
 /* The three functions below return the name of command, integrator or filter i, or NULL past the end, for
@@ -113,7 +112,7 @@ const char *cli_filter_name(const void *table, size_t i);
    characters. command: the NAME, or "" for a message of the program as a whole. */
 void cli_say(const char *command, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* Prints what is wrong with the command line, in the form of cli_say. Returns the exit code 2. */
+/* Prints a message about a mistake in the command line, as cli_say does. Returns the exit code 2. */
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Prints the library's error text on stderr. Returns the exit code of `status`. */
@@ -132,9 +131,9 @@ bool cli_list_item(const char *list, size_t i, char *item, size_t size);
 typedef struct cli_work {
     koksma_run run;      /* the caller passes &work.run to the library */
     const char *what;    /* the text before the progress bar; may be changed while running */
-    double begin, share; /* the progress of `run`, 0 to 1, is shown as begin to begin + share */
+    double begin, share; /* a progress p of `run`, 0 to 1, is shown as begin + share * p */
     double fraction;     /* the progress shown so far, 0 to 1; it never decreases */
-    double limit_s;      /* the work ends by this time after its start, perhaps earlier; 0: unknown */
+    double limit_s;      /* the work takes at most this number of seconds; 0: unknown */
     bool hidden;         /* show nothing */
     double started_s, updated_s;
 } cli_work;
@@ -144,29 +143,30 @@ typedef struct cli_work {
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
 /* Begins part i (0..) of n equal parts of the progress bar. */
 void cli_work_part(cli_work *work, size_t i, size_t n);
-/* Clears the progress line and shows no other, because the output that follows would mix with it on the terminal. */
+/* Clears the progress line and shows none from now on, because the output that follows would mix with it on the
+   terminal. */
 void cli_work_hide(cli_work *work);
 /* Clears the progress line if one is shown. Printing a message or a row clears it, too. */
 void cli_work_end(void);
 bool cli_interrupted(void);
 double cli_seconds(void);                                        /* the monotonic clock's time, as in started_s */
-const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* Returns `text`, such as "1 min 15 s". */
+const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* writes "1 min 15 s" or so to `text`; returns it */
 
 /* Prints that the interrupted study in `folder` can continue. folder is NULL in the MPI ranks above 0, which print
    nothing. Returns the exit code. */
 int cli_study_interrupted(const cli_arguments *arguments, const char *folder);
 
-/* Print what a study has no results for, a line each, unless --quiet: all lines of an open study, in MPI rank 0 alone; one
-   line. */
+/* cli_study_left_out prints the combinations without results of an open study (koksma_study_left_out_at), only in MPI
+   rank 0 and not with --quiet. cli_say_left_out prints one line of such a list. */
 void cli_study_left_out(const cli_arguments *arguments, const koksma_study *study);
 void cli_say_left_out(const char *line, size_t length);
 
-/* ---- Rows: aligned text, or a JSON object a line ------------------------------------------------------- */
+/* ---- Rows: aligned text, or one JSON object per line --------------------------------------------------- */
 
 typedef struct cli_rows cli_rows;
 
-/* Returns `text`: a number as all text output shows it, with as many significant digits as --digits says, but with
-   all digits before the decimal point; "-" for infinity and NaN. */
+/* Writes a number to `text` as all text output shows it, and returns `text`. The number has as many significant
+   digits as --digits says, but all digits before the decimal point; infinity and NaN are "-". */
 const char *cli_number(double value, char text[CLI_NUMBER]);
 void cli_set_style(int digits, bool all_columns); /* sets the values of --digits and --long */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma compare`: compares images with a reference. Prints means over the images of the size of the error, and the
-   coherence of the errors of all images. */
+/* `koksma compare`: compares images with a reference. Prints how large the errors are, as means over the images, and
+   the coherence of the errors of all images. */
 #include <math.h>
 #include <stdio.h>
 
@@ -97,7 +97,8 @@ static koksma_status write_difference(const char *path, const koksma_image *imag
     return status;
 }
 
-/* Prints an error. If two images could not be compared it names both, because either may be the wrong one. */
+/* Prints an error. If two images could not be compared, the message names both, because either may be the wrong
+   one. */
 static int fail(const cli_arguments *arguments, const comparison *c, const char *reference, koksma_status status)
 {
     if (!c->compared) {
@@ -174,7 +175,7 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'o', "output", "FILE{images}", "write an image of the absolute error (with one image)"},
+    {'o', "output", "FILE{images}", "write an image of the absolute error (only for a single image)"},
     {'m', "metric", "METRIC,..|all",
      "print further metrics, such as relmse, smape or hdr-flip ('koksma list metrics')"},
     {0, "max-mean", "E", "exit with code 1 if the mean absolute error is above E"},

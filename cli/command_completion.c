@@ -18,8 +18,8 @@ enum { ANSWER_SIZE = 2048 };
 
 /* The completions that a shell offers for an argument. */
 typedef struct answer {
-    char words[ANSWER_SIZE]; /* names, and calls of the script's function that prints the names of a table */
-    bool list, files;        /* list: the argument is a list with commas; files: file names, if no word fits */
+    char words[ANSWER_SIZE]; /* names, and calls of the script's function that prints the names in a table */
+    bool list, files;        /* list: the argument is a list with commas; files: offer file names if no word fits */
 } answer;
 
 static const char *command_name_at(size_t i)
@@ -88,7 +88,7 @@ static void add_noun(answer *a, const char *call, const char *text, size_t lengt
 static const char lower[] = "abcdefghijklmnopqrstuvwxyz0123456789-", upper[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 /* Adds what a shell may offer for the first word of `text`: alternatives with | between them, each a literal word or
-   a noun. call: how the script calls its function that prints the names of a table. */
+   a noun. call: the text with which the script calls its function that prints the names in a table. */
 static void add_answer(answer *a, const char *call, const char *text)
 {
     const char *end = text + strcspn(text, " \n");
@@ -169,7 +169,7 @@ static void put_options(const cli_command *command)
     fputs("-h --help", stdout);
 }
 
-/* Prints assignments in the common syntax of bash and zsh, which set list, files and words. */
+/* Prints assignments to the shell variables `list`, `files` and `words`, in the common syntax of bash and zsh. */
 static void put_answer(const answer *a)
 {
     printf("%s%swords=\"%s\";;\n", a->list ? "list=yes; " : "", a->files ? "files=yes; " : "", a->words);
@@ -330,11 +330,11 @@ static void put_fish(void)
     printf("# fish completion for koksma, made by `koksma completion fish`.\n"
            "function __koksma_names\n    koksma list $argv[1] 2>/dev/null | sed 1d | cut -d' ' -f1\n"
            "    koksma completion spec -- (commandline -ct) 2>/dev/null\nend\n"
-           "# The words after the last comma of a list; those behind a colon are whole.\n"
+           "# Puts the finished items of a list before each word; words with a colon contain them already.\n"
            "function __koksma_list\n    set -l done (string match -r '.*,' -- (commandline -ct))\n"
            "    for word in $argv\n        string match -q '*:*' -- $word; and echo $word; or echo \"$done\"$word\n  "
            "  end\nend\n"
-           "# The command is the first word, and one of the others was typed after it, if there are any.\n"
+           "# True if the command is the first word and, given further words, one of them was typed after it.\n"
            "function __koksma_in\n    set -l typed (commandline -opc)\n"
            "    test \"$typed[2]\" = $argv[1]; or return\n    test (count $argv) -eq 1; and return\n"
            "    set -e typed[1..2]\n    for word in $argv[2..-1]\n        contains -- $word $typed; and return\n"
@@ -382,7 +382,7 @@ static const koksma_param *params_of(const char *name)
 }
 
 /* Prints the completions of a word that ends in an unfinished spec, such as "-p a,sobol:scr": "NAME=" for each
-   parameter and modifier, or the choices of the parameter whose "NAME=" is there. After "pattern:" it prints the names of
+   parameter and modifier, or, after the "NAME=" of a parameter, its choices. After "pattern:" it prints the names of
    patterns. */
 static int put_specs(const char *word)
 {

@@ -37,7 +37,8 @@ static bool read_list(const cli_arguments *arguments, const char *option, size_t
     return true;
 }
 
-/* Takes pattern:SPEC as SPEC, as all commands do. Returns false, after an error, for SPEC@N: a sheet has many n. */
+/* Takes pattern:SPEC as SPEC, as all commands do. Returns false, after an error, for SPEC@N, because a datasheet
+   chooses the n. */
 static bool take_sampler(const cli_arguments *arguments, const char **text)
 {
     static const char prefix[] = "pattern:";
@@ -125,7 +126,7 @@ static const cli_option options[] = {
     {0, "scenes", "SCENE,..|none", "scenes to render (default: ball,checker,cornell)"},
     CLI_UNKNOWN_OPTION,
     {'m', "metric", "METRIC", "metric of the errors in scenes: mae (default), relmse, ldr-flip, ..."},
-    {0, "quick", NULL, "use fewer sets, sizes and images; takes less than a minute"},
+    {0, "quick", NULL, "use fewer sets, numbers of points and images; takes less than a minute"},
     {0, "json", NULL, "print the data on stdout instead of writing a page"},
     CLI_RUN_OPTIONS,
     {0},
@@ -145,7 +146,7 @@ const cli_command cli_command_datasheet = {
         "\n"
         "A name with {n} and {seed} stands for many files: my_256_3.npy has the 256 points of seed 3. The command "
         "measures all sizes n for which files exist, with consecutive seeds from the smallest one. It renders scenes "
-        "with as many samples per pixel as a size has points, such as 16; each pixel and use then takes one of the "
+        "with as many samples per pixel as a file has points, such as 16; each pixel and use then takes one of the "
         "files of that size at random. --beside accepts such names, too. FILE is a single set of points.\n"
         "\n"
         "The numbers of sets and images are fixed, so that equal sets give equal results. There are 16 sets of each "

@@ -232,8 +232,8 @@ static int put_share(job *j, const koksma_integral *integral, const char *name, 
 }
 
 /* Prints the error of integrating the component of these coordinates over the largest sets of a series, and the
-   component's part of `square`, the mean squared error. Components are known for products of functions of one
-   coordinate; for other integrands nothing is printed. Returns the exit code. */
+   square of this error divided by `square`, the mean squared error of the integrand itself. Components are known for
+   products of functions of one coordinate; for other integrands nothing is printed. Returns the exit code. */
 static int put_component(job *j, const koksma_integral *integral, const char *name, series *s, double square,
                          const int *axes, size_t n_axes)
 {
@@ -461,8 +461,8 @@ const cli_command cli_command_integrate = {
         "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % interval. "
         "With a single set, which is all that deterministic patterns have, it is the absolute error. gain is the "
         "variance with random "
-        "points divided by the mean squared error: the factor by which more random points would be needed for the "
-        "same error. Three\n"
+        "points divided by the mean squared error: how many times as many random points would be needed for the same "
+        "error. Three\n"
         "sizes or more give the slope of log rmse against log n with its interval.\n"
         "\n"
         "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], which is a "

@@ -107,7 +107,7 @@ static const char *scene_title(const char *name)
     return title;
 }
 
-/* Returns what a pattern takes from the text after the colon of its spec, which may be the path of a file. */
+/* Returns what a pattern takes from the text after the colon of its spec, or from the file that this text names. */
 static const char *reads(const koksma_pattern *p)
 {
     return !p->operand                  ? "-"
@@ -175,7 +175,7 @@ LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, x.t
 LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, x.title, (void)x)
 LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, x.title, (void)x)
 
-/* The macro LIST cannot define the functions below; plans, for example, have no descriptions. */
+/* The macro LIST does not fit the tables of the functions below: plans, for example, have no descriptions. */
 static void list_plans(cli_rows *rows)
 {
     for (size_t i = 0; koksma_plan_name_at(i); i++) {
@@ -345,9 +345,9 @@ const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
     .synopsis = "[{lists}] [--json]",
-    .details = "uses: a use is a purpose of sample dimensions, such as the position on the lens. 'koksma render -p "
-               "USE=PATTERN' gives one use its own pattern; '-p USE+USE=PATTERN' gives several uses one pattern with "
-               "the dimensions of all of them.",
+    .details = "uses: a use is a purpose for which a sample needs one or two dimensions, such as the position on the "
+               "lens. 'koksma render -p USE=PATTERN' gives one use its own pattern; '-p USE+USE=PATTERN' gives "
+               "several uses one pattern with the dimensions of all of them.",
     .examples = "koksma list patterns\n"
                 "koksma list scenes --json\n",
     .options = options,

@@ -184,7 +184,7 @@ static bool parse_prefixes(measuring *j)
     const char *sizes = cli_text(j->arguments, "sizes", NULL), *prefixes = cli_text(j->arguments, "prefixes", NULL),
                *text = sizes ? sizes : prefixes, *option = sizes ? "sizes" : "prefixes";
     if (sizes && prefixes) {
-        cli_usage_error(j->arguments, "--sizes and --prefixes: it takes one of them");
+        cli_usage_error(j->arguments, "--sizes and --prefixes exclude each other");
         return false;
     }
     j->own_sets = sizes;
@@ -382,8 +382,8 @@ const cli_command cli_command_measure = {
         "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row whose time "
         "ran out has proven bounds, lower and upper. Rows of trials, differences and slopes count how many of\n"
         "their values are exact. --time-limit has no effect on other measures and on extreme:grid.\n"
-        "disk also stops after 2^28 point tests (lattices of hundreds of points, other sets of thousands); it then\n"
-        "reports bounds and warns.\n",
+        "disk also stops after 2^28 point tests, which lattices of hundreds of points and other sets of thousands\n"
+        "exceed; it then reports bounds and warns.\n",
     .examples = "koksma measure points.txt -m star,l2-star,extreme\n"
                 "koksma measure pattern:random@64 pattern:jittered@64 -m l2-star --trials 100\n"
                 "koksma measure --prefixes powers pattern:sobol@4096\n"

@@ -19,7 +19,7 @@ typedef struct job {
     const koksma_spec *measure;
     cli_work work;
     koksma_optimise_options options;
-    koksma_status written; /* the result of the last write */
+    koksma_status written; /* status of the last write of the set */
     uint64_t last_gain;
     double gained_s;
     uint64_t projections[MOST_PROJECTIONS];
@@ -102,7 +102,8 @@ static int first_set(job *j, bool counted, koksma_points *from)
             return cli_usage_error(j->arguments, "-n N, the number of points, is missing");
         }
         if (source.n && ((counted && source.n != j->options.n) || (dim_given && source.dim != j->options.dim))) {
-            return cli_usage_error(j->arguments, "--from %s: it differs from -n or -d", text);
+            return cli_usage_error(j->arguments,
+                                   "--from %s: its number of points or dimensions differs from -n or -d", text);
         }
         j->options.n = source.n ? source.n : j->options.n;
         j->options.dim = source.n ? source.dim : j->options.dim;
@@ -342,7 +343,8 @@ const cli_command cli_command_optimise = {
         "sqrt(n), and a power. The search starts from gaussian-blue-noise.\n"
         "\n"
         "--scene SCENE renders. With --scene the candidates are sets of low L2 discrepancy and their shifts. The "
-        "weights of the projections on x, on y and on the plane come from the scene. The confidence intervals of "
+        "weights of the discrepancies in x, in y and in the plane are estimated from images of the scene. The "
+        "confidence intervals of "
         "koksma rank eliminate candidates;\n"
         "the best one is compared with the listed patterns (--against) in SCENE and in the held-out scenes.\n"
         "gain: 1 - (error of the set / error of the best listed pattern), with a 95 % interval in each scene.\n"

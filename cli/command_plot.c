@@ -7,8 +7,8 @@
 #include "source.h"
 #include "warps.h"
 
-/* Returns the number of sets that every source must have. The number is 1 if the curve may compare a file, which is
-   one set, with means over the sets of a pattern. */
+/* Returns the number of sets that every source must provide. The number is 1 if the picture may show a file, which is
+   one set, beside means over several sets of a pattern. */
 static uint64_t trials_of_all(const cli_curves *c)
 {
     const cli_arguments *arguments = c->arguments;
@@ -48,8 +48,8 @@ static int run(const cli_arguments *arguments)
     const bool compare = cli_flag(arguments, "compare");
     const char *name = cli_text(arguments, "curve", compare ? cli_curve_compare.name : cli_curve_points.name);
     if (compare && strcmp(name, cli_curve_compare.name) != 0) {
-        return cli_usage_error(arguments, "--compare excludes --curve %s, because it draws a fixed set of charts",
-                               name);
+        return cli_usage_error(arguments,
+                               "--compare excludes --curve %s, because --compare draws a fixed set of charts", name);
     }
     if (arguments->n_operands < 1 || !cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments, "it takes points and a picture, as in points.txt -o points.svg");

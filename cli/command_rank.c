@@ -178,7 +178,8 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_end(rows);
 }
 
-/* Why a pattern is not ranked, without the pattern's name, with which most reasons begin: the message has it. */
+/* Returns the reason why a pattern is not ranked. Most reasons begin with the pattern's name, which is left out,
+   because the message lists the names. */
 static const char *reason_of(const koksma_rank_options *options, const koksma_rank_row *row)
 {
     const char *name = options->patterns[row->pattern];
@@ -187,7 +188,8 @@ static const char *reason_of(const koksma_rank_options *options, const koksma_ra
     return row->reason + (repeats ? length + 2 : 0);
 }
 
-/* Whether two patterns are not ranked for the same reason. Of slow ones the reasons differ in numbers of trials. */
+/* Returns whether two patterns are not ranked for the same reason. All slow patterns count as equal, although their
+   texts differ in the numbers of trials. */
 static bool same_reason(const koksma_rank_options *options, const koksma_rank_row *a, const koksma_rank_row *b)
 {
     return a->state == b->state &&
@@ -200,7 +202,7 @@ static void say_unranked(const koksma_rank_options *options, const koksma_rank_r
 {
     bool said[MAX_PATTERNS] = {false};
     for (size_t i = ranking->n; i < options->n_patterns; i++) {
-        /* if no pattern was ranked, the advice has said that the time was too short; here only refusals are printed */
+        /* if no pattern is ranked, the advice already says that the time was too short; print only other reasons */
         if (said[i] || (!ranking->n && table[i].state != KOKSMA_RANK_REFUSED)) {
             continue;
         }
@@ -382,8 +384,8 @@ const cli_command cli_command_rank = {
                 "[--reference PATTERN]] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the error of the image: the\n"
-        "mean over the images of --metric, by default the mean absolute error in luminance. Patterns are compared "
-        "with their modifiers, such as random shifts.\n"
+        "mean over the images of --metric, by default the mean absolute error in luminance. Each pattern is used "
+        "with the modifiers in its spec, such as shift=1.\n"
         "\n"
         "The sequence of work depends on the command line, not on the machine. It begins with rounds of 8, 16, 32,\n"
         "... trials until the best pattern, and the best pattern without bands, are decided. Then such rounds are\n"
@@ -411,7 +413,8 @@ const cli_command cli_command_rank = {
         "If the 0.1 % of the pixels with the largest error have at least half of the total error (top_share in "
         "--json), a warning tells that few pixels decide the order. 'robust' is the error without them. Each image "
         "is compared "
-        "17 times: with the reference, which is the mean of 16 images, and with the mean without each of these. At "
+        "17 times: with the reference, which is the mean of 16 images, and with the 16 means that leave out one of "
+        "these images. At "
         "160 "
         "x 120 pixels this takes 0.7 s for hdr-flip and a millisecond for mae.\n"
         "\n"
@@ -426,10 +429,9 @@ const cli_command cli_command_rank = {
         "mean\n"
         "of 16 images of 16 times as many samples by the sampler --reference, which must be unbiased and depend on "
         "the seed. Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of\n"
-        "Koksma in a scene of Mitsuba, by the Python package, which the interpreter KOKSMA_PYTHON (an environment\n"
-        "variable; default: python3) must have beside Mitsuba. It starts Mitsuba for every image and takes seconds "
-        "for\n"
-        "each; koksma.mitsuba.rank in Python starts it once.\n"
+        "Koksma in a scene of Mitsuba. It needs a Python interpreter in which koksma and mitsuba are installed\n"
+        "(environment variable KOKSMA_PYTHON; default: python3). It starts Mitsuba for every image and takes\n"
+        "seconds for each; koksma.mitsuba.rank in Python starts it once.\n"
         "\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least\n"
         "one.\n",

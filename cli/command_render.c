@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * `koksma render`: renders a scene into an image file and prints one row with the options, the number of rays and the
- * time. --aov adds layers to an EXR file, or files beside one of another format. Before it starts it computes how much
- * memory the image takes, and refuses an image that takes more than the machine has. When it is interrupted it writes
- * the image with the pixels that are done.
+ * time. --aov adds layers to an EXR file, or writes further files beside an image of another format. Before it starts
+ * it computes how much memory the image takes, and refuses an image that takes more than the machine has. When it is
+ * interrupted it writes the image with the pixels that are done.
  */
 #include <stdio.h>
 #include <string.h>
@@ -77,7 +77,7 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
     }
 }
 
-/* Makes the name of an AOV in files: with '-' for ':'. */
+/* Writes the name that an AOV has in files, with '-' instead of ':'. */
 static void name_layer(const char *aov, char out[16])
 {
     snprintf(out, 16, "%s", aov);
@@ -263,7 +263,7 @@ static const cli_option options[] = {
     {0, "sky", "L",
      "light of this radiance from all directions; replaces the sky of the scene or the default lights of a mesh "
      "file"},
-    {0, "environment", "FILE", "light from an image in latitude and longitude, times --sky"},
+    {0, "environment", "FILE", "light from an environment map in latitude and longitude, multiplied by --sky"},
     {0, "aov", "LIST",
      "further layers: direct, indirect, bounce:N, id, half; in the .exr, or in files such as IMAGE.direct.png"},
     {'o', "output", "FILE", "the image file, {image-formats}; an .exr has all layers"},
@@ -285,7 +285,8 @@ const cli_command cli_command_render = {
         ".ply.gz, .off, .gltf, .glb, .serialized), or a scene of pbrt-v4 (.pbrt) or\n"
         "Mitsuba 3 (.xml).\n"
         "\n"
-        "A use is a purpose of sample dimensions, such as the position on the lens; see 'koksma list uses'. Each use "
+        "A use is a purpose for which a sample needs one or two dimensions, such as the position on the lens; see "
+        "'koksma list uses'. Each use "
         "has its\n"
         "own point set in every pixel. --pairing combines them: 'shuffled' by random permutations, 'aligned' in the\n"
         "order of the pattern, 'native' as one set with all dimensions. Uses joined by '+' (pixel+time=scan-time)\n"

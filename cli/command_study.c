@@ -275,7 +275,7 @@ static int export_rows(const cli_arguments *arguments)
     format = formats[format] ? format : 0;
     koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
     char *left_out = NULL;
-    if (!status && !cli_flag(arguments, "quiet")) { /* rows that are missing in the export */
+    if (!status && !cli_flag(arguments, "quiet")) { /* report what the export lacks */
         status = koksma_study_left_out(arguments->operands[1], &left_out);
     }
     for (const char *line = left_out; line && *line; line += strcspn(line, "\n") + 1) {
@@ -396,7 +396,7 @@ static int audit(const cli_arguments *arguments)
 
 /* ---- images -------------------------------------------------------------------------------------------- */
 
-/* Warns that a template has no {trial}, and names a place that may be a misspelling of it. */
+/* Warns that a template has no {trial}, and names a placeholder that may be a misspelling of it. */
 static void say_no_trial(const char *places)
 {
     char name[32], meant[96];
@@ -530,13 +530,13 @@ static const cli_option options[] = {
     {0, "trials", "T", "run, quick, estimate: number of trials, instead of the numbers in the plan"},
     {0, "quick", NULL, "run, quick, estimate: use the 'quick' number of trials of each block"},
     {0, "time-limit", "S",
-     "run: stop after S seconds, with exit code 1 if jobs remain; estimate: time for sample jobs (5)"},
+     "run: stop after S seconds, with exit code 1 if jobs remain; estimate: time for sample jobs (default: 5)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
     {'s', "seed", "SEED", "audit: seed of the random draw (default: 1)"},
     {0, "reference", "FILE", "images: the reference image"},
     {0, "metric", "METRIC,..",
-     "quick, images: metric of the error that ranks: mae (default), relmse, hdr-flip, ...; quick: further ones to "
-     "measure"},
+     "quick, images: metric of the error that ranks: mae (default), relmse, hdr-flip, ...; quick: also further "
+     "metrics to measure"},
     {0, "format", "csv|json|npy|sha256", "export: the format (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -561,13 +561,13 @@ const cli_command cli_command_study = {
         "continues when it is\n"
         "started again. If a pattern fails for some trials, the summary, the report and 'export' list them with the "
         "reason, and "
-        "all others are made. The exit code is then 2, or 0 if the block of the plan has \"skip\": true.\n"
+        "all other trials are done. The exit code is then 2, or 0 if the block of the plan has \"skip\": true.\n"
         "quick: writes DIR/plan.json from the options and runs it. Numbers of points that a pattern does not accept "
         "are left out and listed. A pattern file:PATH is a file of points.\n"
         "Images are always compared by mae, rmse, relmse and smape; --metric names the one that ranks the patterns, "
         "and\n"
-        "further ones, such as ldr-flip, which takes longer than many renders. In a plan they are 'metric' and "
-        "'metrics'.\n"
+        "further ones, such as ldr-flip, which takes longer than many renders. In a plan these are the fields "
+        "'metric' and 'metrics'.\n"
         "new: writes an example plan; it overwrites no file.\n"
         "estimate: times some jobs and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"

@@ -90,9 +90,9 @@ static bool disappoints(const char *list, const char *source, const koksma_point
     return false;
 }
 
-/* --record: prints the exact value of a measure for the points, and the best known value for as many points in as
-   many dimensions, that of the set that the pattern `record` stores. *is_record: the points have a lower value, or no
-   such set is known. Returns the exit code. */
+/* --record: prints the exact value of a measure for the points, and the best known value for this number of points
+   and dimensions, which is the value of the set that the pattern `record` stores. *is_record: the points have a lower
+   value, or no such set is known. Returns the exit code. */
 static int put_record(const cli_arguments *arguments, cli_rows *rows, const char *source, const koksma_points *points,
                       const koksma_run *run, bool *is_record)
 {
@@ -117,7 +117,7 @@ static int put_record(const cli_arguments *arguments, cli_rows *rows, const char
         return cli_fail(arguments, status);
     }
     /* The stored coordinates of the known sets are rounded, so the same set with unrounded coordinates can have a
-       slightly lower value. A record must be lower by more than that. */
+       slightly lower value. The value of a record must be lower by more than this difference. */
     *is_record = !here || value.value < here->value - 1e-11;
     cli_row_text(rows, "source", source);
     cli_row_whole(rows, "n", points->n);

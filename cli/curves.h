@@ -42,8 +42,8 @@ struct cli_curve {
     const char *name;
     const char *meaning; /* a description for --help */
     const char *cite;    /* the source in the literature: keys of docs/references.bib, or "-" */
-    /* Passes the rows of a source to the sink. Returns the exit code. After an interruption the rows show the sets
-       that were complete. */
+    /* Passes the rows of a source to the sink. Returns the exit code. After an interruption the rows cover the
+       completed sets. */
     int (*compute)(cli_curves *c, const char *source, cli_sink *sink);
     const char *columns[CLI_CURVE_COLUMNS + 1]; /* keys of the numbers in a row, ended by NULL */
     struct {
@@ -60,7 +60,7 @@ struct cli_curve {
         int (*draw)(cli_curves *c);
         const char *title;             /* heading of a chart, unless --title gives another */
         const char *x_label, *y_label; /* labels of a chart's axes; x_per_root: x is divided by sqrt(n) */
-        int y, error;                  /* columns of y and of its error; error 0: there are no error bars */
+        int y, error;                  /* indices of the columns of y and of its error; error 0: no error bars */
         bool x_per_root;
         double (*level)(const cli_curves *c); /* the value that random points have, drawn as a dashed line */
         bool of_filters;                      /* the operands are names of pixel filters */
@@ -81,8 +81,8 @@ typedef enum cli_curve_list { CLI_PRINTED, CLI_DRAWN } cli_curve_list;
 const cli_curve *cli_curve_at(size_t i);
 const cli_curve *cli_curve_find(cli_curve_list list, const char *name);
 
-/* Returns `text`: the names of the curves in a list, either all (option NULL) or those that take an option, with
-   `comma` between them and `last` before the last one. */
+/* Writes the names of the curves in a list to `text` and returns it: all curves if `option` is NULL, otherwise those
+   that take this option. `comma` is put between the names, and `last` before the last one. */
 const char *cli_curve_names(cli_curve_list list, const char *option, const char *comma, const char *last, char *text,
                             size_t size);
 

@@ -249,7 +249,7 @@ static void tally_value(measuring *j, const koksma_value *value, size_t at, uint
     }
 }
 
-/* The values of one trial: for each measure a value by prefix, and whether all of these are exact. */
+/* The values of one trial: for each measure its value at each prefix, and whether all these values are exact. */
 typedef struct trial_values {
     double values[MAX_MEASURES][MAX_PREFIXES];
     bool whole[MAX_MEASURES];

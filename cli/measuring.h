@@ -16,8 +16,8 @@ typedef struct measuring {
     koksma_spec measures[MAX_MEASURES];
     size_t n_measures;
     bool all;        /* -m all: leave out measures that do not accept a set */
-    bool by_default; /* no -m: the same, with a note on stderr */
-    char note[512];  /* the last such note, which is not repeated */
+    bool by_default; /* no -m: leave out such measures, with a note on stderr */
+    char note[512];  /* the last such note; it is not printed twice in a row */
     uint64_t seed, trials;
     const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the warp that is being measured, or NULL */
     size_t n_warps;

@@ -23,7 +23,7 @@ typedef struct scene_job {
     koksma_scene_optimum best;
 } scene_job;
 
-/* Writes the set, at first the first candidate, in case the search is interrupted before one is chosen. */
+/* Writes the set: at first the first candidate, in case the search is interrupted, and later the chosen one. */
 static koksma_status write_set(void *context, const koksma_scene_optimum *best)
 {
     const scene_job *j = context;
@@ -35,7 +35,7 @@ static koksma_status write_set(void *context, const koksma_scene_optimum *best)
     return koksma_points_write(cli_text(j->arguments, "output", NULL), &best->points, comment, NULL);
 }
 
-/* Prints a row; g->trials is 0 in that of the mean over the held-out scenes. */
+/* Prints the row of one scene or, if g->trials is 0, of the mean over the held-out scenes. */
 static void put_gain(const scene_job *j, cli_rows *rows, const koksma_scene_gain *g, const char *role)
 {
     const bool scene = g->trials > 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `koksma optimise --scene`: a point set for the error of one scene's image (optimise_scene.c). */
+/* `koksma optimise --scene`: searches for a point set that renders one scene with little error (optimise_scene.c). */
 #ifndef KOKSMA_CLI_OPTIMISE_SCENE_H
 #define KOKSMA_CLI_OPTIMISE_SCENE_H
 

@@ -419,9 +419,9 @@ static bool is_use(const char *name, size_t length)
 
 /* Returns the end of the list item that starts at s. Commas separate the items, but they also separate the parameters
    of one spec: "a:x=1,y=2,b" has the items "a:x=1,y=2" and "b". A comma separates parameters if a ':' is before it in
-   the item and a parameter's "key=" follows. Otherwise it ends the item; in particular, three things that may follow
-   are no parameter: a spec with parameters of its own, "b:x=1", because its ':' comes before its '='; patterns joined
-   by '+' or ';', if that comes before any '='; and "USE=PATTERN", because no parameter has the name of a use. */
+   the item and a parameter's "key=" follows. Otherwise it ends the item. So it ends the item before a spec with
+   parameters of its own, "b:x=1", in which the ':' comes before the '='; before patterns joined by '+' or ';', if
+   that comes before any '='; and before "USE=PATTERN", because no parameter has the name of a use. */
 static const char *item_end(const char *s)
 {
     bool has_parameters = false;

@@ -10,7 +10,7 @@
 /* cli_print_overview prints a line for each command, as `koksma --help` does. cli_print_help prints the help of one
    command on stdout. */
 void cli_print_overview(FILE *stream);
-extern const char cli_overview_examples[]; /* command lines, one per line: the five of README */
+extern const char cli_overview_examples[]; /* command lines, one per line: the five examples of README.md */
 void cli_print_help(const cli_command *command);
 
 /* Parses argv (argv[0] is the command's name) by the command's option table and runs the command. --help and -h print

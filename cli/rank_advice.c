@@ -34,8 +34,8 @@ static const char *in_bands(const koksma_rank_row *row)
     return row->coherence.coherent ? " (in bands)" : "";
 }
 
-/* Prints a list "a", "a and b (in bands)" or "a, b and c" of the patterns at `position` or, if this is 0, of the
-   patterns with the decision. */
+/* Prints the names of the patterns at `position` or, if it is 0, of the patterns with this decision, as a list such
+   as "a", "a and b (in bands)" or "a, b and c". */
 static void print_patterns(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n,
                            koksma_rank_decision decision, size_t position)
 {
@@ -95,8 +95,8 @@ static bool saves_in_bands(const koksma_rank_row *row, const koksma_rank_row *be
     return row->coherence.coherent && row->mean < best->mean;
 }
 
-/* Prints which patterns leave less error than row `best`, but in bands: how much error the first of them saves, and
-   the names of the others. */
+/* Prints which patterns leave less error than row `best`, but in visible bands: how much error the first of these
+   patterns saves, and the names of the others. */
 static void advise_against(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n, size_t best)
 {
     size_t count = 0, done = 0;
@@ -125,7 +125,7 @@ static void advise_against(const koksma_rank_options *options, const koksma_rank
     }
 }
 
-/* Prints the next and the last pattern that leave more error than row `best`. */
+/* Prints how much more error than row `best` two patterns leave: the next worse pattern, and the last. */
 static void advise_behind(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n, size_t best)
 {
     size_t next = best + 1;
@@ -171,7 +171,7 @@ static void advise_best(const koksma_rank_options *options, const koksma_rank_ro
     } else if (ranking->advised) {
         fprintf(stderr, "use %s", name);
     } else {
-        fprintf(stderr, "undecided which pattern without bands leaves the least error, %s so far", name);
+        fprintf(stderr, "undecided which pattern without bands leaves the least error; so far it is %s", name);
     }
     for (size_t i = 1; best == 0 && i < ranking->n; i++) {
         if (rows[i].decision == KOKSMA_RANK_EQUAL) {
@@ -225,8 +225,8 @@ static void advise_undecided(const koksma_rank_options *options, const koksma_ra
     fprintf(stderr, " would %s", ranking->n_slow ? "rank them" : "decide it");
 }
 
-/* Prints which pattern leaves the least error at another size, with or without bands, unless the line of advice says
-   so. */
+/* Prints which pattern leaves the least error at another size, with or without bands, if that is not the pattern of
+   row 0. Prints that it is undecided, unless the advice has said so. */
 static void advise_first(const koksma_rank_options *options, const koksma_rank_row *rows,
                          const koksma_rank_check *check)
 {

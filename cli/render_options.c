@@ -145,7 +145,7 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
         for (int i = 0; i < group->n_uses; i++) {
             if (!koksma_use_is_spent(scene, options, (size_t)group->uses[i])) {
                 cli_say(arguments->command->name,
-                        "%s: warning: this scene needs no samples for %s; its coordinates of %s have no effect", name,
+                        "%s: warning: this scene needs no samples for %s; its coordinates in %s have no effect", name,
                         koksma_use_at((size_t)group->uses[i])->name, text);
             }
         }

@@ -20,8 +20,7 @@
         {0, "scope", "pixel|image", "what one point set covers (default: pixel)"},                                   \
         {0, "lights", "all|one|power|uniform|auto",                                                                  \
          "lights that get a shadow ray: all, or one chosen by its estimated contribution (one), by its power, or "   \
-         "uniformly; auto: one for path with "                                                                       \
-         "more than 8 lights, else all (default: auto)"},                                                            \
+         "uniformly; auto: one with an integrator such as path and more than 8 lights, else all (default: auto)"},   \
         CLI_INTEGRATOR_OPTION, {0, "depth", "D", "the most bounces (default: the integrator's)"}, CLI_FILTER_OPTION, \
     {                                                                                                                \
         0, "splat", NULL,                                                                                            \

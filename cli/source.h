@@ -44,7 +44,7 @@ typedef struct cli_source {
 /* Parses an operand without reading its file. Returns the exit code, which is not 0 after an error on stderr. */
 int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source);
 
-/* Parses "[pattern:]SPEC[@N[@DIM]]", which is never taken for the name of a file. n and dim are 0 where the text does
+/* Parses "[pattern:]SPEC[@N[@DIM]]", which is never taken for the name of a file. n and dim are 0 if the text does
    not give them. Returns the exit code, which is not 0 after an error on stderr. */
 int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_source *source);
 

@@ -23,7 +23,7 @@
 
 static const char default_patterns[] = "random,jittered,n-rooks,sobol:scramble=owen";
 
-/* Prints at most `count` characters of a text as those of a JSON string. */
+/* Prints at most `count` characters of a text, escaped for a JSON string. */
 static void put_characters(FILE *out, const char *text, size_t count)
 {
     for (; *text && count > 0; text++, count--) {

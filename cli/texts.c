@@ -4,8 +4,8 @@
  * command may contain a placeholder in braces. cli_expand replaces it by names, so that a new member of a table
  * appears in help, completion and manual pages:
  *
- *     {curve}, {chart}                     power|rings|...: the curves that are printed, and those that are drawn
- *     {curve:OPTION}, {chart:OPTION}       power, rings, ...: those that take an option
+ *     {curve}, {chart}                     power|rings|...: the curves of `koksma curve`, and those of `plot`
+ *     {curve:OPTION}, {chart:OPTION}       power, rings, ...: those of them that take OPTION
  *     {curve-meanings}, {chart-meanings}   a paragraph for each of these curves
  *     {property-meanings}                  a paragraph for each property of `verify`
  *     {image-formats}, {images}            .exr, .png, .pfm or .jpg; .exr|.png|.pfm|.jpg

@@ -9,11 +9,12 @@
    calls for the same i return the same pointer. */
 const cli_command *cli_expand(const cli_command *command, size_t i);
 
-/* Returns `text`: the endings of image files, with `comma` between them and `last` before the last one, such as
-   ".exr, .png, .pfm or .jpg". */
+/* Writes the endings of image files to `text` and returns it, such as ".exr, .png, .pfm or .jpg". `comma` is put
+   between the endings, and `last` before the last one. */
 const char *cli_image_formats(const char *comma, const char *last, char *text, size_t size);
 
-/* Returns `text`: the names of the tables that `koksma list` prints (command_list.c), with `comma` between them. */
+/* Writes the names of the tables that `koksma list` prints (command_list.c) to `text`, with `comma` between them, and
+   returns `text`. */
 const char *cli_list_names(const char *comma, char *text, size_t size);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The option --warp: maps from the square onto a domain, by name. */
+/* The option --warp: finds a map of the unit square by its name, and maps points. */
 #ifndef KOKSMA_CLI_WARPS_H
 #define KOKSMA_CLI_WARPS_H
 

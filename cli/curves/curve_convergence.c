@@ -16,7 +16,7 @@
 
 enum { MAX_SIZES = KOKSMA_MAX_SIZES, PER_SOURCE = 3 };
 
-/* Returns whether a source has a set of n points. A file has prefixes of all sizes. */
+/* Returns whether a source has a set of n points. A file is taken to have one, its first n points. */
 static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
 {
     koksma_points points = {0};
@@ -117,8 +117,8 @@ static void push_slopes(cli_chart_store *s, const koksma_line *line, double theo
     s->curves[s->n - 1].errors = NULL;
 }
 
-/* Appends the fitted slope of a source to its label in the legend, with the standard error over the trials or, for
-   one set, that of the residuals. */
+/* Appends the fitted slope of a source to its label in the legend, with its standard error, which comes from the
+   trials or, for one set, from the residuals. */
 static void label_slope(char *label, const means *v, const koksma_line *line)
 {
     const size_t used = strlen(label);

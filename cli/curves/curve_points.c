@@ -75,7 +75,7 @@ static int add_points(cli_curves *c, const char *source, koksma_points *points, 
         panel->scatter.witness = &value->witness;
         panel->caption = caption;
         if (value->witness.kind == KOKSMA_WITNESS_NONE && !cli_flag(c->arguments, "quiet")) {
-            cli_say(c->arguments->command->name, "%s has no witness for %s: the picture shows only its value",
+            cli_say(c->arguments->command->name, "%s has no witness for %s: the picture shows only the value",
                     c->witness, source);
         }
     }

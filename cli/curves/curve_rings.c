@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * rings, and the charts of its columns: radial, the mean power over |k|, and anisotropy, the variance of the power
- * along a ring divided by the square of its mean, in dB (Ulichney 1987). For random points the mean power of T sets
- * has relative variance 1/T, so that the anisotropy is -10 log10 T.
+ * rings: statistics of the power over rings of equal |k|, and two charts of them against |k|: radial draws the mean
+ * power, anisotropy the variance of the power along a ring divided by the square of its mean, in dB (Ulichney 1987).
+ * For random points the mean power of T sets has relative variance 1/T, so that the anisotropy is -10 log10 T.
  */
 #include <math.h>
 #include <stdlib.h>

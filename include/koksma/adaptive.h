@@ -39,21 +39,22 @@ enum { KOKSMA_MAX_SPACES = 16 };
 /* The strata of one pixel in the unit square of one sample dimension pair, such as the lens. */
 typedef struct koksma_space {
     char name[48];          /* the purpose of the dimension pair: "pixel", "light 2", "lobe, vertex 2" */
-    size_t n, n_splits;     /* numbers of strata and of splits. All spaces of a pixel have equal numbers, and their
-                               lists have the same order */
-    koksma_stratum *strata; /* array of n; the values are luminances. If a stratum was split only in other spaces,
-                               each of its parts is listed here with the unsplit cell and with the mean value of all
-                               parts */
-    koksma_split *splits;   /* array of n_splits, the coarsest first; empty without probes. With the parameter
-                            reuse=fresh a listed cell is that of the samples that caused the split */
+    size_t n, n_splits;     /* numbers of strata and of splits, equal in all spaces of a pixel; entry i of the lists
+                               is the same stratum or split in every space */
+    koksma_stratum *strata; /* array of n; the values are luminances. If a stratum was split in other spaces but not
+                               in this one, each of its parts is listed here with the cell and the mean value of the
+                               whole stratum */
+    koksma_split *splits;   /* array of n_splits, the coarsest first; empty if options->probes is 0. With the
+                               parameter reuse=fresh the listed cells are those of the samples that caused the
+                               splits */
 } koksma_space;
 
 /* The subdivision of one pixel, which koksma_plot_strata draws. */
 typedef struct koksma_strata {
     int x, y;             /* input: coordinates of the pixel */
-    size_t n_spaces;      /* output: number of spaces. Spaces whose cells overlap are left out: one-dimensional spaces
-                             with aligned strata */
-    koksma_space *spaces; /* output: the spaces. The first is the one in which neighbouring strata were compared */
+    size_t n_spaces;      /* output: number of spaces. One-dimensional spaces with aligned strata are left out,
+                             because their cells overlap */
+    koksma_space *spaces; /* output: the spaces. spaces[0] is the one in which neighbouring strata were compared */
 } koksma_strata;
 
 /* Frees the spaces and zeroes the struct. strata may be NULL, or zeroed. */
@@ -66,10 +67,9 @@ typedef struct koksma_adaptive_options {
     double budget;                    /* largest number of samples per pixel, averaged over the image; 0: no
                                          limit */
     int probes; /* number of extra samples in each stratum that is split, 0 to KOKSMA_MAX_PROBES. Probes test
-                   whether the split was needed and do not enter the image. Only methods with own_samples accept
-                   probes */
-    koksma_strata *strata; /* receives the strata of one pixel; may be NULL. Only methods with own_samples accept
-                              it */
+                   whether the split was needed and do not enter the image. Must be 0 unless method->own_samples is
+                   true */
+    koksma_strata *strata; /* receives the strata of one pixel. Must be NULL unless method->own_samples is true */
     koksma_aovs *aovs; /* receives further images, as koksma_render_aovs allocates them (the caller must free them,
                               also after an error); may be NULL */
 } koksma_adaptive_options;
@@ -90,17 +90,18 @@ typedef struct koksma_adaptive_report {
     uint64_t first;    /* samples of all pixels in the first round */
     uint64_t rounds;   /* number of rounds after the first */
     uint64_t splits;   /* number of strata that were split */
-    uint64_t needless; /* number of splits that were not needed: the values of the sample and of all probes differed
-                          by less than the threshold */
+    uint64_t needless; /* number of splits that were not needed, because the values of the sample and of all probes
+                          differed by less than the method's threshold */
 } koksma_adaptive_report;
 
 /* Renders a scene with adaptive sampling; allocates out, which koksma_layers_fini frees.
      options  as for koksma_render_layers; spp is the number of samples of the first round
      out      `samples` has the number of samples of each pixel; `variance` estimates the variance of the pixel's
               luminance as if its samples were independent; albedo, normal, depth and the AOV "id" come from the
-              first round. The AOVs of light weigh the samples as the image does, and add up to it; "half:even" and
-              "half:odd" are the means of every second sample that enters the image, or of every second stratum. With
-              AOVs all scenes take the same pipeline, whose rounding may change a decision of the method
+              first round. The AOVs of parts of the light ("direct", "bounce:1" and so on) use the sample weights of
+              the image, and add up to it; "half:even" and "half:odd" are the means of every second sample that enters
+              the image, or of every second stratum. With AOVs the renderer uses one pipeline for all scenes; its
+              different rounding may change a decision of the method
      report   may be NULL
    Errors: those of koksma_render_layers; also ARGUMENT for splatting, for scope image, for a pattern that gives the
    same set for every seed, and for options with which the method would never stop. */

@@ -25,24 +25,24 @@ enum { KOKSMA_MAX_BESIDE = 7, KOKSMA_MAX_SHEET_SCENES = 16 };
    my_256_3.npy has the 256 points of seed 3. */
 typedef struct koksma_datasheet_options {
     const char *sampler;
-    const char *const *beside; /* up to KOKSMA_MAX_BESIDE samplers to compare with; NULL: random, jittered and
-                                  sobol:scramble=owen, without the sampler itself */
+    const char *const *beside; /* up to KOKSMA_MAX_BESIDE samplers to compare with; NULL: those of random, jittered
+                                  and sobol:scramble=owen that differ from `sampler` */
     size_t n_beside;           /* length of `beside` if that is not NULL; may be 0 */
     const char *const *scenes; /* up to KOKSMA_MAX_SHEET_SCENES scenes, as for koksma_scene_open; NULL: three scenes
                                   of the library */
     size_t n_scenes;           /* length of `scenes` if that is not NULL; may be 0 */
     const char *metric;        /* metric of the image error, as for koksma_metric_parse (image.h) (NULL: mae) */
-    bool quick;                /* true: use fewer point sets, sizes and images */
+    bool quick;                /* true: use fewer point sets, numbers of points and images */
 } koksma_datasheet_options;
 
-/* Measures a sampler and writes all results as JSON (docs/report-format.md). A sampler made of files is measured at
-   the sizes of the files, a pattern at 16, 64, 256, ... points. Equal options and files give equal texts, except
-   the member "seconds", which is the last line but one.
+/* Measures a sampler and writes all results as JSON (docs/report-format.md). A sampler made of files is measured with
+   the numbers of points that the files have, a pattern with 16, 64, 256, ... points. Equal options and files give
+   equal texts, except for the member "seconds" on the second-last line.
      json  receives a text that the caller frees with free()
    Errors: those of koksma_generate for the sampler (the message of MISSING names the files that were looked for),
    those of koksma_rank_patterns for a scene, ARGUMENT (too many samplers or scenes, or one given twice), MEMORY,
-   INTERRUPTED. The datasheet leaves out a compared sampler or a measure that does not accept a size, and gives the
-   reason. */
+   INTERRUPTED. A compared sampler or a measure that does not accept one of the numbers of points is no error: the
+   datasheet leaves it out and gives the reason. */
 KOKSMA_API koksma_status koksma_datasheet(const koksma_datasheet_options *options, const koksma_run *run,
                                           char **json);
 

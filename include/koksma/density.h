@@ -5,18 +5,19 @@
  *
  *     random                   independent points that follow the density or area: the baseline
  *     sample-elimination       weighted sample elimination of `factor` candidates a point (Yuksel 2015)
- *     progressive-elimination  the same, in an order whose prefixes are blue noise
+ *     progressive-elimination  sample elimination, in an order whose prefixes are blue noise
  *     poisson-disk             dart throwing: no two points closer than d
- *     poisson-disk-maximal     dart throwing until nothing fits, at the d that gives n points or at the given one
+ *     poisson-disk-maximal     dart throwing until nothing fits, with the given d or the d that gives n points
  *     dart-throwing            dart throwing: n points, no two closer than f times the distance in the densest packing
  *     best-candidate           each point is the candidate furthest from all points before it (Mitchell 1991)
  *     gaussian-blue-noise      points that repel each other and are drawn to the density (Ahmed, Ren & Wonka 2022)
  *
- * All but the last choose among independent candidates of the wanted density. Where the density is p times its mean,
- * distances are divided by sqrt(p); of the two points of a pair the smaller 1/sqrt(p) counts ("smaller disks", Mitchell
- * et al. 2012). gaussian-blue-noise has the cleanest low frequencies: its smoothed points come as close as they can to
- * the smoothed density. On a surface distances are those of space, as in Yuksel's paper, not those along the surface.
- * The points are the same for any number of threads.
+ * All patterns but the last choose from independent random points of the wanted density. Where the density is p times
+ * its mean, the wanted distance between points is divided by sqrt(p); for a pair of points the smaller of their two
+ * values of 1/sqrt(p) counts ("smaller disks", Mitchell et al. 2012). gaussian-blue-noise has the least error at low
+ * frequencies, because it moves the points until their sum of Gaussians approximates the density smoothed by a
+ * Gaussian. On a surface distances are straight-line distances in space, as in Yuksel's paper, not distances along
+ * the surface. The points are the same for any number of threads.
  */
 #ifndef KOKSMA_DENSITY_H
 #define KOKSMA_DENSITY_H
@@ -29,25 +30,26 @@ extern "C" {
 #endif
 
 /* Generates out->n points in the unit square whose density is in proportion to the luminance of an image. The image
-   fills the square; its bottom row is at y = 0. Distances are those of the torus, for poisson-disk with torus=1 only;
-   the d of poisson-disk and poisson-disk-maximal is the smallest distance where the density is that of the mean.
+   fills the square; its bottom row is at y = 0. Distances wrap around the square only for poisson-disk with torus=1.
+   The d of poisson-disk and poisson-disk-maximal is the smallest distance where the density equals its mean.
      spec  one of the patterns above, without modifiers
-     map   luminance: finite, nowhere negative, somewhere positive
+     map   an image whose luminance is finite, nowhere negative and somewhere positive
      out   points initialised by koksma_points_init, in 2 dimensions
-   Cost: O(factor n log n) if the density varies by a factor of less than about 100; more for wide ranges. A second of
-   one processor makes about 5,000 points by poisson-disk-maximal and 300 by gaussian-blue-noise.
-   Errors: UNSUPPORTED (a pattern without this form), ARGUMENT, MALFORMED (the image), DIM, N, IMPOSSIBLE (poisson-disk
-   found no room, poisson-disk-maximal no distance with n points; the message has a number that would do), MEMORY,
-   INTERRUPTED. */
+   Cost: O(factor n log n) if the density varies by a factor of less than about 100; more for wide ranges. In a second
+   one processor makes about 5,000 points by poisson-disk-maximal or 300 by gaussian-blue-noise.
+   Errors: UNSUPPORTED (a pattern not listed above), ARGUMENT, MALFORMED (the image), DIM, N, IMPOSSIBLE (poisson-disk
+   found no room for n points, or poisson-disk-maximal found no d that gives n points; the message says what would
+   work), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_generate_density(const koksma_spec *spec, uint64_t seed, const koksma_image *map,
                                                  const koksma_run *run, koksma_points *out);
 
 /* Generates out->n points on the triangles of a model, uniform in area, in the coordinates of its file.
-     spec  as above; d is in the model's units
+     spec  one of the patterns above, without modifiers; d is in the model's units
      path  a model: .obj, .ply, .ply.gz, .off, .gltf, .glb or .serialized
      out   points initialised by koksma_points_init, in 3 dimensions: x y z; or in 6: also the triangle's unit normal,
-           counterclockwise corners seen from outside; or in 7: also the number of the triangle, from 0
-   Errors: as above; MISSING, MALFORMED (the model). */
+           on the side from which its corners are in counterclockwise order; or in 7: also the number of the triangle,
+           from 0
+   Errors: those of koksma_generate_density, but MISSING and MALFORMED concern the model. */
 KOKSMA_API koksma_status koksma_generate_on(const koksma_spec *spec, uint64_t seed, const char *path,
                                             const koksma_run *run, koksma_points *out);
 

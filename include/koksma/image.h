@@ -45,8 +45,8 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
            an error
    Alpha and further channels are dropped; colours are not multiplied by alpha.
    Errors: MISSING, MALFORMED (also for valid files that this function cannot read: deep or subsampled EXR files,
-   and with B44 or DWA compression other channels or values above 65504), UNSUPPORTED (this build lacks the format),
-   MEMORY, SYSTEM. */
+   and files with B44 or DWA compression that have channels other than those above, or values above 65504),
+   UNSUPPORTED (this build lacks the format), MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
 /* Returns the name of image format i, or NULL past the last format.
@@ -130,8 +130,10 @@ typedef struct koksma_metric {
     int channels;               /* 1: the metric compares Rec. 709 luminance; 3: it compares linear red, green and
                                    blue */
     bool root;                  /* true: the value is the square root of the mean error */
-    int order;                  /* the value is proportional to this power of small differences; 0: to no power */
-    int revision;               /* raised with every change of any bit of a value: studies keep rows under it */
+    int order;                  /* for small differences between the images, the value is proportional to this power
+                                   of the differences; 0: to no power */
+    int revision;               /* raised with every change of the code that changes any bit of a value; studies store
+                                   it with their rows */
     bool in_all_studies;        /* true: cheap beside a render, so that studies evaluate it for every image */
     /* Computes the error of each pixel; `errors` receives width x height numbers. Returns OK or MEMORY. */
     koksma_status (*errors)(const koksma_metric_input *input, double *errors);
@@ -157,7 +159,7 @@ KOKSMA_API void koksma_metric_text(const koksma_metric_spec *spec, char *text);
 
 typedef struct koksma_metric_value {
     double value;
-    double robust;    /* the value over all pixels except the `top` pixels with the largest error */
+    double robust;    /* the value without the `top` pixels that have the largest error */
     double top_share; /* fraction, 0 .. 1, of the summed error of all pixels that comes from the `top` pixels */
     size_t top;       /* number of pixels that `robust` leaves out: 0.1 % of all, rounded down */
 } koksma_metric_value;
@@ -182,9 +184,9 @@ KOKSMA_API koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, 
    the coherence is the largest value of P after P is averaged over the images that were added. Errors that are
    independent between pixels have an expected P of 1 at every frequency, for any distribution, even if the
    distribution varies over the image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H A^2 /
-   (4 s^2). In frequency rings where finer detail has more power than the mean (blue noise), P is divided by the power
-   of the ring: docs/findings/coherence.md. Equal images added in equal order give bit-identical results. One thread
-   at a time may use the struct. */
+   (4 s^2). Blue noise does not count as a regular pattern: where power increases with frequency to above the mean, P
+   is divided by its mean over the ring of frequencies with similar |(u, v)| (docs/findings/coherence.md). Equal
+   images added in equal order give bit-identical results. One thread at a time may use the struct. */
 typedef struct koksma_coherence {
     int width, height;
     size_t images;   /* number of images added, not counting images whose error is the same in every pixel */

@@ -56,9 +56,9 @@ KOKSMA_API const koksma_integrand *koksma_integrand_find(const char *name);
 typedef struct koksma_function {
     const char *name; /* 1 to 63 characters */
     int min_dim, max_dim;
-    double (*at)(const double *x, int dim, void *context); /* returns the value at x, 0 <= x[k] <= 1, which must
-                                                              depend on x alone. Several threads call it at once
-                                                              unless koksma_run.threads is 1 */
+    double (*at)(const double *x, int dim, void *context); /* returns the value at x, where 0 <= x[k] <= 1. The value
+                                                              must depend on x alone. Several threads call the
+                                                              function at once unless koksma_run.threads is 1 */
     void *context;                                         /* passed to at */
     double integral; /* the integral over [0,1]^dim, or NaN if it is not known */
 } koksma_function;
@@ -98,7 +98,7 @@ KOKSMA_API koksma_status koksma_integral_values(const koksma_integral *integral,
 KOKSMA_API koksma_status koksma_integrate(const koksma_integral *integral, const koksma_points *points,
                                           const koksma_run *run, double *out);
 
-/* ---- Errors over randomisations and sizes ------------------------------------------------------------- */
+/* ---- Errors against the number of points -------------------------------------------------------------- */
 
 /* Statistics of the estimates of an integral by sets of n points. */
 typedef struct koksma_integration_row {
@@ -106,11 +106,11 @@ typedef struct koksma_integration_row {
     uint64_t trials; /* number of point sets; always 1 for a deterministic pattern */
     double mean, sd; /* mean and standard deviation of the estimates; sd is NaN with one set */
     double rmse;     /* root mean square of estimate minus integral; with one set the absolute error. If the integral
-                        is not known, rmse is set to sd, which equals it for unbiased estimates */
+                        is not known, rmse is set to sd, which estimates it if the estimates are unbiased */
     /* 95 % confidence interval of rmse (delta method on its logarithm, Student's t), or NaN with one set */
     double low, high;
-    double gain; /* variance / n / rmse^2: how many times more random points would be needed for this error, or NaN if
-                    the variance is not known or the error is only rounding */
+    double gain; /* variance / n / rmse^2: how many times as many random points would be needed for this error, or NaN
+                    if the variance is not known or the error is only rounding */
 } koksma_integration_row;
 
 /* The slope of log rmse against log n by least squares, with its 95 % interval. With several trials the standard
@@ -171,8 +171,8 @@ typedef struct koksma_sensitivity {
 enum { KOKSMA_MAX_ANOVA_AXES = 8 };
 
 /* Computes the Sobol' indices of the coordinates axes[0] .. axes[n_axes - 1], numbered from 0.
-     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different coordinates below dim. An exact component evaluates 2^n_axes closed
-              forms, an estimated one 2^n_axes function values for each sample
+     n_axes   1 to KOKSMA_MAX_ANOVA_AXES different coordinates below dim. Cost: 2^n_axes closed forms for an exact
+              component, 2^n_axes function values per sample for an estimated one
      samples  number of points in each of the 16 sets, up to 2^20; 0: use the closed form if there is one, else 4096
               points
    Errors: ARGUMENT (bad axes or samples, a function with variance 0), MEMORY, INTERRUPTED. */

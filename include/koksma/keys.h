@@ -16,16 +16,17 @@
  * There are seven tables of keys, for 2^m = 1, 2, 4 ... 64 samples per pixel. A key has two parts. Ten bits are the
  * number of the block, which differs for each of the 1,024 pixels of the cell. The other m bits rank the samples
  * within the block: they decide which part of the block comes first, so that the errors are blue noise also for fewer
- * samples. Above 64 samples per pixel m is log2 spp rounded up, and a key is one of the last table followed by m - 6
- * random bits of the pixel. Each cell draws from the seed its own scrambling and one of the 8 symmetries of the square,
- * so cells do not repeat points.
+ * than 2^m samples. Above 64 samples per pixel m is log2 spp rounded up, and a key is one of the last table followed
+ * by m - 6 random bits of the pixel. Each cell draws from the seed its own scrambling and one of the 8 symmetries of
+ * the square, so cells do not repeat points.
  *
  * The samples of one pixel have the same probability distribution as those of an independently Owen-scrambled pixel,
  * for each number of samples: the mean of any integrand is unbiased, and its mean square error over the seeds is that
  * of independent pixels. Only the errors of the pixels of one cell depend on each other. Therefore the mean square
- * error of one image varies more from seed to seed than with independent pixels, less so in larger images. Low
- * frequencies of the errors have .35 to .58 of the power of white noise in the mean over 28 held-out integrands, less
- * than with koksma_z_rank at 1 to 100 samples per pixel; docs/findings/ranking-keys.md has the measured errors.
+ * error of one image varies more from seed to seed than with independent pixels; the difference is smaller in larger
+ * images. Low frequencies of the errors have .35 to .58 of the power of white noise in the mean over 28 held-out
+ * integrands, less than with koksma_z_rank at 1 to 100 samples per pixel; docs/findings/ranking-keys.md has the
+ * measured errors.
  *
  * Aligned blocks of 2^k samples of a pixel are (0,k,2)-nets in base 2, for all k. The 2^m samples of the 1,024 pixels
  * of a cell are together a (0,m+10,2)-net.
@@ -33,8 +34,8 @@
  * Number the pairs of dimensions 0, 1, 2 ... as you like: each number has its own cells and scramblings. Errors that
  * come from one pair of dimensions are blue noise, errors from several pairs together are white noise. In each pixel
  * and each pair except pair 0, the samples 2^k .. 2^(k+1) - 1, for each k, are in a different random order. Pairs
- * are therefore independent, with one exception: the first half of one pair's samples meets the first half of
- * another pair's.
+ * are therefore independent, with one exception: the samples in the first half of one pair are always combined with
+ * those in the first half of another pair.
  */
 #ifndef KOKSMA_KEYS_H
 #define KOKSMA_KEYS_H
@@ -104,13 +105,13 @@ KOKSMA_INLINE koksma_keys koksma_keys_of(uint64_t seed, uint32_t x, uint32_t y, 
     keys.seeds[0] = koksma_seed_of(cell, 0);
     keys.seeds[1] = koksma_seed_of(cell, 1);
     keys.key = (koksma__key(m - lower, place) << lower | (koksma_seed_of(pixel, 0) & ((1u << lower) - 1))) ^
-               koksma_seed_of(cell, 3); /* the hash has few scramblings for indices whose bits are mostly 0 */
+               koksma_seed_of(cell, 3); /* indices whose bits are mostly 0 would have few different scramblings */
     keys.order = koksma_seed_of_order(pixel);
     keys.ordered = pair > 0;
     return keys;
 }
 
-/* Returns two words and zeros. */
+/* Returns four words: a, b, 0 and 0. */
 KOKSMA_INLINE koksma__four koksma__two_words(uint32_t a, uint32_t b)
 {
 #if defined(KOKSMA_VECTOR)
@@ -121,7 +122,8 @@ KOKSMA_INLINE koksma__four koksma__two_words(uint32_t a, uint32_t b)
     return x;
 }
 
-/* Returns sample i of a pixel and pair of dimensions as 32-bit fractions, the first two of four words. */
+/* Returns sample i of a pixel and pair of dimensions as 32-bit fractions, which are the first two of the four
+   words. */
 KOKSMA_INLINE koksma__four koksma__keys_four(const koksma_keys *keys, uint32_t i)
 {
     const uint32_t index = keys->key ^ (keys->ordered ? koksma__shuffled_by_octaves(i, keys->order) : i);

@@ -87,9 +87,9 @@ typedef const char *koksma_name_at(const void *table, size_t i);
    is similar, or if the word is empty or longer than 64 characters. Upper and lower case are equal.
      name, table  name(table, i) is called for i = 0, 1, ... until it returns NULL; table may be NULL */
 KOKSMA_API const char *koksma_closest_name(const char *word, koksma_name_at *name, const void *table);
-/* Turns a text into one line of valid UTF-8, like every error text: control characters and bytes that are not
-   UTF-8, which a file name may contain, become \xNN. size is the capacity of the buffer `text` in bytes; a result
-   that does not fit is cut. text may be NULL. */
+/* Turns a text into one line of valid UTF-8: control characters and bytes that are not UTF-8, which a file name may
+   contain, become \xNN. The library does the same with every error text. size is the capacity of the buffer `text` in
+   bytes; a result that does not fit is cut. text may be NULL. */
 KOKSMA_API void koksma_text_escape(char *text, size_t size);
 
 /* Returns the instruction set that the inner loops of this process use: "avx512", "avx2", "baseline" or "ref"
@@ -248,9 +248,9 @@ struct koksma_pattern {
     bool runs_code;
 };
 
-/* A modifier: a map of the unit cube to itself that every pattern accepts after its own parameters. Several
-   modifiers are applied in the order of the table. In a renderer each pixel has a seed, so a random modifier
-   differs between pixels. */
+/* A modifier: a map of the unit cube to itself that every pattern accepts after its own parameters. Several modifiers
+   are applied in the order of koksma_modifier_at. In a renderer each pixel has a seed, so a random modifier differs
+   between pixels. */
 typedef struct koksma_modifier {
     const char *name, *title, *cite;
     double min, max;        /* range of its value, a whole number; the value 0 means not applied */
@@ -300,13 +300,14 @@ KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
 /* Generates points first .. first + out->n - 1 of the set of koksma_generate, in the time and memory of out->n
    points.
      spec   a pattern that has ranges (koksma_has_ranges). A sequence (KOKSMA_CLAIM_SEQUENCE) accepts indices up to
-            KOKSMA_MAX_INDEX. halton and faure end before that in many dimensions: at the largest power of their
-            largest base up to 2^53, because a double has no more digits. Sequences in base 2 have coordinates of 32
-            binary digits below point 2^32, and of 53 beyond
+            KOKSMA_MAX_INDEX. In many dimensions halton and faure end earlier: at the largest power of their largest
+            base that is at most 2^53, because a double has no more digits. Sequences in base 2 have coordinates of 32
+            binary digits up to point 2^32 - 1, and of 53 from point 2^32 on
      n      number of points of the whole set, whose last index is n - 1. Unused for a sequence
      first  index of the first point to generate, from 0
      out    points initialised by koksma_points_init with the number of points to generate
-   Errors: those of koksma_generate; N also for points past the end, UNSUPPORTED for a pattern without ranges. */
+   Errors: those of koksma_generate; also N for points past the end of the set, and UNSUPPORTED for a pattern without
+   ranges. */
 KOKSMA_API koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint64_t n, uint64_t first,
                                                const koksma_run *run, koksma_points *out);
 
@@ -338,7 +339,8 @@ typedef enum koksma_witness_kind {
 } koksma_witness_kind;
 
 /* The region where a measure reaches its supremum. To check it, count the points in the region with doubles:
-     box         compare each coordinate with lo and hi. A box of the star discrepancy contains its sides at 0
+     box         compare each coordinate with lo and hi. A box of the star discrepancy contains the points on its
+                 sides at 0, whether it is closed or not
      half-plane  compare lo[0] x + lo[1] y (+ lo[2] z) with hi[0]
      disk        compare a a + b b with hi[0] hi[0]; (a, b) is the difference from the centre on the torus: with d the
                  plain difference of a coordinate, a = d - round(d)
@@ -356,15 +358,15 @@ typedef struct koksma_witness {
 /* The result of a measure. */
 typedef struct koksma_value {
     double value;          /* the measure; for an L2 measure the root of the mean square */
-    double square;         /* square of value, if it is known to more digits; otherwise NaN */
+    double square;         /* square of value, if it is known to more digits than value; otherwise NaN */
     double lower, upper;   /* proven lower and upper bounds; both equal `value` if exact is true */
     double standard_error; /* standard error of a sampled measure, NaN with one sample; 0 for other measures */
     bool exact;            /* true: value is exact up to rounding */
     koksma_witness witness;
 } koksma_value;
 
-/* The kind of region for which a measure compares the share of points with the volume. Known rates of decay depend
-   on this kind. */
+/* The kind of regions in which a measure compares the fraction of the points with the volume. The proven rates at
+   which measures decrease with n (koksma_rate) depend on this kind. */
 typedef enum koksma_family {
     KOKSMA_FAMILY_NONE, /* the measure has no regions: a distance, or the quality of a digital net */
     KOKSMA_FAMILY_BOXES,
@@ -391,8 +393,8 @@ struct koksma_measure {
     int revision;          /* starts at 0 and increases by 1 with every change of any bit of the values */
     bool on_torus;         /* true: shifting all points on the torus does not change the value */
     /* Computes the square of the measure and its n * dim derivatives with respect to the coordinates. At a kink,
-       where coordinates coincide, the derivative is a value between the one-sided derivatives. NULL: the measure
-       has no derivative, or none is implemented. */
+       where coordinates coincide, the derivative is a value between the one-sided derivatives. NULL: the measure has
+       no derivative, or the library does not implement it. */
     koksma_status (*gradient)(const koksma_points *points, const koksma_args *args, double *square, double *gradient);
 };
 

@@ -4,21 +4,21 @@
  * errors of neighbouring pixels differ and average out for the eye. Part of libkoksma; koksma_mask_value and
  * koksma_mask_2d are inline.
  *
- *     koksma_mask_2d           gives each pixel a scrambled (0,2)-sequence that three void-and-cluster masks
- *                              select; a single mask can serve as a threshold image
+ *     koksma_mask_2d           gives each pixel a (0,2)-sequence whose scrambling three void-and-cluster masks
+ *                              select; a single mask can serve as a threshold image for dithering
  *     koksma_mask_void_and_cluster_3d   computes a void-and-cluster mask in space and time
  *     koksma_mask_vectors      computes a vector mask: one sample of up to 8 dimensions for each pixel
- *     koksma_keys_2d           (koksma/keys.h) blocks of one sequence for 32 x 32 pixels, in an order optimised for
- *                              1, 2, 4 ... 64 samples per pixel
+ *     koksma_keys_2d           (koksma/keys.h) gives the 32 x 32 pixels of a cell different blocks of one sequence,
+ *                              in an order optimised for 1, 2, 4 ... 64 samples per pixel
  *     koksma_z_rank            (koksma/sampler.h) gives pixel (x, y) the samples rank * spp .. rank * spp + spp - 1
  *                              of one sequence (Ahmed & Wonka 2020)
  *
  * Georgiev & Fajardo (2016) shift each pixel's copy of the pattern on the torus. The shift breaks the net property:
  * from 4 samples per pixel on, the error in each pixel is up to several times that of independently scrambled pixels.
- * koksma_mask_2d keeps the nets. For any number of samples the points of a pixel have the distribution of
- * independently scrambled Sobol' points, and so does the error of the pixel; only the errors of neighbouring pixels
- * are dependent. For four integrands over the unit square, the table has the power of the error below a quarter of
- * the highest frequency, in one tile of 64 x 64 pixels, relative to white noise (1):
+ * koksma_mask_2d keeps the nets. For any number of samples, the points and the error of one pixel have the same
+ * probability distribution as with independently scrambled Sobol' points; only the errors of neighbouring pixels are
+ * dependent. The table has, for four integrands over the unit square, the power of the errors in one tile of 64 x 64
+ * pixels at frequencies below a quarter of the highest, divided by the power of white noise:
  *
  *     samples a pixel        1     4     16    64
  *     x                      .04   .04   .04   .04
@@ -26,8 +26,8 @@
  *     step in x              .09   .09   .20   .07
  *     quarter disk           .36   .34   .41   .43
  *
- * Powers of two gain most; with 3, 5, 6, 7 and 12 samples per pixel the relative error power is .05 to .9. With 1
- * to 3 samples per pixel an integrand that oscillates more than once over the square gains little.
+ * Numbers of samples that are powers of two gain most; with 3, 5, 6, 7 and 12 samples per pixel the ratio is .05 to
+ * .9. With 1 to 3 samples per pixel an integrand that oscillates more than once over the square gains little.
  */
 #ifndef KOKSMA_MASK_H
 #define KOKSMA_MASK_H
@@ -56,9 +56,9 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, c
                                                       uint32_t *ranks);
 
 /* Computes a void-and-cluster mask in space and time: a permutation of 0 .. size^2 frames - 1 whose voxels below
-   any rank are spread evenly on the three-dimensional torus. The mask is blue noise in space and time together; a
-   single frame has about half the low frequencies of white noise, a two-dimensional mask about a tenth. It takes
-   about 1.5 s for 32 x 32 x 16 voxels.
+   any rank are spread evenly on the three-dimensional torus. The mask is blue noise in space and time together; at
+   low frequencies a single frame has about half the power of white noise, a two-dimensional mask about a tenth. It
+   takes about 1.5 s for 32 x 32 x 16 voxels.
      size    pixels a side, KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_3D
      frames  number of frames, KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_3D
      ranks   size * size * frames numbers; pixel (x, y) of frame f is ranks[(f * size + y) * size + x]
@@ -74,12 +74,11 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster_3d(int size, int frames, u
 
        sum over pixels p, q of exp(-|p - q|^2 / 2.1^2 - |v_p - v_q|^(dim/2)),  distances of pixels on the torus
 
-   The fewer dimensions, the less low-frequency error: of a function of two coordinates .01 to .15 of that of white noise
-   with dim = 2, .03 to .3 with 4, .13 to .4 with 8 (docs/findings/blue-noise.md). Seeds differ in the shift and in the
-   arrangement; the bits depend on neither threads nor machine.
-   The points of the pattern `mask-offset:masks=vectors` are the mask with dim = 2.
-   It takes about 1.2 s for size 64 with dim = 2 and 1.6 s with dim = 8; the time is proportional to size^2 (22 s for
-   256).
+   Masks of fewer dimensions have less error at low frequencies. For functions of two coordinates, its power is .01 to
+   .15 of that of white noise with dim = 2, .03 to .3 with 4, .13 to .4 with 8 (docs/findings/blue-noise.md). Seeds
+   differ in the shift and in the arrangement; the bits depend on neither threads nor machine. The points of the
+   pattern `mask-offset:masks=vectors` are the mask with dim = 2. It takes about 1.2 s for size 64 with dim = 2 and
+   1.6 s with dim = 8; the time is proportional to size^2 (22 s for 256).
      size    KOKSMA_MASK_MIN to KOKSMA_MASK_MAX_VECTORS
      dim     numbers in a vector, 1 to KOKSMA_MASK_MAX_DIM
      values  size * size * dim numbers; coordinate k of pixel (x, y) is values[(y * size + x) * dim + k]
@@ -107,7 +106,7 @@ KOKSMA_INLINE uint32_t koksma_mask_value(uint32_t rank, uint32_t pixels, uint32_
      s, spp    index of the sample, 0 .. spp - 1; number of samples per pixel
      xy        receives the point, in [0,1)^2
 
-   If 2^m is the largest power of two that divides spp, each run of 2^m samples is a (0,m,2)-net in base 2.
+   If 2^m is the largest power of two that divides spp, each aligned block of 2^m samples is a (0,m,2)-net in base 2.
    values[0] and values[1] shift (by XOR) the digits of x and y after the first m, which set the position of the
    samples within their strata. values[2] shifts the first m digits of y before they are scrambled, which pairs the
    strata in y with those in x. The error of a pixel thus depends only on the masks, and each part of the error that

@@ -36,7 +36,7 @@ typedef enum koksma_keep {
 typedef struct koksma_optimum {
     koksma_points points;
     double value;       /* value of the measure by koksma_evaluate; with KOKSMA_KEEP_SEQUENCE the geometric mean that
-                           is described at that constant */
+                           the search minimises */
     double lower;       /* lower bound of the measure over all sets of n points in this dimension, or NaN if no bound
                            is known */
     uint64_t steps;     /* number of steps done */
@@ -51,7 +51,7 @@ typedef struct koksma_processes {
     /* An all-gather: process i % size provides piece i of `count` pieces of `bytes` bytes each, and afterwards
        every process has all pieces. All processes call this function at the same points of the search. */
     koksma_status (*exchange)(void *context, void *pieces, size_t count, size_t bytes);
-    /* Called after the last exchange of a search that ends without an error; may be NULL. */
+    /* Called after the last exchange of a search that ends without an error. May be NULL. */
     void (*done)(void *context);
     void *context;
 } koksma_processes;
@@ -111,7 +111,8 @@ KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                                          const koksma_run *run, koksma_optimum *out);
 
-/* Computes a target for options->power: the radial power of n points at the frequencies 1 .. rings.
+/* Computes a target for options->power: the mean power that n points should have in the rings of frequencies 1 ..
+   rings.
      text   "step" (0 below the frequency sqrt(n / pi), else 1), "gaussian" (1 - exp(-pi f^2 / n)), a pattern (the
             mean of 16 sets), or a file of lines with a frequency in units of sqrt(n) and a power
      rings  1 to KOKSMA_SPECTRUM_MAX_HALF

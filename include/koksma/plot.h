@@ -114,10 +114,10 @@ KOKSMA_API koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plo
                                            unsigned char **bytes, size_t *n_bytes);
 
 /* Finds colour numbers for n patterns of one picture. Each family of patterns has its colour: the first pattern of a
-   family has it in all pictures, others of the family get colours that no pattern of the picture has. From the ninth
-   pattern on colours repeat with other dashes. Marks differ as colours and dashes do.
+   family has it in all pictures, others of the family get colours that no other pattern of the picture has. From the
+   ninth pattern on colours repeat with other dashes. The shape of a curve's marks also depends on its number.
      specs    specs or names of patterns; other texts get the remaining colours
-     numbers  receives n
+     numbers  receives n colour numbers
    Errors: ARGUMENT. */
 KOKSMA_API koksma_status koksma_plot_colours(const char *const *specs, size_t n, size_t *numbers);
 
@@ -166,7 +166,7 @@ typedef struct koksma_split {
 typedef struct koksma_strata_panel {
     const koksma_stratum *strata;
     size_t n;
-    const koksma_split *splits; /* array of n_splits, drawn as needed or needless */
+    const koksma_split *splits; /* array of n_splits; needed and needless splits are drawn differently */
     size_t n_splits;            /* 0: none */
     const char *caption;        /* a line of text below the square; may be NULL */
 } koksma_strata_panel;

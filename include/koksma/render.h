@@ -41,7 +41,8 @@ typedef struct koksma_entry {
     char fields[256];
 } koksma_entry;
 
-/* Sets *out to kind i of the members "materials", "lights" or "shapes" of a scene file; returns false past the end. */
+/* Sets *out to kind i of the objects that a member of a scene file lists: `member` is "materials", "lights" or
+   "shapes". Returns false past the end. */
 KOKSMA_API bool koksma_scene_kind_at(const char *member, size_t i, koksma_entry *out);
 
 /* Sets *out to pipeline i of the renderer; returns false past the end. The renderer chooses the fastest pipeline that
@@ -96,8 +97,8 @@ typedef struct koksma_scene_part {
     char name[80];          /* the kind of a shape, or "mesh" and the name of a placed mesh */
     double low[3], high[3]; /* bounding box of the part at time 0; infinite for a plane */
     bool in_frame;          /* false: the camera sees at most reflections and shadows of the part */
-    double frame[4];        /* rectangle of the image that the box covers at most: left, right, top, bottom, from 0
-                               to 1 */
+    double frame[4];        /* rectangle of the image outside which the box is not seen: left, right, top, bottom,
+                               from 0 to 1 */
 } koksma_scene_part;
 
 /* Finds part i of a scene: first the shapes, then the placed meshes. Returns false past the last part. */
@@ -273,8 +274,8 @@ typedef struct koksma_layers {
                               did */
     koksma_image samples;  /* number of samples of the pixel */
     koksma_image variance; /* variance of the pixel's luminance, estimated from its samples (with splatting also
-                              from those of neighbouring pixels) as if they were independent, which is too large for
-                              stratified patterns. 0 with fewer than two samples */
+                              from those of neighbouring pixels) as if they were independent; for stratified patterns
+                              this estimate is too large. 0 with fewer than two samples */
     uint64_t rays;         /* number of rays cast */
 } koksma_layers;
 
@@ -310,12 +311,13 @@ KOKSMA_API koksma_status koksma_render_only(const koksma_scene *scene, const kok
                                             const koksma_run *run, koksma_layers *out);
 
 /* Further images of a render (arbitrary output variables). All but "id" have as many channels as the image. Light
-   that was reflected or refracted r times, mirrors and glass included, is in "bounce:r", r = 0 (seen) to
-   KOKSMA_MAX_DEPTH + 1; ambient light and the indirect light of an irradiance cache count as reflected one time more
-   than light that reaches the same surface directly from a light. "direct" is the light with r = 0 and 1, "indirect"
-   all other light. The sum of these two, and the sum of all bounces, equal the image within the rounding of floats.
-   "id" is the number of the object that most samples of a pixel hit first: i + 1 for koksma_scene_part_at(i), 0 for
-   none. "half:even" and "half:odd" are the means of the samples of a pixel with even and with odd index. */
+   that was reflected or refracted r times, mirrors and glass included, is in "bounce:r", with r from 0 (light sources
+   that the camera sees directly) to KOKSMA_MAX_DEPTH + 1; ambient light and the indirect light of an irradiance cache
+   count as reflected one time more than light that reaches the same surface directly from a light. "direct" is the
+   light with r = 0 and 1, "indirect" all other light. The sum of these two, and the sum of all bounces, equal the
+   image within the rounding of floats. "id" is the number of the object that most samples of a pixel hit first: i + 1
+   for koksma_scene_part_at(i), 0 for none. "half:even" and "half:odd" are the means of the samples of a pixel with
+   even and with odd index. */
 enum { KOKSMA_MAX_AOVS = 72 };
 typedef struct koksma_aovs {
     int n;

@@ -20,11 +20,11 @@
  * that are powers of two work best.
  *
  *     koksma_sobol_2d    every aligned block is a (0,m,2)-net in base 2
- *     koksma_sobol_4d    its first two dimensions equal koksma_sobol_2d; koksma_sobol_1d and _3d are its first one
- *                        and three dimensions
+ *     koksma_sobol_4d    its first two dimensions equal koksma_sobol_2d; its first dimension is koksma_sobol_1d, its
+ *                        first three are koksma_sobol_3d
  *     koksma_pmj02_2d    every aligned block is a (0,m,2)-net in base 2
- *     koksma_cmj_2d      all columns * rows samples: one in each cell of the grid and in each stratum of each axis;
- *                        fewer samples have no guarantee
+ *     koksma_cmj_2d      all columns * rows samples together have one sample in each cell of the grid and in each
+ *                        stratum of each axis; fewer samples have no guarantee
  *     koksma_r_2d        every aligned block is 2^m consecutive points of the R-sequence, shifted on the torus
  *     koksma_white_4d    independent random numbers without stratification
  *
@@ -32,7 +32,7 @@
  * two functions. Sample i of one domain is paired with a random sample of the other domain, so the mean over N
  * samples of a function of both converges as N^-1/2, as with random numbers. For u of one domain and v of another,
  * the RMS error of the mean of (u - 1/2)(v - 1/2) is 1 / (12 sqrt(N)) with random numbers. The table has the RMS
- * error of each function relative to that, measured at N = 16, 64 ... 4096:
+ * error of each function divided by this value, measured at N = 16, 64 ... 4096:
  *
  *     koksma_sobol_2d    1.26; sqrt(49/31) = 1.257 by theory for padding by nested shuffles (Burley 2020)
  *     koksma_sobol_4d    1.26
@@ -246,8 +246,8 @@ typedef struct koksma__four {
 } koksma__four;
 #endif
 
-/* Returns Owen's nested uniform scrambling of x, whose bits are in reverse order: a hash of the lower bits decides
-   whether each bit is flipped. */
+/* Returns Owen's nested uniform scrambling of x, whose bits are in reverse order: whether a bit is flipped depends on
+   a hash of all bits below it. */
 KOKSMA_INLINE uint32_t koksma_owen_hash(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3d20adeau;
@@ -349,7 +349,8 @@ KOKSMA_INLINE koksma__four koksma__scramble_four(koksma__four x, koksma__four se
 #endif
 }
 
-/* Returns x 2^-32 exactly. The conversion goes through a signed number because compilers vectorise it. */
+/* Returns x 2^-32 exactly. The conversion goes through a signed number because compilers vectorise conversions of
+   signed numbers. */
 KOKSMA_INLINE double koksma_fraction(uint32_t x)
 {
     return ((double)(int32_t)(x ^ 0x80000000u) + 2147483648.0) * (1.0 / 4294967296.0);
@@ -803,9 +804,10 @@ KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[2
 
 /* Returns element i of a random permutation of 0 .. n-1 that the key chooses; i < n < 2^31. The function applies a
    bijection of 0 .. 2^k - 1, 2^k >= n, repeatedly until the result is below n (cycle walking). Up to n = 8 the
-   permutation is not quite uniform over the keys: for n = 3 .. 8 the probabilities of the positions of two elements
-   deviate by 0.6, 1.6, 1.3, 1.0, 0.4, 0.5 % (root mean square over the pairs; at most 7 %), those of one element by
-   0.4 % for n = 3 and 0.1 % for n = 5 to 7. From n = 9 on, tests with 4 million keys find no deviation. */
+   permutation is not quite uniform over the keys: for n = 3 .. 8 the probability that two given elements are at two
+   given positions deviates by 0.6, 1.6, 1.3, 1.0, 0.4, 0.5 % (root mean square over the pairs; at most 7 %); the
+   probability that one given element is at a given position deviates by 0.4 % for n = 3 and 0.1 % for n = 5 to 7.
+   From n = 9 on, tests with 4 million keys find no deviation. */
 KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
 {
     const uint32_t a = (uint32_t)key, b = (uint32_t)(key >> 32);
@@ -872,8 +874,9 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
 
    If N is not a power of two, the first N samples are less even than N consecutive points of the sequence: they are
    several runs of points, one for each 1 among the binary digits of N, with gaps between the runs. Their RMS L2 star
-   discrepancy is 1.19 times that of one run in the mean over N = 1 to 1024, and at most 1.64 times (N = 98). Without the
-   shuffle the same coordinate of two domains would differ by a constant for every N. */
+   discrepancy is 1.19 times that of one run in the mean over N = 1 to 1024, and at most 1.64 times (N = 98). The
+   samples are shuffled nevertheless, because otherwise the same coordinate of two domains would differ by the same
+   number, modulo 1, in all samples. */
 KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 {
     const uint64_t alpha[2] = {(uint64_t)0xC13FA9A9u << 32 | 0x02A6328Fu, (uint64_t)0x91E10DA5u << 32 | 0xC79E7B1Du};
@@ -894,7 +897,7 @@ KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 /* Returns element j, 0 to 3, of the permutation of 0 .. 3 that a random word chooses. */
 KOKSMA_INLINE uint32_t koksma_permute4(uint32_t j, uint32_t word)
 {
-    uint32_t order = 0xe4u, i; /* four fields of two bits */
+    uint32_t order = 0xe4u, i; /* four fields of two bits: at first 0, 1, 2, 3 */
     KOKSMA_ASSERT(j < 4);
     for (i = 3; i > 0; i--) {
         const uint32_t other = (word & 0x3ffu) * (i + 1) >> 10;

@@ -48,7 +48,8 @@ KOKSMA_API bool koksma_log_line(size_t n, const double *xs, const double *ys, ko
 
 enum { KOKSMA_MAX_SIZES = 64 };
 
-/* Means and covariances over trials of a measure at several sizes. A struct of zeros has no trials yet. */
+/* Means and covariances over trials of a measure at several sizes (numbers of points). A struct of zeros has no
+   trials yet. */
 typedef struct koksma_joint {
     double count, means[KOKSMA_MAX_SIZES];
     double spread[KOKSMA_MAX_SIZES][KOKSMA_MAX_SIZES]; /* sums of products of the deviations from the means */
@@ -58,8 +59,8 @@ typedef struct koksma_joint {
    KOKSMA_MAX_SIZES; with a larger n the function does nothing. */
 KOKSMA_API void koksma_joint_add(koksma_joint *joint, size_t n, const double *values);
 
-/* Fits koksma_log_line to n means. With two or more trials slope_error comes from the spread of the trials
-   (infinitesimal jackknife, Efron 1982), with one trial from the residuals. Returns false in the same cases as
+/* Fits a line to n means as koksma_log_line does. With two or more trials slope_error comes from the spread of the
+   trials (infinitesimal jackknife, Efron 1982), with one trial from the residuals. Returns false in the same cases as
    koksma_log_line. */
 KOKSMA_API bool koksma_joint_line(const koksma_joint *joint, size_t n, const double *sizes, const double *means,
                                   koksma_line *line);
@@ -72,12 +73,12 @@ KOKSMA_API koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, co
                                                   const size_t *sizes, size_t n_sizes, const koksma_run *run,
                                                   koksma_value *values);
 
-/* Returns the exponent a of the proven decay n^-a (up to powers of log n) of a measure, for the points of a pattern
-   with its parameters in dim dimensions, or NaN if no theorem covers the claims of the pattern. */
+/* Returns the exponent a for which a measure of the points of a pattern, with its parameters in dim dimensions, is
+   proven to decrease as n^-a (up to powers of log n), or NaN if no theorem covers the claims of the pattern. */
 KOKSMA_API double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, int dim);
 
-/* Returns the largest exponent a of a decay n^-a (up to powers of log n) of a measure that any point sets can
-   reach, or NaN if it is not known. */
+/* Returns the largest exponent a for which some point sets make a measure decrease as n^-a (up to powers of log n),
+   or NaN if it is not known. */
 KOKSMA_API double koksma_best_rate(const koksma_measure *measure, int dim);
 
 #ifdef __cplusplus

@@ -64,10 +64,11 @@ typedef struct koksma_ring {
     double frequency;
     double power, standard_error; /* mean of P over the ring and the sets, and its standard error, which is NaN with
                                      one set */
-    /* Anisotropy in decibels (Ulichney 1987): 10 log10(s^2 / power^2), where s^2 is the sample variance of P(k),
-       averaged over the sets, over the frequencies of the ring, with one of k and -k. FAST has rounding errors of
-       up to 1e-18 n in power and a relative 2e-9 sqrt(n/power) in spread. With either method the anisotropy is NaN
-       for a ring whose power is not above this rounding error, and -infinity for a ring whose spread is not. */
+    /* Anisotropy in decibels (Ulichney 1987): 10 log10(s^2 / power^2), where s^2 is the sample variance, over the
+       frequencies k of the ring, of the mean of P(k) over the sets; k and -k count as one frequency. FAST has
+       rounding errors of up to 1e-18 n in power and of up to 2e-9 sqrt(n/power) in s/power. With either method the
+       anisotropy is NaN for a ring whose power is not above this error, and -infinity for a ring whose s/power is not
+       above its error. */
     double anisotropy_db;
 } koksma_ring;
 
@@ -88,8 +89,8 @@ typedef struct koksma_spectrum_quality_values {
        lattice of 1,024 points. */
     double relative_nyquist;
     /* 10 times the root of the area-weighted mean of (p - 1)^2 over the frequencies from the first f with p(f) >=
-       0.98 to f + 5 sqrt(n). It is NaN if the spectrum ends below that; half >= 6.5 sqrt(n) is enough for blue
-       noise. */
+       0.98 to f + 5 sqrt(n). It is NaN if the spectrum ends below f + 5 sqrt(n); half >= 6.5 sqrt(n) is enough for
+       blue noise. */
     double oscillation;
 } koksma_spectrum_quality_values;
 

@@ -34,7 +34,7 @@ KOKSMA_API const char *koksma_plan_name_at(size_t i);
    operand is a file, a program or a library, as in "exec:PATH" or in a group of uses, "jittered;lens=net-file:PATH". A
    plan's relative paths start at the folder of the plan.
      text  a pattern, or a group of uses with their patterns
-     from  characters to leave out
+     from  number of characters to skip at the beginning of `text`
    Returns 0 if no path begins after `from`. */
 KOKSMA_API size_t koksma_plan_path(const char *text, size_t from);
 
@@ -63,7 +63,8 @@ typedef struct koksma_study_options {
                            a run */
     const char *folder; /* folder of the study, which is created if it does not exist; NULL: only
                            koksma_study_estimate can be called */
-    long long trials;   /* number of trials that replaces those in the plan; 0: use those in the plan */
+    long long trials;   /* number of trials to use instead of the numbers in the plan; 0: use the numbers in the
+                           plan */
     bool quick;         /* true: use the `quick` number of trials of each block of the plan that has one */
 } koksma_study_options;
 
@@ -77,9 +78,10 @@ KOKSMA_API koksma_status koksma_study_open(const koksma_study_options *options, 
    nevertheless). */
 KOKSMA_API koksma_status koksma_study_close(koksma_study *study);
 
-/* Returns line i of the list of what has no results, NULL past the last line: first the combinations that blocks with
-   `skip` leave out, "PATTERN, N = 8, 32: reason", then those whose jobs failed when they ran, "PATTERN, N = 64 (3 of 100
-   trials): reason". The string is valid until the study runs or is closed. */
+/* Returns line i of the list of combinations without results, or NULL past the last line. First come the combinations
+   that blocks of the plan with `skip` leave out, "PATTERN, N = 8, 32: reason", then the combinations whose jobs
+   failed when they ran, "PATTERN, N = 64 (3 of 100 trials): reason". The string is valid until the study runs or is
+   closed. */
 KOKSMA_API const char *koksma_study_left_out_at(const koksma_study *study, size_t i);
 
 /* Statistics of a run. */
@@ -98,10 +100,10 @@ typedef struct koksma_study_summary {
 /* Runs all jobs that are not done.
      run      a time limit ends the run early, without an error
      summary  may be NULL
-   A job fails when its pattern finds no set, or the search of its measure ends with bounds. All other jobs are done, and
-   koksma_study_left_out_at lists the failed ones.
-   Errors: INTERRUPTED (finished jobs are kept), IMPOSSIBLE (jobs failed in a block without `skip`; the message names the
-   first, and the report can be written. If a reference image is impossible, the run ends), IO, and those of
+   A job fails when its pattern finds no set, or when the search of its measure is cut short and finds only bounds.
+   All other jobs are done, and koksma_study_left_out_at lists the failed ones.
+   Errors: INTERRUPTED (finished jobs are kept), IMPOSSIBLE (jobs failed in a block without `skip`; the message names
+   the first, and the report can be written. A run whose reference image fails ends at once), IO, and those of
    koksma_generate, koksma_evaluate and koksma_render. */
 KOKSMA_API koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary);
 
@@ -156,7 +158,8 @@ typedef struct koksma_audit_options {
 typedef struct koksma_audit {
     long long rows;         /* number of rows that this version's generators made, according to their revisions
                                (koksma_pattern.revision) */
-    long long other_rows;   /* number of rows that other versions made, which this program cannot compare */
+    long long other_rows;   /* number of rows made by versions whose revisions differ, which this program cannot
+                               compare */
     long long drawn, agree; /* number of rows drawn from `rows`; number of these whose recomputed values are equal
                                bit for bit */
     double bound;           /* upper 95 % confidence bound of the fraction of `rows` that is wrong (Clopper &
@@ -165,8 +168,8 @@ typedef struct koksma_audit {
                                             equal */
     size_t references_missing;           /* number of reference images whose files are missing */
     size_t differences;                  /* number of differences found */
-    char other[128];                     /* revisions of one of the other_rows and of this program; empty if there
-                                            are none */
+    char other[128];                     /* revisions of one of the other_rows and of this program; empty if
+                                            other_rows is 0 */
 } koksma_audit;
 
 /* Audits a study: computes rows again from their keys, renders all reference images again, and compares them with
@@ -207,7 +210,7 @@ typedef struct koksma_study_row {
     double mean, low, high; /* our mean over the trials and its 95 % interval (NaN with one trial) */
     double sd, max;         /* in image tables: means over the trials of each image's standard deviation and
                                maximum. In discrepancy tables: standard deviation over the sets, and mean of the
-                               largest value of 100 sets (of all sets, if there are fewer) */
+                               largest values of blocks of 100 sets (with fewer sets, the largest value of all) */
     double converged;       /* in image tables: mean error against the last reference of the plan */
     size_t trials;
     koksma_study_verdict verdict; /* verdict on the mean */
@@ -232,7 +235,8 @@ typedef struct koksma_images_row {
     size_t trials;
     double mean, low, high;   /* mean over the trials of the metric, and its 95 % interval (NaN with one trial) */
     double robust, top_share; /* means over the trials of these members of koksma_metric_value */
-    double sd, max, rmse;     /* means over the trials of these members of koksma_image_error, for any metric */
+    double sd, max, rmse;     /* means over the trials of these members of koksma_image_error, whatever the metric
+                                 is */
     double slope, slope_low, slope_high;    /* log-log slope of the group's mean over {spp} and its interval; NaN
                                                with one {spp} */
     koksma_coherence_values coherence;      /* coherence of the errors of all trials, in their order */
@@ -307,9 +311,9 @@ typedef struct koksma_rank_options {
                                     not used, and width 0 means the size of the first image, without checks at other
                                     sizes */
     void *render_context;
-    const char *reference; /* for an external renderer: pattern of the reference image, whose images must have the
-                              true mean and depend on their seed (NULL: the first pattern) */
-    /* true: end when the pattern with the least error is decided, without advice, checks at other sizes, or the
+    const char *reference; /* for an external renderer: pattern of the reference image. Its images must be unbiased
+                              and depend on the seed (NULL: the first pattern) */
+    /* true: end when it is decided which pattern has the least error, without advice, checks at other sizes, or the
        order of the other patterns */
     bool best_only;
 } koksma_rank_options;
@@ -317,7 +321,7 @@ typedef struct koksma_rank_options {
 /* Whether a pattern was ranked. */
 typedef enum koksma_rank_state {
     KOKSMA_RANK_RANKED,
-    KOKSMA_RANK_TOO_SLOW, /* the pattern was too slow for its part of the time limit */
+    KOKSMA_RANK_TOO_SLOW, /* the pattern was too slow for its share of the time limit */
     KOKSMA_RANK_REFUSED,  /* the pattern cannot render this scene with these options; `reason` says why */
 } koksma_rank_state;
 
@@ -381,21 +385,21 @@ typedef struct koksma_rank_check {
 typedef struct koksma_ranking {
     size_t n;         /* number of ranked patterns, which are in rows 0 .. n - 1; the other patterns follow */
     size_t n_slow;    /* number of patterns that were too slow */
-    bool settled;     /* true: the best pattern is decided and in row 0 */
+    bool settled;     /* true: it is decided that the pattern in row 0 is the best */
     bool complete;    /* true: every pair of patterns is decided */
     bool cut_short;   /* true: the time limit ended the work */
-    long long trials; /* number of trials of the pattern that has the most */
-    /* if not settled: approximate number of trials of each pattern that would decide the best; 0: unknown, or the
-       reference is too noisy for any number of trials to decide */
+    long long trials; /* largest number of trials of one pattern */
+    /* if not settled: approximate number of trials of each pattern that would decide which is the best; 0: unknown,
+       or the reference is too noisy for any number of trials to decide */
     long long needed_trials;
     double needed_s; /* seconds that needed_trials would take; 0: unknown */
     int width, height;
     double reference_error; /* expected mean absolute error of the reference (NaN: the reference was not finished) */
     koksma_rank_check checks[KOKSMA_RANK_CHECKS]; /* checks at half and at twice the image size */
     double seconds;
-    bool advised;       /* true: the pattern with the least error among those whose error is not coherent is
-                           decided */
-    size_t advised_row; /* row of this advised pattern, if advised is true */
+    bool advised;       /* true: it is decided which pattern has the least error among those whose error is not
+                           coherent */
+    size_t advised_row; /* row of that pattern, if `advised` is true */
     size_t n_coherent;  /* number of ranked patterns whose error is coherent */
 } koksma_ranking;
 
@@ -423,7 +427,8 @@ KOKSMA_API koksma_status koksma_rank_patterns(const koksma_rank_options *options
 enum { KOKSMA_MAX_AGAINST = 64, KOKSMA_MAX_HELD_OUT = 16 };
 
 /* How a set of koksma_optimise_scene compares with the listed patterns in one scene. Errors are mean absolute errors
-   in luminance. The texts are those of the options, or of the library. */
+   in luminance. `scene` and `best_listed` point to texts of the options, or to texts of the library where the options
+   are NULL. */
 typedef struct koksma_scene_gain {
     const char *scene;
     int width, height;
@@ -432,27 +437,29 @@ typedef struct koksma_scene_gain {
     double listed_error;
     double gain, low, high; /* 1 - error / listed_error, and its 95 % interval */
     long long trials;       /* number of images of the set */
-    bool settled;           /* true: it is decided which leaves the least error, the set or a listed pattern */
+    bool settled;           /* true: it is decided whether the set or a listed pattern has the least error */
     bool coherent;          /* true: the error of the set has bands or another pattern (koksma_coherence_values) */
 } koksma_scene_gain;
 
 /* The result of koksma_optimise_scene. */
 typedef struct koksma_scene_optimum {
     koksma_points points; /* the set */
-    bool chosen;          /* false: the images have not yet chosen among the candidates; points are the first */
+    bool chosen;          /* false: no candidate has been chosen yet by its images; points is the first candidate */
     const char *measure;  /* the L2 discrepancy that the set was made for */
-    size_t phase;         /* number of its shift on the torus, from 0 */
-    size_t candidates, eliminated; /* number of candidates, shifts included; number that have a larger error */
+    size_t phase;         /* index of the set's shift on the torus; 0: not shifted */
+    size_t candidates, eliminated; /* number of candidates, with each shift counted as one; number of candidates that
+                                      are decided to have a larger error than the best */
     double shares[3];              /* shares of a pixel's variance along x, along y, and of their interaction */
-    koksma_scene_gain gains[1 + KOKSMA_MAX_HELD_OUT]; /* gains[0] in the scene itself, then in the held-out scenes */
-    size_t n_gains;         /* number of gains that are known: fewer after an interruption */
-    double gain, low, high; /* means over the held-out scenes; NaN: there are none */
+    koksma_scene_gain gains[1 + KOKSMA_MAX_HELD_OUT]; /* gains[0] is for the scene itself, all others are for the
+                                                         held-out scenes */
+    size_t n_gains;         /* number of members of gains that are set: fewer after an interruption */
+    double gain, low, high; /* means over the held-out scenes; NaN if there are none */
 } koksma_scene_optimum;
 
 /* Options of koksma_optimise_scene. */
 typedef struct koksma_scene_search {
     const char *scene;    /* as for koksma_scene_open */
-    int spp;              /* number of points of the set, 1 to 4096: samples of a pixel */
+    int spp;              /* number of points of the set and of samples per pixel, 1 to 4096 */
     int width, height;    /* size of the images; 0: that of the scene, halved until it has at most 1,200 pixels */
     uint64_t seed;        /* below 2^32 */
     size_t candidates;    /* number of candidate sets, at most 1000; 0: 8 */
@@ -470,9 +477,9 @@ typedef struct koksma_scene_search {
 } koksma_scene_search;
 
 /* Searches for a point set that gives the image of one scene a small error if every pixel uses it, and compares it
-   with other patterns, there and in scenes that took no part in the search. The candidates are sets of low L2
-   discrepancy and their shifts; the weights of the projections on x, on y and on the plane come from the scene.
-   Equal options give equal results on any number of threads. A time limit of run has no effect.
+   with other patterns, in that scene and in scenes that took no part in the search. The candidates are sets of low L2
+   discrepancy and their shifts; the weights of the discrepancies in x, in y and in the plane are estimated from
+   images of the scene. Equal options give equal results on any number of threads. A time limit of run has no effect.
      out  receives the result, which koksma_scene_optimum_fini frees, also after INTERRUPTED
    Errors: ARGUMENT, UNKNOWN, MISSING, MALFORMED, MEMORY, INTERRUPTED (out then has what was found), and those of
    options->found. */

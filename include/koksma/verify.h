@@ -48,7 +48,7 @@ KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma
 /* Frees the findings and zeroes the struct. findings may be NULL, or zeroed. */
 KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 
-/* Computes the smallest distance of two points.
+/* Computes the smallest distance between any two points of a set.
      torus  true: distances on the unit torus; false: distances in the cube
    O(n log n) for few dimensions. Errors: ARGUMENT (no points, a coordinate outside
    [0,1]), N (one point, which has no distance), DIM, MEMORY, INTERRUPTED. */

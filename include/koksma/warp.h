@@ -46,7 +46,7 @@ KOKSMA_API koksma_status koksma_warp_points(const koksma_warp *warp, const koksm
      l2-disk       disk: test disks of fixed radius r that meet the unit disk, with centres uniform within distance
                    1 + r. On the hemispheres with law=area: spherical caps whose area is uniform up to the whole
                    sphere (r has no effect)
-     disk-sampled  disk: the test disks of l2-disk, sampled by any law, not on a torus
+     disk-sampled  disk: random test disks, with centres as for l2-disk and radii by any law, not on a torus
    Errors: ARGUMENT (no warp, no measure, a parameter that the measure does not accept here, no points, a coordinate
    outside [0,1]), DIM, N (too many points for the method), UNSUPPORTED (a measure or law not listed above), MEMORY,
    INTERRUPTED. */

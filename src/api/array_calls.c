@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_evaluate and koksma_generate on an array as NumPy describes it. An array with another layout than that of
+/* Calls koksma_evaluate and koksma_generate on the memory of a NumPy array. An array with another layout than that of
    koksma_points is rejected with KOKSMA__ARRAY_OTHER; the caller then copies it into that layout. */
 #include "api/array_calls.h"
 

@@ -48,8 +48,8 @@ bool koksma__spec_is_deterministic(const koksma_spec *spec)
     return deterministic;
 }
 
-/* Fails if the pattern runs external code without permission. A call that stops at once, to check the arguments of a
-   pattern, needs no permission. */
+/* Fails if the pattern runs external code without permission. A call whose keep_going returns false at once, because
+   the caller only wants to check the arguments, needs no permission: it fails with INTERRUPTED. */
 static koksma_status check_permission(const koksma_spec *spec, const koksma_pattern *p, const koksma_run *run)
 {
     if (!koksma__keep_going(run, 0)) {

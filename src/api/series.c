@@ -5,12 +5,12 @@
  *   independent points                                  1/2: the sum of n independent terms
  *   one uniform point in each cell of a cubic grid 1/2 + 1/(2 dim): only cells that a region's boundary cuts have
  *                                                       any variance, n^(1 - 1/dim) of them (Beck and Chen 1987)
- *   the same with a given number of columns             1/2: a boundary cuts a fixed share of the cells
+ *   one uniform point in each cell, with `columns` set  1/2: a boundary cuts a fixed share of the cells
  *   centres of a cubic grid, or near them, for boxes    1/dim: a side of a box can cut a whole layer of cells, each
- *                                                       with the same error; no rate with a given number of columns,
- *                                                       because layers do not become thinner
- *   Latin sets without further claims, unbiased         1/2: the variance that is not due to main effects, that is,
- *                                                       to functions of one coordinate (Stein 1987)
+ *                                                       with the same error; no rate if `columns` is set, because
+ *                                                       then layers do not become thinner as n grows
+ *   unbiased Latin sets without further claims          1/2: what remains is the variance that is not due to main
+ *                                                       effects, that is, to functions of one coordinate (Stein 1987)
  *   nets, and Halton's sequence, for boxes              1 (Niederreiter 1992)
  */
 #include <math.h>

@@ -26,7 +26,7 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     const koksma_pattern *pattern = koksma_pattern_find(name);
     if (!pattern) {
         char hint[sizeof name + 64] = "'koksma list patterns' names them";
-        if (strpbrk(name, "./{")) { /* which no pattern's name has */
+        if (strpbrk(name, "./{")) { /* no pattern's name contains these characters */
             snprintf(hint, sizeof hint, "points in a file are a pattern, as in file:%s", name);
         }
         return koksma__fail_unknown("pattern", name, koksma_pattern_name_at, NULL, hint);

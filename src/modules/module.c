@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds and loads modules. They are searched in four places: beside the program or library that contains this code,
-   in the folder koksma/ beside an installed library, in the library folder of a program's prefix, and in the folder
-   where the build installs them. No search path and no environment variable is used. */
+/* Finds and loads modules. They are searched in five places: beside the program or library that contains this code,
+   in the folder above it, in the folder koksma/ beside an installed library, in the library folder of the prefix of an
+   installed program, and in the folder where the build installs them. No search path and no environment variable is
+   used. */
 #define _GNU_SOURCE /* for dladdr */
 #include "modules/module.h"
 

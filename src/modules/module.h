@@ -15,7 +15,8 @@
 typedef struct koksma__host {
     koksma_status (*fail)(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
     koksma_status (*fail_memory)(size_t bytes);
-    /* further functions for this module: a struct that is defined in a header of the module and its caller */
+    /* further functions of Koksma that this module calls: a struct whose type is defined in a header that the module
+       shares with its caller */
     const void *functions;
 } koksma__host;
 
@@ -32,7 +33,7 @@ typedef struct koksma__module {
     koksma__host host;
 } koksma__module;
 
-/* Returns the module's functions in *functions; the first call loads the module. Any thread may call it, any
+/* Returns the module's functions in *functions; the first call loads the module. Any thread may call this function, any
    number of times. Errors: UNSUPPORTED (the file does not exist), SYSTEM (it can't be loaded, or is of another
    release). */
 koksma_status koksma__module_load(const koksma__module *module, const void **functions);

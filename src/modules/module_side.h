@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The sources of a module include this header after all others. It makes calls of Koksma's functions go through the
-   table of functions that the host passes to the module. One source of each module contains KOKSMA__MODULE(its
-   functions). */
+/* The sources of a module include this header after all others. It redirects calls of koksma__fail and
+   koksma__fail_memory to the functions that the host passes to the module. One source of each module contains
+   KOKSMA__MODULE(functions), with the struct of functions that the module offers. */
 #ifndef KOKSMA_MODULES_MODULE_SIDE_H
 #define KOKSMA_MODULES_MODULE_SIDE_H
 
