@@ -13,8 +13,8 @@
  *
  * The writer locks (flock) its temporary file until it ends. A file with a temporary name that belongs to the user,
  * has no other hard link and can be locked was left by a process that died; the next writer into the folder removes
- * it. If another process removed the new file before the writer locked it, the writer finds that the file has no link
- * and makes another one. On a file system without locks, left-over files are not removed.
+ * it. If another process removed the new file before the writer locked it, the writer finds that its file has no link
+ * any more, and makes a new one. On a file system without locks, left-over files are not removed.
  */
 #define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH */
 #include "core/atomic_file.h"

@@ -288,7 +288,7 @@ static koksma_status judge(const conversation *c)
     const char *name = c->child->name;
     const int status = c->outcome.status;
     if (c->status) {
-        return c->status; /* the error's text is that of the last failure */
+        return c->status; /* the error text was set where the status was */
     }
     KOKSMA__FAIL_IF(!c->heard, KOKSMA_SYSTEM, "%s: the process that supervises it was killed", name);
     KOKSMA__FAIL_IF(c->outcome.error == ENOEXEC, KOKSMA_MISSING,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Converts decimal numbers to doubles and back by exact arithmetic in 128 bits, without a table of approximate powers
- * and without undecided cases. libc converts numbers that do not fit, and all numbers if the compiler has no 128-bit
- * integers.
+ * Converts decimal numbers to doubles and back by exact arithmetic in 128 bits; no power of ten is approximated, so
+ * that every rounding is decided. libc converts numbers that do not fit, and all numbers if the compiler has no
+ * 128-bit integers.
  *
  * Reading w 10^-k, w < 2^64, k <= 27: 5^k fits into 64 bits. With w and 5^k shifted so that their top bits are set,
  * the quotient of w 2^63 by 5^k has 63 or 64 bits; if there is a remainder, the lowest bit is set, which makes

@@ -4,8 +4,8 @@
  *
  * Lengths that are powers of two: radix 4 with decimation in frequency for the forward transform and in time for the
  * inverse, in place, O(n log n). The recursion is depth first, so that the parts soon fit into a cache, and every
- * loop runs over adjacent numbers. A convolution multiplies two transforms entry by entry, so both may have the same
- * permuted order. This saves a permutation, or the second buffer that Stockham's transform needs
+ * loop runs over adjacent numbers. A convolution multiplies two transforms entry by entry, so their entries may be in
+ * any order that both share. This saves a permutation, or the second buffer that Stockham's transform needs
  * (kernels/fast_fourier.c, for 16 sequences at once).
  *
  * Any length, with the result in order: up to 16 by the definition, above by Bluestein's algorithm (1970). Because jk

@@ -1,10 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The only writer of JSON text (RFC 8259): a buffer that grows, with commas, quotes and escapes in the right places.
-   koksma__json_writer w = {0}; koksma__json_begin_object(&w, NULL); koksma__json_write_text(&w, "name", name);
-   koksma__json_begin_array(&w, "values"); koksma__json_write_number(&w, NULL, 0.25); koksma__json_end(&w);
-   koksma__json_end(&w); status = koksma__json_finish(&w, &text, &size); {"name":"…","values":[0.25]} Every value
-   takes a key: its name in an object, NULL in an array and at the top. Calls after a failure do nothing, so that only
-   koksma__json_finish needs a check of the status. */
+/*
+ * The only writer of JSON text (RFC 8259): a buffer that grows, with commas, quotes and escapes in the right places.
+ *
+ *     koksma__json_writer w = {0};
+ *     koksma__json_begin_object(&w, NULL);
+ *     koksma__json_write_text(&w, "name", name);
+ *     koksma__json_begin_array(&w, "values");
+ *     koksma__json_write_number(&w, NULL, 0.25);
+ *     koksma__json_end(&w);
+ *     koksma__json_end(&w);
+ *     status = koksma__json_finish(&w, &text, &size);
+ *
+ * gives {"name":"…","values":[0.25]}. Every value takes a key: its name in an object, NULL in an array and at the top.
+ * Calls after a failure do nothing, so that only koksma__json_finish needs a check of the status.
+ */
 #ifndef KOKSMA_CORE_JSON_WRITER_H
 #define KOKSMA_CORE_JSON_WRITER_H
 

@@ -89,7 +89,7 @@ static bool is_even(search *s)
             return false;
         }
     }
-    return true; /* the total is fixed, so if no interval has too many points, none has too few */
+    return true; /* the total is fixed, so if no interval has more than its share of points, none has less */
 }
 
 /* Tries all ways to distribute `left` digits over coordinates k and later. */

@@ -21,7 +21,7 @@ KOKSMA__LAB koksma_status koksma__parallel(const koksma_run *run, size_t n_block
 /* Returns the number of threads that `run` requests. */
 KOKSMA__LAB int koksma__threads(const koksma_run *run);
 
-/* Returns false if run->keep_going returned false. */
+/* Calls run->keep_going, if there is one; returns false if it returned false. */
 KOKSMA__LAB bool koksma__keep_going(const koksma_run *run, double fraction_done);
 
 /* For callbacks that cost much, such as those of an interpreter: koksma__paced is a keep_going whose context is a

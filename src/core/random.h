@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Counter-based random numbers: every number is a hash of its key (seed, purpose, index, lane), so the same arguments
- * give the same bits in any order and on any number of threads. The generator is Philox4x32-10 (Salmon et al. 2011),
- * from Random123. The kernel `uniform` gives the same bits for many indices at once.
+ * Counter-based random numbers: every number is a hash of its key (seed, purpose, index, lane), where lane is a
+ * second index, so the same arguments give the same bits in any order and on any number of threads. The generator is
+ * Philox4x32-10 (Salmon et al. 2011), from Random123. The kernel `uniform` gives the same bits for many indices at
+ * once.
  */
 #ifndef KOKSMA_CORE_RANDOM_H
 #define KOKSMA_CORE_RANDOM_H
@@ -24,7 +25,7 @@ typedef enum koksma__purpose {
     KOKSMA__PURPOSE_SEARCH,   /* a random search that a measure makes */
     KOKSMA__PURPOSE_TEST,     /* tests and benchmarks */
     KOKSMA__PURPOSE_AUDIT,    /* which rows of a study are checked */
-    KOKSMA__PURPOSE_NESTED,   /* the modifiers owen, digital-shift, axes and mirror */
+    KOKSMA__PURPOSE_NESTED,   /* from here to MIRROR: the modifiers owen, digital-shift, axes and mirror */
     KOKSMA__PURPOSE_DIGITS,
     KOKSMA__PURPOSE_AXES,
     KOKSMA__PURPOSE_MIRROR,
@@ -69,7 +70,7 @@ static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t
     pair[1] = koksma__unit(r.w[2], r.w[3]);
 }
 
-/* Returns a seed for part `index` of the work that `seed` was meant for, derived from `seed`. */
+/* Derives a new seed from `seed`: seeds for different (index, lane) are independent. */
 static inline uint64_t koksma__random_seed(uint64_t seed, uint64_t index, uint32_t lane)
 {
     const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_SEED, index, lane);

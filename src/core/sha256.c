@@ -30,7 +30,8 @@ static inline uint32_t rotate(uint32_t x, int n)
     return x >> n | x << (32 - n);
 }
 
-/* Round k modulo 8. The working variables rotate: a is s[-k] and h is s[7 - k], indices modulo 8. */
+/* Computes round k, given modulo 8. The working variables a to h stay in place while their names rotate: a is s[-k]
+   and h is s[7 - k], with indices modulo 8. */
 static inline void mix_round(uint32_t s[8], unsigned k, uint32_t add)
 {
     const uint32_t a = s[(8 - k) % 8], b = s[(9 - k) % 8], c = s[(10 - k) % 8];
