@@ -5,9 +5,9 @@
 
 #include <stddef.h>
 
-/* The model of the power: a mean over `images` images, with the share `common` of their squared errors equal in all.
-   The spectrum of an image has `waves` pairs of conjugate frequencies (u, v) and (-u, -v), each pair counted once, and
-   `real` frequencies that are their own conjugates; the mean (0, 0) is not counted. */
+/* The model of the power: a mean over `images` images; the share `common` of the squared error is the same in all of
+   them. The spectrum of an image has `waves` pairs of conjugate frequencies (u, v) and (-u, -v), each pair counted
+   once, and `real` frequencies that are their own conjugates; the mean (0, 0) is not counted. */
 typedef struct koksma__coherence_law {
     size_t images, waves, real;
     double common;

@@ -40,7 +40,7 @@ typedef struct koksma__image_format {
 #include "image/formats.def"
 #undef FORMAT
 
-/* maximum length of a layer's name, and the capacity for the name, ".R" and the final 0 */
+/* maximum length of a layer's name; capacity for a channel's name: the layer's name, ".R" and the final 0 */
 enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 };
 
 /* The maximum number of pixels of an image that a scene or model names: 8192 x 8192. */

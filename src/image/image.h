@@ -7,10 +7,11 @@
 
 #include "image/formats.h"
 
-/* Writes data at an offset and fills a gap before it with zeros; returns false if memory runs out. */
+/* Writes data at an offset of the array, which grows if needed, and fills a gap before it with zeros; returns false
+   if memory runs out. */
 bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size);
 
-/* Fails with ARGUMENT unless these are valid dimensions of an image. */
+/* Fails with ARGUMENT unless an image can have this width, height and number of channels. */
 koksma_status koksma__image_check_shape(int width, int height, int channels);
 
 /* Checks that all pixels are numbers below 1e30. Other values come from a sun that is too bright for the file's
