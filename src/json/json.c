@@ -147,7 +147,8 @@ koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status 
 /* ---- Documents and nodes --------------------------------------------------------------------------------- */
 
 /* Parses the text. It first checks that twice the memory of the longest possible string is free, because jansson 2.14
-   ignores a failed allocation for a longer string and writes past the old one (lex_save() in its load.c). */
+   ignores a failed allocation for a longer string and writes past the end of the old memory (lex_save() in its
+   load.c). */
 static koksma_status read_text(koksma__json *d, json_error_t *error)
 {
     const size_t room = 4 * d->size + 4096;

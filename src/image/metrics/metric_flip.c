@@ -338,9 +338,9 @@ static koksma_status ldr_errors(const koksma_metric_input *in, double *out)
     return clamped ? KOKSMA_OK : koksma__fail_memory(3 * f.n * sizeof *clamped);
 }
 
-/* A tone-mapper is (a x^2 + b x + c) / (d x^2 + e x + g), applied to each channel. aces: Narkowicz's (2015) fit to
-   ACES with the exposure 0.6; hable: Hable's (2010) curve divided by its value at 11.2, with the exposure 2;
-   reinhard: x / (1 + x) of the luminance. */
+/* A tone-mapper maps grey x to (a x^2 + b x + c) / (d x^2 + e x + g); all but reinhard apply this function to each
+   channel. aces: Narkowicz's (2015) fit to ACES with the exposure 0.6; hable: Hable's (2010) curve divided by its
+   value at 11.2, with the exposure 2; reinhard: x / (1 + x), where colours are divided by 1 + their luminance. */
 enum { ACES, HABLE, REINHARD };
 static const char *const tone_mappers[] = {"aces", "hable", "reinhard", NULL};
 
