@@ -8,8 +8,9 @@
 
 #include "stats/statistics.h"
 
-/* Returns the mean rank of value i, which is (number below) + (number equal + 1) / 2, minus the middle rank (n + 1) /
-   2. Spearman's rho is Pearson's correlation of these (Spearman 1904). */
+/* Returns the mean rank of value i minus the middle rank (n + 1) / 2. The mean rank is b + (e + 1) / 2, with b the
+   number of smaller values and e the number of equal values, i included. Spearman's rho is Pearson's correlation of
+   these ranks (Spearman 1904). */
 static double centred_rank(const double *values, size_t n, size_t i)
 {
     double rank = -0.5 * (double)n;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The logarithm of the gamma function, safe for several threads. */
+/* The logarithm of the gamma function. */
 #ifndef KOKSMA_STATS_LOG_GAMMA_H
 #define KOKSMA_STATS_LOG_GAMMA_H
 
