@@ -31,7 +31,8 @@ typedef struct koksma__dft {
 /* Returns the power of two up to which f must have tables for `length`, or 0 if no tables are needed. */
 KOKSMA__LAB size_t koksma__dft_padded(size_t length);
 
-/* Plans transforms of `length` numbers by the tables f; koksma__dft_fini releases them. Errors: MEMORY. */
+/* Prepares transforms of `length` numbers, which use the tables f; koksma__dft_fini releases the memory of *dft.
+   Errors: MEMORY. */
 KOKSMA__LAB koksma_status koksma__dft_init(koksma__dft *dft, const koksma__fourier *f, size_t length);
 KOKSMA__LAB void koksma__dft_fini(koksma__dft *dft);
 

@@ -80,8 +80,8 @@ KOKSMA__LAB void koksma__json_break(koksma__json_writer *w);
    per line. */
 KOKSMA__LAB koksma_status koksma__json_line(koksma__json_writer *w, FILE *stream);
 
-/* Gives the text to the caller, who frees it. After a failure it frees the text and returns the status. The writer is
-   then empty. */
+/* Gives the text to the caller, who frees it; after a failure it frees the text and returns the status. In both cases
+   the writer is then empty. */
 KOKSMA__LAB koksma_status koksma__json_finish(koksma__json_writer *w, char **text, size_t *size);
 
 /* Frees the buffer of a writer that is not finished. */

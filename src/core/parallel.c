@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Runs a job of numbered blocks on several threads: each thread takes the next number from an atomic counter, so that
- * the assignment of blocks to threads differs from run to run, and results must not depend on it. Threads are made
- * for each job; the caller's thread works too. The first failure stops the job, and its error text is copied to the
- * caller's thread.
+ * the assignment of blocks to threads differs from run to run, and results must not depend on it. New threads are
+ * made for each job, and the caller's thread takes blocks, too. The first failure stops the job, and its error text
+ * is copied to the caller's thread.
  */
 #include "core/parallel.h"
 

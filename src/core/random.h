@@ -29,7 +29,7 @@ typedef enum koksma__purpose {
     KOKSMA__PURPOSE_DIGITS,
     KOKSMA__PURPOSE_AXES,
     KOKSMA__PURPOSE_MIRROR,
-    KOKSMA__PURPOSE_PIXEL, /* the samples of a pixel: koksma__random_draw */
+    KOKSMA__PURPOSE_PIXEL, /* the samples of a pixel (koksma__random_draw) */
     KOKSMA__PURPOSE_BASE   /* the modifier owen-base */
 } koksma__purpose;
 
@@ -47,7 +47,7 @@ static inline koksma__words koksma__random(uint64_t seed, uint32_t purpose, uint
 }
 
 /* Returns 128 random bits by 7 rounds, the smallest number of rounds that passes BigCrush (Salmon et al. 2011, table
-   2). Used in the renderer, which draws more random numbers than any other part of the library. */
+   2). For the renderer, which draws more random numbers than any other part of the library. */
 static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane)
 {
     const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};

@@ -99,7 +99,7 @@ static koksma_status order_progressively(const koksma__point_domain *domain, siz
     return status;
 }
 
-/* Chooses `length` of factor * length candidates. */
+/* Chooses `length` points among factor * length candidates by elimination. */
 static koksma_status choose_from(const choice *c, size_t length, size_t factor, double d_max, double d_min,
                                  koksma__domain_point *chosen)
 {

@@ -26,9 +26,9 @@ typedef struct koksma__image_format {
     /* NULL, or reads the transparency as an image of one channel, 1 where a pixel is opaque; the image is empty if
        the file has no transparency. */
     koksma_status (*read_alpha)(const unsigned char *bytes, size_t size, koksma_image *out);
-    /* Writes the first of n layers, or more if the format can hold them. */
+    /* Writes the first of n layers, or all of them if has_layers is set. */
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
-    bool has_layers; /* whether a file holds all layers; otherwise it holds only the first */
+    bool has_layers; /* whether a file can hold several layers */
     /* 0 if every float is kept exactly; otherwise numbers are clamped to [0,1], and this is their largest error */
     double error;
     const char *left_out; /* the library that the format needs and this build lacks, in which case read and write are

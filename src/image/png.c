@@ -172,7 +172,7 @@ static koksma_status to_linear(const unsigned char *levels, const head *h, size_
     return KOKSMA_OK;
 }
 
-/* Copies the last channel, without a transfer function. */
+/* Copies the last channel, which is the transparency, without a transfer function. */
 static void to_alpha(const unsigned char *levels, const head *h, size_t pixels, float *out)
 {
     const size_t bytes = (size_t)h->level_bytes, step = (size_t)h->channels * bytes;

@@ -230,7 +230,8 @@ static bool other_spelling(const char *key, char *other, size_t size)
     return false;
 }
 
-/* Finds the member of an object whose key has this spelling or the other one; NULL if there is none. */
+/* Finds the member of an object whose key has the given spelling, British or American, or the other one; NULL if
+   there is none. */
 static const json_t *find(const json_t *object, const char *key)
 {
     char other[KOKSMA__JSON_PATH];

@@ -49,7 +49,7 @@ static double error_of_trials(size_t n, const double *sizes, const double *means
         for (size_t i = 0; i < n; i++) {
             weights[i] = 0;
             if (!(means[i] > 0 && isfinite(means[i]))) {
-                continue; /* skipped, as in the fit of the line */
+                continue; /* the fit of the line skips this mean, too */
             }
             if (pass == 0) {
                 middle += (log(sizes[i]) - middle) / ++count;

@@ -116,7 +116,7 @@ static void fit_ridge(sums *s, double penalty, size_t count)
     }
 }
 
-/* Returns the squared error per case of a scene that the weights give, without the constant 1. */
+/* Returns the squared error per case of a scene for s->weights, 1 - 2 b'c + b'G b, without the constant 1. */
 static double error_in(const sums *s, size_t scene)
 {
     const size_t k = s->k;

@@ -88,7 +88,7 @@ const koksma__property koksma__property_origin_unique = {
 
 const koksma__property koksma__property_origin_present = {
     .public = {.name = "origin-present",
-               .meaning = "the points are no unscrambled sequence without its first point, the origin; "
-                          "value: number of points at the origin"},
+               .meaning = "the points do not look like an unscrambled sequence whose first point, the origin, is "
+                          "missing; value: number of points at the origin"},
     .look = look_present,
 };
