@@ -91,7 +91,7 @@ static void move_point(descent *d, size_t i, double force[3])
     }
 }
 
-/* Moves the points of one block of groups. */
+/* Moves the points of one block of groups (source_tree.h). */
 static koksma_status move_block(void *context, size_t block)
 {
     descent *d = context;

@@ -55,7 +55,7 @@ typedef struct maximal {
     size_t n_pieces, capacity; /* of the pieces */
 } maximal;
 
-/* Makes a query of the centre and the corners of a piece. */
+/* Makes the query whether a point covers a piece, from the piece's centre and corners. */
 static void query_of(const maximal *m, const piece *p, double *centre, koksma__dart_query *q)
 {
     static const double units[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -241,7 +241,7 @@ static koksma_status by_distance(maximal *m)
     return KOKSMA_OK;
 }
 
-/* Throws n points at the distance of the grid. */
+/* Throws n points that are at least the distance of the grid apart; starts again with another seed if fewer fit. */
 static koksma_status by_fraction(maximal *m)
 {
     const size_t n = m->c->n;
@@ -264,7 +264,7 @@ static koksma_status by_fraction(maximal *m)
                         m->c->params[0], most, n, m->c->domain->what);
 }
 
-/* Makes the points of a choice by a method; d is the initial distance, for which the grid's cells are sized. */
+/* Makes the points of the task c by a method; d is the initial distance, for which the grid's cells are sized. */
 static koksma_status choose(const koksma__choice *c, size_t capacity, double d, koksma_status (*method)(maximal *m))
 {
     maximal m = {.c = c};

@@ -290,7 +290,7 @@ static void find_rings(const koksma_coherence *c, double most, rings *out)
     }
 }
 
-/* The share of the squared errors that is common to all images. */
+/* Returns the share of the squared errors that is common to all images. */
 static double find_common(const koksma_coherence *c)
 {
     const double images = (double)c->images;
@@ -325,7 +325,7 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
     }
     const double y = signed_frequency(peak / columns, c->height);
     out->frequency_x = (double)(peak % columns) / c->width;
-    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* -y: rows are counted downwards */
+    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* -y, because rows are counted downwards */
     if (c->images > 1) {
         const double images = (double)c->images, mean = c->power[peak];
         const double variance = fmax(c->squares[peak] - mean * mean, 0) * images / (images - 1);

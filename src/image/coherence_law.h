@@ -13,11 +13,11 @@ typedef struct koksma__coherence_law {
     double common;
 } koksma__coherence_law;
 
-/* The probability that the largest power divided by the mean power exceeds x. */
+/* Returns the probability that the largest power divided by the mean power exceeds x. */
 double koksma__coherence_tail(const koksma__coherence_law *law, double x);
 
-/* The x that the largest power divided by the mean exceeds with probability `tail`, 0 < tail < 1: the inverse of
-   koksma__coherence_tail. */
+/* Returns the inverse of koksma__coherence_tail: the x that the largest power divided by the mean power exceeds with
+   probability `tail`, 0 < tail < 1. */
 double koksma__coherence_quantile(const koksma__coherence_law *law, double tail);
 
 #endif

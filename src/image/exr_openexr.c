@@ -205,8 +205,8 @@ static exr_result_t read_tiles(exr_const_context_t file, exr_decode_pipeline_t *
     return r;
 }
 
-/* Whether a tile is no larger than the image, or than 2048 x 2048 pixels: OpenEXR's C++ library allocates memory for
-   whole tiles. */
+/* Whether a tile is at most as large as the image, or at most 2048 x 2048 pixels: OpenEXR's C++ library allocates
+   memory for whole tiles. */
 static bool tiles_fit(exr_const_context_t file, const exr_attr_box2i_t *window)
 {
     uint32_t width, height;

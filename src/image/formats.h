@@ -18,7 +18,8 @@ typedef struct koksma__bytes {
 typedef struct koksma__image_format {
     const char *name;
     bool (*recognises)(const unsigned char *bytes, size_t size);
-    /* Reads an image. Errors name no file: the caller puts its name in front. On failure the caller releases *out. */
+    /* Reads an image. Errors do not name the file: the caller puts its name in front of the text. On failure the
+       caller releases *out. */
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
     /* NULL, or reads an image as `read` does, but always with sRGB's transfer function, whatever function the file
        states. */

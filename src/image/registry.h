@@ -36,7 +36,7 @@ koksma_status koksma__image_write_in(const char *folder, const char *name, const
 /* Format i of the table; NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
-/* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors name no
+/* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors do not name the
    file. */
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
                                        koksma_image *out);

@@ -42,7 +42,8 @@ typedef struct stream {
 
 static const uint32_t multiplier[2] = {0xD2511F53u, 0xCD9E8D57u}, weyl[2] = {0x9E3779B9u, 0xBB67AE85u};
 
-/* Not inlined, because compilers would otherwise build the vectors again in each round. */
+/* Makes the stream of the counters whose second word is `high`. Not inlined, because compilers would otherwise build
+   its vectors again in each round. */
 static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpose, uint32_t high, uint32_t lane,
                                                   int rounds, stream *out)
 {

@@ -22,7 +22,8 @@ typedef struct step {
 } step;
 
 /* Computes the largest excess over ranks 0 .. n-1 and the largest deficit over ranks 0 .. n. The last vector reads
-   past the end, where y is 1. A box of this height has the deficit of rank n, and at most the excess of rank n-1. */
+   past the end, where y is 1. Boxes of this height have the deficit of rank n, and at most the excess of rank n-1, so
+   that they change no result. */
 static void maxima(size_t n, const double *y, const double *count, step *s)
 {
     lanes64_d excess = lanes64_splat_d(-INFINITY), deficit = excess;

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The colours of plots. The style number of a curve is colour + KOKSMA__COLOURS * dash. palette.def gives each pattern
- * the colour of its family. Up to KOKSMA__COLOURS curves of a picture have different colours: the first curve of a
- * family gets the family's colour, and each other curve the next colour that no curve has yet. If there are more
- * curves, they differ in dashes. A curve that belongs to no pattern gets the first free number.
+ * the colour of its family. koksma_plot_colours gives up to KOKSMA__COLOURS curves of a picture different colours:
+ * the first curve of a family gets the family's colour, and each other curve the next colour that no curve has yet;
+ * if there are more curves, they differ in dashes. koksma__take_curve_number, for reports, gives all patterns of a
+ * family the family's colour with different dashes. In both, a curve that belongs to no pattern gets the first free
+ * number.
  */
 #include "plot/palette.h"
 

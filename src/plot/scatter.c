@@ -199,7 +199,8 @@ static int dimensions(const koksma_panel *panel)
     return dim < KOKSMA_PLOT_MAX_DIM ? dim : KOKSMA_PLOT_MAX_DIM;
 }
 
-/* Draws the lower triangle of the scatter matrix: coordinate j against i > j, labelled at the left and below. */
+/* Draws the lower triangle of the scatter matrix: in row i and column j < i, coordinate i against coordinate j; the
+   coordinates are named at the left and below. */
 static void draw_matrix(const plot *p, const koksma_panel *panel)
 {
     const int n = dimensions(panel) - 1, gap = 4;

@@ -5,7 +5,7 @@
 
 #include "core/visibility.h"
 
-/* log gamma(x), x > 0. Unlike lgamma, several threads may call it at the same time. */
+/* log gamma(x), x > 0. Several threads may call it at the same time, unlike lgamma. */
 KOKSMA__LAB double koksma__log_gamma(double x);
 
 #endif

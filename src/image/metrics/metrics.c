@@ -140,8 +140,8 @@ koksma_metric_value koksma__metric_pool(const koksma_metric *metric, double *err
     return out;
 }
 
-/* Evaluates the metrics with this number of channels. buffer: has space for the values of both images and for one
-   error a pixel. */
+/* Evaluates those of n metrics that compare this number of channels. buffer: has space for the values of both images
+   and for one error a pixel. */
 static koksma_status evaluate(const koksma_metric_spec *specs, size_t n, int channels, const koksma_image *image,
                               const koksma_image *reference, double *buffer, koksma_metric_value *out)
 {
