@@ -5,8 +5,8 @@
  * 128-bit integers.
  *
  * Reading w 10^-k, w < 2^64, k <= 27: 5^k fits into 64 bits. With w and 5^k shifted so that their top bits are set,
- * the quotient of w 2^63 by 5^k has 63 or 64 bits; if there is a remainder, its lowest bit is set to 1, so that
- * rounding the quotient to 53 bits rounds the exact value.
+ * the quotient of w 2^63 by 5^k has 63 or 64 bits; if there is a remainder, the lowest bit of the quotient is set to
+ * 1, so that rounding it to 53 bits rounds the exact value.
  *
  * Writing x = m 2^e from 1e-4 to 1 with 17 digits: choose p, 17 <= p <= 20, such that x 10^p has 17 digits; m 5^p
  * then fits into 100 bits. x 10^p = m 5^p 2^(e + p) is m 5^p shifted, and the bits that are shifted out decide the

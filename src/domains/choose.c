@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Makes points on a domain (domain.h) with the method of a pattern; the table at the end lists the patterns that have
- * one. These methods choose among candidates, which are independent and have the wanted density:
+ * such a method. These methods choose among candidates, which are independent and have the wanted density:
  *
  *   random                 the first n candidates
  *   elimination            n of factor * n candidates, chosen by patterns/shared/elimination.c, which also makes the

@@ -45,7 +45,7 @@ typedef struct descent {
     const koksma__choice *c;
     const koksma__point_domain *domain;
     koksma__field field;
-    koksma__source_tree tree;    /* sources: nodes and points */
+    koksma__source_tree tree;    /* its sources are the nodes of the field and the points */
     double *xs, *moves, *widths; /* of the points */
     double *squares;             /* squared force on each point, in units of its width */
     double step, momentum, least;

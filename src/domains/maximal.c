@@ -55,7 +55,7 @@ typedef struct maximal {
     size_t n_pieces, capacity; /* of the pieces */
 } maximal;
 
-/* Makes the query whether a point covers a piece, from the piece's centre and corners. */
+/* Makes the query that asks whether a point covers a piece. */
 static void query_of(const maximal *m, const piece *p, double *centre, koksma__dart_query *q)
 {
     static const double units[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};

@@ -3,11 +3,11 @@
  * A quadtree or octree of sources, rebuilt in every step of a descent: a radix sort orders the sources by the
  * interleaved bits of their coordinates (Morton 1966), so that the sources of a box are a range of the sorted array.
  * Neighbouring points share one walk down the tree: they form a group, the sources of a box with at most 32 sources
- * whose parent has more. The walk collects the ranges of those leaves that are near enough to the bounding box of the
- * group's points for any pair to have a force, and the kernel source_force sums over these ranges for each point. The
- * kernel's cut-off distance is the same for both points of a pair, so that the forces are the gradient of an energy.
- * Building the tree takes O(n); the forces on a point take about O(log n + number of sources in reach). The order in
- * which forces are added depends only on the sources.
+ * whose parent has more. The walk collects the ranges of those leaves that are in reach of the bounding box of the
+ * group's points, and the kernel source_force sums over these ranges for each point. The kernel's cut-off distance is
+ * the same for both points of a pair, so that the forces are the gradient of an energy. Building the tree takes O(n);
+ * the forces on a point take about O(log n + number of sources in reach). The order in which forces are added depends
+ * only on the sources.
  */
 #include "domains/source_tree.h"
 
@@ -131,7 +131,8 @@ static void extend_by_sources(const koksma__source_tree *t, koksma__source_box *
     }
 }
 
-/* Divides box number b, at this depth of the tree, into boxes with at most LEAF sources or of the greatest depth. */
+/* Divides box number b, at this depth of the tree, until its boxes have at most LEAF sources or the greatest
+   depth. */
 static koksma_status divide(koksma__source_tree *t, size_t b, int depth)
 {
     const int bits = t->dim == 2 ? DEEPEST : 10, ways = 1 << t->dim, shift = 32 + (bits - 1 - depth) * t->dim;

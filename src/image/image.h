@@ -23,7 +23,8 @@ koksma_status koksma__image_check(const koksma_image *image, const char *name);
 void koksma__image_limit(size_t pixels);
 
 /* Allocates an image, as koksma_image_init does, of the size that a file claims. Errors: MALFORMED (the size is out
-   of range, or `bytes` bytes of at most `pixels_a_byte` pixels each can't hold so many pixels), MEMORY. */
+   of range, or too large for a file of `bytes` bytes that has at most `pixels_a_byte` pixels for each byte),
+   MEMORY. */
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out);
 

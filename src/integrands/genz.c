@@ -9,9 +9,9 @@
  *     continuous      exp(-sum a_i |x_i - u_i|)
  *     discontinuous   exp(sum a_i x_i) for x_1 <= u_1 and x_2 <= u_2, else 0
  *
- * u and a are random numbers in (0,1) that depend on the seed; a is then scaled such that its sum is the parameter
- * `difficulty`. The default difficulties are those of Barthelmann, Novak and Ritter (2000); Genz's own program takes
- * h / d^e as the sum, with constants h and e for each family.
+ * u and a are random numbers in (0,1) that depend on the seed; the a_i are then scaled such that their sum is the
+ * parameter `difficulty`. The default difficulties are those of Barthelmann, Novak and Ritter (2000); Genz's own
+ * program takes h / d^e as the sum, with constants h and e for each family.
  *
  * Four of the families are products, and the properties of their factors have closed forms. For the oscillatory
  * family, with s(t) = sin(t) / t,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rank correlation: Spearman's rho and Kendall's tau-b, by their definitions in O(n^2), which is fast because n
-   is a number of patterns. Values that koksma__compare finds equal are ties, so that rounding does not decide an
-   order. */
+/* Rank correlation: Spearman's rho and Kendall's tau-b, by their definitions in O(n^2), which is fast because n is
+   the number of patterns and thus small. Values that koksma__compare finds equal are ties, so that rounding does not
+   decide an order. */
 #include "stats/correlation.h"
 
 #include <math.h>

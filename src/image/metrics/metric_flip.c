@@ -24,8 +24,8 @@
  * case that the paper leaves open, is replaced by the median of the pixels above 0; a black reference has only the
  * exposure e = 0.
  *
- * ppd: pixels per degree = distance / width of the monitor x pixels across x pi / 180; the papers' default is 67.02,
- * 3840 pixels across 0.7 m, seen from 0.7 m.
+ * ppd: pixels per degree = (distance / width of the monitor) x (pixels across the monitor) x pi / 180; the papers'
+ * default is 67.02, for 3840 pixels across 0.7 m, seen from 0.7 m.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -148,8 +148,8 @@ typedef struct filter {
     double w[2 * MOST_RADIUS + 1];
 } filter;
 
-/* A Gaussian exp(-x^2 / (2 s^2)) with sum 1. derivative 1 and 2: times -x and x^2 / s^2 - 1, with positive weights of
-   sum 1 and negative weights of sum -1. x is in units of `step`. */
+/* A Gaussian exp(-x^2 / (2 s^2)) with sum 1. For derivative = 1 it is multiplied by -x, for derivative = 2 by x^2 /
+   s^2 - 1; then its positive weights have the sum 1 and its negative weights the sum -1. x is in units of `step`. */
 static void gaussian(filter *f, int radius, double step, double s, int derivative)
 {
     double positive = 0, negative = 0;
