@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The permission to run external code, stored as one number per thread. Only the caller of the library can give it;
-   no spec, plan, scene or store can contain it. core/parallel.c and the MPI server pass it on to the threads that they
-   start. */
+/* The permission to run external code, stored as one number per thread. Only the caller of the library can give this
+   permission; no spec, plan, scene or store can contain it. core/parallel.c and the MPI server pass it on to the
+   threads that they start. */
 #include "core/allow.h"
 
 enum { MOST_SECONDS = 86400 };

@@ -9,7 +9,8 @@
 #include "core/visibility.h"
 
 /* Returns the number of seconds for which the calling thread lets a pattern's program run; 0: the thread allows no
-   programs. A new thread passes the number of the thread that created it to koksma_allow_exec. */
+   programs. A function that starts threads reads this number before, and each new thread passes it to
+   koksma_allow_exec. */
 KOKSMA__LAB double koksma__exec_seconds(void);
 
 #endif

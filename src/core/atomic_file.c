@@ -13,8 +13,8 @@
  *
  * The writer locks (flock) its temporary file until it ends. A file with a temporary name that belongs to the user,
  * has no other hard link and can be locked was left by a process that died; the next writer into the folder removes
- * it. If another process removed the new file before the writer locked it, the writer finds that the file has no link
- * and makes another one. On a file system without locks, left-over files are not removed.
+ * it. If another process removed the new file before the writer locked it, the writer finds that its file has no link
+ * any more, and makes a new one. On a file system without locks, left-over files are not removed.
  */
 #define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH */
 #include "core/atomic_file.h"
@@ -86,8 +86,8 @@ static void remove_if_dead(int folder, const char *name)
     }
 }
 
-/* Removes temporary files that dead processes left. A process that writes many files into one folder searches the
-   folder only once. */
+/* Removes temporary files that dead processes left. A process that writes many files into one folder, one after the
+   other, searches the folder for such files only once. */
 static void remove_leftovers(int folder)
 {
     static atomic_ullong last;
@@ -118,8 +118,8 @@ static int open_folder(int at, const char *path, int flags)
     return folder < 0 && errno == EACCES ? openat(at, path, O_PATH | O_DIRECTORY | O_CLOEXEC | flags) : folder;
 }
 
-/* Returns a descriptor above 2 for the same file, because other code writes to descriptors 0 to 2 even if these streams
-   were closed. */
+/* Replaces a descriptor from 0 to 2 by one above 2 for the same file, because other code writes to the standard
+   streams even if they were closed. */
 static int above_streams(int descriptor)
 {
     if (descriptor < 0 || descriptor > STDERR_FILENO) {
@@ -156,9 +156,9 @@ static bool make_temporary(output *o)
     return false;
 }
 
-/* Returns the descriptor that a path such as "/dev/stdout" or "/dev/fd/3" names if the process has it open; -1 for
-   any other path. If the stream was redirected to a file, the earlier contents of the file remain, and new output is
-   appended. */
+/* Returns the number of the descriptor that a path such as "/dev/stdout" or "/dev/fd/3" names; -1 for any other path.
+   Output to such a path uses the open descriptor: if it was redirected to a file, the earlier contents of the file
+   remain, and new output is appended. */
 static int descriptor_of(const char *path)
 {
     int number = -1, used = 0;
@@ -189,8 +189,8 @@ static char *new_target(const char *path)
     return target;
 }
 
-/* Opens a target that is not a plain file, such as a device or pipe: renaming a file over it would replace it.
-   Returns false if the target is a plain file or does not exist. */
+/* Opens a target that is not a plain file, such as a device or pipe, for writing: a temporary file renamed to its
+   name would replace it. Returns false if the target is a plain file or does not exist. */
 static bool open_special(const char *path, output *o)
 {
     struct stat info;

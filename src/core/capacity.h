@@ -8,9 +8,9 @@
 
 #include "core/status.h"
 
-/* Returns the array `items` with capacity for one item more than n. The first capacity is `first` items; later ones
-   are twice the old capacity. When memory runs out it returns NULL and sets the error's text; the old array stays
-   valid. */
+/* Returns the array `items` of n items, moved if needed, with capacity for at least one more item. The first capacity
+   is `first` items; later ones are twice the old capacity. When memory runs out it returns NULL and sets the error's
+   text; the old array stays valid. */
 static inline void *koksma__room_for_one(void *items, size_t n, size_t *capacity, size_t first, size_t item_size)
 {
     if (n < *capacity) {

@@ -8,9 +8,9 @@
  *              program ends, or the caller closes its end of the socket or dies, the keeper kills all its descendants
  *     program  in a process group of its own, with a limit on memory and no core file
  *
- * A separate keeper is needed because a process adopts orphans as a whole, and a library must not change this for its
- * host program. Between fork and exec the child makes only calls that are safe after fork in a process of several
- * threads.
+ * A separate keeper is needed because PR_SET_CHILD_SUBREAPER applies to a whole process, and a library must not set
+ * it for its host program. Between fork and exec the child makes only calls that are safe after fork in a process of
+ * several threads.
  */
 #define _GNU_SOURCE /* pipe2, ppoll */
 #include "core/child.h"
@@ -99,7 +99,7 @@ static void close_others(const int ends[N_ENDS])
     }
 }
 
-/* Kills all children of this process, which /proc lists. */
+/* Kills all children of this process, as listed by /proc. */
 static void kill_children(void)
 {
     char text[4096];
@@ -288,7 +288,7 @@ static koksma_status judge(const conversation *c)
     const char *name = c->child->name;
     const int status = c->outcome.status;
     if (c->status) {
-        return c->status; /* the error's text is that of the last failure */
+        return c->status; /* the error text was set where the status was */
     }
     KOKSMA__FAIL_IF(!c->heard, KOKSMA_SYSTEM, "%s: the process that supervises it was killed", name);
     KOKSMA__FAIL_IF(c->outcome.error == ENOEXEC, KOKSMA_MISSING,

@@ -2,9 +2,9 @@
 /*
  * The smallest distance between two points of a set in the plane, by divide and conquer (Shamos & Hoey 1975): the
  * closest pair lies in the left half of the points, in the right half, or across the line between the halves. A pair
- * across the line can be closer than the best pair so far only if both points are nearer to the line, and to each
- * other in y, than that pair; this holds for few points. On the torus a second search covers the points near a side
- * together with copies of the points near the opposite side.
+ * across the line can be closer than d, the smallest distance so far, only if both points are less than d from the
+ * line and their y differ by less than d; few pairs meet these conditions. On the torus a second search covers the
+ * points near a side together with copies of the points near the opposite side.
  */
 #include "core/closest_pair.h"
 
@@ -100,8 +100,8 @@ static koksma_status find(search *s, place *places, size_t n)
     return s->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* Collects in `out` the points less than `margin` from a side, and the copies less than `margin` beyond a side, and
-   returns their number; out may be NULL. */
+/* Collects in `out` the points less than `margin` from a side of the square, and their copies on the torus less than
+   `margin` beyond a side. Returns the number of both; out may be NULL. */
 static size_t lay_out_sides(const koksma_points *points, double margin, place *out)
 {
     size_t m = 0;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Converts decimal numbers to doubles and back by exact arithmetic in 128 bits, without a table of approximate powers
- * and without undecided cases. libc converts numbers that do not fit, and all numbers if the compiler has no 128-bit
- * integers.
+ * Converts decimal numbers to doubles and back by exact arithmetic in 128 bits; no power of ten is approximated, so
+ * that every rounding is decided. libc converts numbers that do not fit, and all numbers if the compiler has no
+ * 128-bit integers.
  *
  * Reading w 10^-k, w < 2^64, k <= 27: 5^k fits into 64 bits. With w and 5^k shifted so that their top bits are set,
- * the quotient of w 2^63 by 5^k has 63 or 64 bits; if there is a remainder, the lowest bit is set, which makes
- * rounding to 53 bits exact.
+ * the quotient of w 2^63 by 5^k has 63 or 64 bits; if there is a remainder, the lowest bit of the quotient is set to
+ * 1, so that rounding it to 53 bits rounds the exact value.
  *
  * Writing x = m 2^e from 1e-4 to 1 with 17 digits: choose p, 17 <= p <= 20, such that x 10^p has 17 digits; m 5^p
  * then fits into 100 bits. x 10^p = m 5^p 2^(e + p) is m 5^p shifted, and the bits that are shifted out decide the

@@ -3,15 +3,16 @@
  * The discrete Fourier transform of one sequence.
  *
  * Lengths that are powers of two: radix 4 with decimation in frequency for the forward transform and in time for the
- * inverse, in place, O(n log n). The recursion is depth first, so that the parts soon fit into a cache, and every
- * loop runs over adjacent numbers. A convolution multiplies two transforms entry by entry, so both may have the same
- * permuted order. This saves a permutation, or the second buffer that Stockham's transform needs
- * (kernels/fast_fourier.c, for 16 sequences at once).
+ * inverse, in place, O(n log n). The recursion is depth first, so that the parts of the sequence soon fit into a
+ * cache, and every loop runs over adjacent numbers. A convolution multiplies two transforms entry by entry, so their
+ * entries may be in any order that both share. This saves a permutation, or the second buffer that Stockham's
+ * transform needs (kernels/fast_fourier.c, for 16 sequences at once).
  *
- * Any length, with the result in order: up to 16 by the definition, above by Bluestein's algorithm (1970). Because jk
- * = (j^2 + k^2 - (k - j)^2)/2, the transform is a product with the conjugate of the chirp exp(i pi j^2 / length), a
- * convolution with the chirp, and another product with the conjugate. The convolution can be padded with zeros to a
- * power of two. j^2 is taken modulo 2 length before it becomes an angle, so that long lengths lose no digits.
+ * Any length, with the result in order: lengths up to 16 by the definition, longer ones by Bluestein's algorithm
+ * (1970). Because jk = (j^2 + k^2 - (k - j)^2)/2, the transform is a product with the conjugate of the chirp exp(i pi
+ * j^2 / length), a convolution with the chirp, and another product with the conjugate. The convolution can be padded
+ * with zeros to a power of two. j^2 is taken modulo 2 length before it becomes an angle, so that long lengths lose no
+ * digits.
  */
 #include "core/dft.h"
 
@@ -57,7 +58,8 @@ static void pair(double *x)
     x[0] = sum;
 }
 
-/* Two steps of radix 2: the four quarters become the inputs of the frequencies 0, 2, 1 and 3 modulo 4. */
+/* Does two steps of radix 2: the four quarters become the inputs of the transforms that give the frequencies 0, 2, 1
+   and 3 modulo 4. */
 static void split(const koksma__fourier *f, size_t quarter, double *re, double *im)
 {
     const double *restrict cosines = f->cosines + quarter, *restrict sines = f->sines + quarter;

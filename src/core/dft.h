@@ -17,8 +17,8 @@ typedef struct koksma__fourier {
 KOKSMA__LAB koksma_status koksma__fourier_init(koksma__fourier *f, size_t longest);
 KOKSMA__LAB void koksma__fourier_fini(koksma__fourier *f);
 
-/* forward: the sums over j of x_j exp(-2 pi i j k / n), n a power of two, in a permuted order that only backward
-   undoes. backward: n times the inverse of forward. */
+/* forward: the sums over j of x_j exp(-2 pi i j k / n), n a power of two, in a permuted order that
+   koksma__fourier_back undoes. back: n times the inverse of forward. */
 void koksma__fourier_forward(const koksma__fourier *f, size_t n, double *re, double *im);
 void koksma__fourier_back(const koksma__fourier *f, size_t n, double *re, double *im);
 
@@ -28,11 +28,11 @@ typedef struct koksma__dft {
     double *filter_re, *filter_im;
 } koksma__dft;
 
-/* Returns the power of two up to which f must have tables for `length`, or 0 if no tables are needed. The scratch
-   arrays of the functions below have this number of elements. */
+/* Returns the power of two up to which f must have tables for `length`, or 0 if no tables are needed. */
 KOKSMA__LAB size_t koksma__dft_padded(size_t length);
 
-/* Plans transforms of `length` numbers by the tables f; koksma__dft_fini releases them. Errors: MEMORY. */
+/* Prepares transforms of `length` numbers, which use the tables f; koksma__dft_fini releases the memory of *dft.
+   Errors: MEMORY. */
 KOKSMA__LAB koksma_status koksma__dft_init(koksma__dft *dft, const koksma__fourier *f, size_t length);
 KOKSMA__LAB void koksma__dft_fini(koksma__dft *dft);
 

@@ -2,7 +2,7 @@
 /*
  * exp, log, erf and inverse erf with the same bits on every machine, for computing points. A libm's results differ in
  * the last bits between machines (glibc's exp depends on whether there is a fused multiply-add). These functions use
- * only sums and products, which IEEE 754 rounds the same way everywhere.
+ * only additions, multiplications, divisions and square roots, which IEEE 754 rounds the same way everywhere.
  */
 #ifndef KOKSMA_CORE_ELEMENTARY_H
 #define KOKSMA_CORE_ELEMENTARY_H
@@ -50,8 +50,8 @@ static inline double koksma__exp(double x)
 }
 
 /* log(x) = e ln 2 + 2 artanh((m - 1) / (m + 1)), x = 2^e m, m from sqrt(1/2) to sqrt(2), for finite x > 0: the series
-   of artanh in odd powers up to the 23rd, whose remainder is less than 1e-18 of the sum. Within two units in the last
-   place. */
+   of artanh in odd powers up to the 23rd, whose remainder is less than 1e-18 of the sum. The error is at most two
+   units in the last place. */
 static inline double koksma__log(double x)
 {
     int e;
@@ -68,8 +68,9 @@ static inline double koksma__log(double x)
     return e * 0x1.62e42feep-1 + (2 * f + (2 * f * square * sum + e * 0x1.a39ef35793c76p-33));
 }
 
-/* erf(x) = 2/sqrt(pi) exp(-x^2) sum over i of 2^i x^(2i+1) / (1 3 .. (2i+1)) for |x| < 2, and beyond 1 - erfc(x) by
-   Laplace's continued fraction (Abramowitz & Stegun 1964, 7.1.6 and 7.1.14). Relative error below 2e-15. */
+/* erf(x) = 2/sqrt(pi) exp(-x^2) sum over i of 2^i x^(2i+1) / (1 3 .. (2i+1)) for |x| < 2; for larger |x| it is 1 -
+   erfc(|x|) with the sign of x, with erfc computed by Laplace's continued fraction (Abramowitz & Stegun 1964, 7.1.6
+   and 7.1.14). Relative error below 2e-15. */
 static inline double koksma__erf(double x)
 {
     const double a = fabs(x), square = a * a;

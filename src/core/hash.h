@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 /* 64-bit hash of a byte string: FNV-1a, then the finalizer of SplitMix64, so that each input bit affects all output
-   bits. Seeds of study jobs derive from this hash, so that it never changes. To hash a string in pieces, call start,
-   then add for each piece, then end. */
+   bits. The seeds of a study's jobs are computed from this hash, so it must never change. To hash a string in pieces,
+   begin with KOKSMA__HASH_START, call koksma__hash_more for each piece, then koksma__hash_end. */
 #define KOKSMA__HASH_START 0xcbf29ce484222325u
 
 static inline uint64_t koksma__hash_more(uint64_t h, const void *bytes, size_t size)

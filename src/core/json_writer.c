@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* JSON text for exports, reports and the program's --json. For each value it writes a comma if another value precedes
-   it, the key if it has one, and the text. A stack has the closing brackets of all open objects and arrays. Quotes,
-   backslashes and control characters in texts are escaped. Bytes that are not valid UTF-8 (RFC 3629: no overlong
-   forms, no surrogates, nothing above U+10FFFF) are replaced by U+FFFD, because file names may have any bytes and
-   JSON may not. Numbers do not follow the host's locale. */
+/* Writes JSON text for exports, reports and the program's option --json. For each value it writes a comma if another
+   value precedes it, the key if it has one, and the text. A stack has the closing brackets of all open objects and
+   arrays. Quotes, backslashes and control characters in texts are escaped. Bytes that are not valid UTF-8 (RFC 3629:
+   no overlong forms, no surrogates, nothing above U+10FFFF) are replaced by U+FFFD, because file names may have any
+   bytes and JSON may not. Numbers do not follow the host's locale. */
 #include "core/json_writer.h"
 
 #include <math.h>

@@ -1,10 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The only writer of JSON text (RFC 8259): a buffer that grows, with commas, quotes and escapes in the right places.
-   koksma__json_writer w = {0}; koksma__json_begin_object(&w, NULL); koksma__json_write_text(&w, "name", name);
-   koksma__json_begin_array(&w, "values"); koksma__json_write_number(&w, NULL, 0.25); koksma__json_end(&w);
-   koksma__json_end(&w); status = koksma__json_finish(&w, &text, &size); {"name":"…","values":[0.25]} Every value
-   takes a key: its name in an object, NULL in an array and at the top. Calls after a failure do nothing, so that only
-   koksma__json_finish needs a check of the status. */
+/*
+ * The only writer of JSON text (RFC 8259): a buffer that grows, with commas, quotes and escapes in the right places.
+ *
+ *     koksma__json_writer w = {0};
+ *     koksma__json_begin_object(&w, NULL);
+ *     koksma__json_write_text(&w, "name", name);
+ *     koksma__json_begin_array(&w, "values");
+ *     koksma__json_write_number(&w, NULL, 0.25);
+ *     koksma__json_end(&w);
+ *     koksma__json_end(&w);
+ *     status = koksma__json_finish(&w, &text, &size);
+ *
+ * gives {"name":"…","values":[0.25]}. Every value takes a key: its name in an object, NULL in an array and at the top.
+ * Calls after a failure do nothing, so that only koksma__json_finish needs a check of the status.
+ */
 #ifndef KOKSMA_CORE_JSON_WRITER_H
 #define KOKSMA_CORE_JSON_WRITER_H
 
@@ -71,8 +80,8 @@ KOKSMA__LAB void koksma__json_break(koksma__json_writer *w);
    per line. */
 KOKSMA__LAB koksma_status koksma__json_line(koksma__json_writer *w, FILE *stream);
 
-/* Gives the text to the caller, who frees it. After a failure it frees the text and returns the status. The writer is
-   then empty. */
+/* Gives the text to the caller, who frees it; after a failure it frees the text and returns the status. In both cases
+   the writer is then empty. */
 KOKSMA__LAB koksma_status koksma__json_finish(koksma__json_writer *w, char **text, size_t *size);
 
 /* Frees the buffer of a writer that is not finished. */

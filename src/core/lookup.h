@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The lookup functions of a table of named things: by index and by name. In the file where `table` is an array of
- * pointers to structs with a name:
+ * The lookup functions of a table of named things: by index and by name. Used in the file that defines `table`, an
+ * array of pointers to structs with a member `name`:
  *
  *     KOKSMA__LOOKUP(koksma_pattern, table)
  *

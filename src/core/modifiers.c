@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The table of modifiers: maps of the cube to itself that any pattern takes after its own parameters. Each row has the
- * claims of a pattern and the measures that the modifier preserves; patterns/shared/modify.c has the maps, in the same
- * order. tests/core/test_modifiers.c tests every entry for every pattern.
+ * The table of modifiers: maps of the cube to itself that any pattern takes after its own parameters. Each row lists
+ * the claims of a pattern (claims.def) and the measures that the modifier preserves; patterns/shared/modify.c has the
+ * maps, in the same order. tests/core/test_modifiers.c tests every entry for every pattern.
  */
 #include "core/modifiers.h"
 
@@ -41,8 +41,8 @@ static const koksma_modifier rows[] = {
      "strata, distances, and all measures except star, l2-star and l2-modified, which depend on the corner 0"},
     {"phase", "shifted on the torus by the random vector of this seed (1 or more), or not (0)", "cranley1976", 1,
      UINT32_MAX, false, ON_TORUS | KOKSMA_CLAIM_DETERMINISTIC, 0, 0, TORUS_MEASURES,
-     "distances and measures on the torus (l2-periodic, diaphony, disk), and lattices; equal for every seed of the "
-     "pattern"},
+     "distances and measures on the torus (l2-periodic, diaphony, disk), and lattices; the shift is the same for "
+     "every seed of the pattern"},
     {"shift", "shifted on the torus by one random vector (1), or not (0)", "cranley1976", 1, 1, true, ON_TORUS, 0,
      KOKSMA_CLAIM_UNBIASED, TORUS_MEASURES,
      "distances and measures on the torus (l2-periodic, diaphony, disk), and lattices"},
@@ -55,7 +55,7 @@ static const koksma_modifier rows[] = {
      false,
      KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |
          KOKSMA_CLAIM_DETERMINISTIC,
-     0, 0, "", "uniformity in the mean; the map does not depend on the seed"},
+     0, 0, "", "the uniform distribution of each random point; the map does not depend on the seed"},
 };
 
 enum { COUNT = sizeof rows / sizeof *rows };

@@ -40,8 +40,8 @@ koksma_param koksma__modifier_param(size_t i);
 /* Returns whether any applied modifier depends on the seed. */
 KOKSMA__LAB bool koksma__modifiers_are_random(const double *values);
 
-/* Returns whether any applied modifier changes digits. The points then lose claims about rates of decay that need
-   strata in a base other than 2. */
+/* Returns whether any applied modifier changes the binary digits of coordinates. Such points are no longer stratified
+   in other bases, so that koksma_rate() must not use all claims of the pattern. */
 bool koksma__modifiers_of_digits(const double *values);
 
 /* Returns the claims of a pattern that are still true for n points after its modifiers. */

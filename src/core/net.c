@@ -8,8 +8,8 @@
  * to less than 1. Therefore the bounds of a stratum are the doubles nearest to a/b^k (the quotient of two whole
  * numbers is rounded once), and a coordinate that equals the double nearest to a/b^k is treated as this fraction.
  * Equal fractions have the same nearest double. The index of the stratum of x among b^k is therefore its index among
- * b^m, divided by b^(m-k) and rounded down; each coordinate's stratum is searched for only once. There are C(m - t +
- * s - 1, s - 1) shapes of intervals with m - t digits, and each shape takes one pass over the points.
+ * b^m, divided by b^(m-k) and rounded down; for each coordinate the index among b^m is computed only once. There are
+ * C(m - t + s - 1, s - 1) shapes of intervals with m - t digits, and each shape takes one pass over the points.
  */
 #include "core/net.h"
 
@@ -89,7 +89,7 @@ static bool is_even(search *s)
             return false;
         }
     }
-    return true; /* the total is fixed, so if no interval has too many points, none has too few */
+    return true; /* the total is fixed, so if no interval has more than its share of points, none has less */
 }
 
 /* Tries all ways to distribute `left` digits over coordinates k and later. */

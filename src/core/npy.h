@@ -11,7 +11,7 @@
 enum { KOKSMA__NPY_HEADER = 1024 }; /* longest dictionary */
 
 /* Writes the header (version 1.0) of an array in C order: descr and shape are Python literals, such as "'<f8'" and
-   "(10, 2)". Together the two may have KOKSMA__NPY_HEADER - 64 characters. */
+   "(10, 2)". Together these two texts may have at most KOKSMA__NPY_HEADER - 64 characters. */
 KOKSMA__LAB void koksma__npy_put_header(FILE *stream, const char *descr, const char *shape);
 
 /* Stores a 64-bit word in 8 bytes, lowest byte first. */

@@ -15,10 +15,8 @@
 #include <unistd.h>
 #endif
 
-enum {
-    MANY = 1 << 22
-}; /* twice the size of a large page, so that the block contains at least one complete large
-                            page */
+/* Twice the size of a large page: a block of this size contains at least one complete large page. */
+enum { MANY = 1 << 22 };
 
 void koksma__large_pages(void *memory, size_t bytes)
 {

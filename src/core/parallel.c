@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Runs a job of numbered blocks on several threads: each thread takes the next number from an atomic counter, so that
- * the assignment of blocks to threads may differ and results must not depend on it. Threads are made for each job;
- * the caller's thread works too. The first failure stops the job, and its error text is copied to the caller's
- * thread.
+ * the assignment of blocks to threads differs from run to run, and results must not depend on it. New threads are
+ * made for each job, and the caller's thread takes blocks, too. The first failure stops the job, and its error text
+ * is copied to the caller's thread.
  */
 #include "core/parallel.h"
 
@@ -38,7 +38,7 @@ int koksma__threads(const koksma_run *run)
     if (run && run->threads > 0) {
         return run->threads < MAX_THREADS ? run->threads : MAX_THREADS;
     }
-    /* asked once: the C library reads a file of /sys for it, which takes longer than a measure of 16 points */
+    /* asked once: the C library reads a file of /sys for it, which takes longer than measuring a set of 16 points */
     static atomic_int known;
     int processors = atomic_load_explicit(&known, memory_order_relaxed);
     if (!processors) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Work in blocks over threads. The caller chooses a fixed size of the blocks, which never depends on the number of
- * threads; each block writes to its own part of the output, and the caller adds the results up in index order.
+ * Runs a computation, cut into numbered blocks, on several threads. The caller chooses a fixed size of the blocks,
+ * which never depends on the number of threads; each block writes to its own part of the output, and the caller adds
+ * the results up in index order.
  */
 #ifndef KOKSMA_CORE_PARALLEL_H
 #define KOKSMA_CORE_PARALLEL_H
@@ -18,10 +19,10 @@ typedef koksma_status (*koksma__block_function)(void *context, size_t block);
 KOKSMA__LAB koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__block_function f,
                                            void *context);
 
-/* Returns the number of threads that `run` requests. */
+/* Returns the number of threads that `run` requests; if it is NULL or requests 0, the number of processors. */
 KOKSMA__LAB int koksma__threads(const koksma_run *run);
 
-/* Returns false if run->keep_going returned false. */
+/* Calls run->keep_going and returns its result; returns true if run or run->keep_going is NULL. */
 KOKSMA__LAB bool koksma__keep_going(const koksma_run *run, double fraction_done);
 
 /* For callbacks that cost much, such as those of an interpreter: koksma__paced is a keep_going whose context is a

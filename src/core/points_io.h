@@ -10,7 +10,7 @@
 #include "core/read_file.h"
 #include "core/visibility.h"
 
-/* Like koksma_points_read; `by` tells who named the file and thus which kinds of files may be opened
+/* Does the same as koksma_points_read; `by` tells who named the file and thus which kinds of files may be opened
    (core/read_file.h). */
 koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points);
 
@@ -26,8 +26,8 @@ typedef struct koksma__points_writer {
 koksma_status koksma__writer_open(const char *path, uint64_t n, int dim, const char *comment,
                                   koksma__points_writer *writer);
 
-/* Writes more points. After a failed write it does nothing; koksma__writer_close reports the failure. Error:
-   INTERRUPTED if run->keep_going returned false. */
+/* Writes more points. After a write has failed, further calls do nothing; koksma__writer_close reports the failure.
+   Error: INTERRUPTED if run->keep_going returned false. */
 koksma_status koksma__writer_put(koksma__points_writer *writer, const koksma_points *points, const koksma_run *run);
 
 /* Closes the file. If status is OK, the new file takes its final name; otherwise an older file of that name stays.

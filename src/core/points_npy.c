@@ -152,7 +152,7 @@ static koksma_status read_items(FILE *stream, const char *name, const layout *l,
     return KOKSMA_OK;
 }
 
-/* Checks that the file is as long as its header claims before memory is allocated: a small file that claims 10^9
+/* Checks, before memory is allocated, that the file is as long as its header claims: a small file that claims 10^9
    points fails here. */
 static koksma_status check_length(FILE *stream, const char *name, const layout *l)
 {

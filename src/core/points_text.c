@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Reads and writes points as text: one point per line, with numbers as `%.17g`, after lines `# key value`. Reading
-   accepts blanks, commas and tabs between fields, comments, and a CSV header. A line `# n N` or `# dim D` must match
-   the points. Test files with known values have another form: a preamble of lines `key number`, ended by a line
-   `points`. Its lines `n N` and `dim D` must also match. */
+   accepts blanks, commas and tabs between fields, comments, and a CSV header. If there is a line `# n N` or `# dim
+   D`, it must match the points. Test files with known values have another form: a preamble of lines `key number`,
+   ended by a line `points`. Its lines `n N` and `dim D` must also match. */
 #include "core/points_text.h"
 
 #include <errno.h>
@@ -86,8 +86,8 @@ static const char *skip_blanks(const char *s)
     return s;
 }
 
-/* Returns the start of the next field, given the end of a field. One comma or semicolon may be between them; with two
-   it returns NULL. */
+/* Returns the start of the next field, given the end of a field. One comma or semicolon may separate the fields; if
+   there are two, it returns NULL. */
 static const char *next_field(const char *s)
 {
     s = skip_blanks(s);

@@ -6,8 +6,8 @@
 #include <koksma/koksma.h>
 #include <stdio.h>
 
-/* The progress of a file that is being written: `done` is the fraction that was written before these points, `share`
-   the fraction that they make up. */
+/* The progress of a file that is written in several calls: `done` is the fraction of its points that was written
+   before this call, `share` the fraction that this call writes. */
 typedef struct koksma__progress {
     const koksma_run *run;
     double done, share;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Counter-based random numbers: every number is a hash of its key (seed, purpose, index, lane), so the same arguments
- * give the same bits in any order and on any number of threads. The generator is Philox4x32-10 (Salmon et al. 2011),
- * from Random123. The kernel `uniform` gives the same bits for many indices at once.
+ * Counter-based random numbers: every number is a hash of its key (seed, purpose, index, lane), where lane is a
+ * second index, so the same arguments give the same bits in any order and on any number of threads. The generator is
+ * Philox4x32-10 (Salmon et al. 2011), from Random123. The kernel `uniform` gives the same bits for many indices at
+ * once.
  */
 #ifndef KOKSMA_CORE_RANDOM_H
 #define KOKSMA_CORE_RANDOM_H
@@ -24,11 +25,11 @@ typedef enum koksma__purpose {
     KOKSMA__PURPOSE_SEARCH,   /* a random search that a measure makes */
     KOKSMA__PURPOSE_TEST,     /* tests and benchmarks */
     KOKSMA__PURPOSE_AUDIT,    /* which rows of a study are checked */
-    KOKSMA__PURPOSE_NESTED,   /* the modifiers owen, digital-shift, axes and mirror */
+    KOKSMA__PURPOSE_NESTED,   /* from here to MIRROR: the modifiers owen, digital-shift, axes and mirror */
     KOKSMA__PURPOSE_DIGITS,
     KOKSMA__PURPOSE_AXES,
     KOKSMA__PURPOSE_MIRROR,
-    KOKSMA__PURPOSE_PIXEL, /* the samples of a pixel: koksma__random_draw */
+    KOKSMA__PURPOSE_PIXEL, /* the samples of a pixel (koksma__random_draw) */
     KOKSMA__PURPOSE_BASE   /* the modifier owen-base */
 } koksma__purpose;
 
@@ -46,7 +47,7 @@ static inline koksma__words koksma__random(uint64_t seed, uint32_t purpose, uint
 }
 
 /* Returns 128 random bits by 7 rounds, the smallest number of rounds that passes BigCrush (Salmon et al. 2011, table
-   2). Used in the renderer, which draws more random numbers than any other part of the library. */
+   2). For the renderer, which draws more random numbers than any other part of the library. */
 static inline koksma__words koksma__random_draw(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane)
 {
     const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};
@@ -69,7 +70,7 @@ static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t
     pair[1] = koksma__unit(r.w[2], r.w[3]);
 }
 
-/* Returns a seed for part `index` of the work that `seed` was meant for, derived from `seed`. */
+/* Derives a new seed from `seed`: seeds for different (index, lane) are independent. */
 static inline uint64_t koksma__random_seed(uint64_t seed, uint64_t index, uint32_t lane)
 {
     const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_SEED, index, lane);

@@ -4,8 +4,8 @@
  * fifo without a writer, or a sparse file of any size. Therefore a file named by another file is opened only if it is
  * a plain file, and is read only up to the limit of its kind (file_kinds.def), after a check of its first bytes.
  * stat() is called before open(), because opening alone makes some devices act; fstat() then checks the file that was
- * opened. With O_NONBLOCK, open() does not wait for files of /proc, or if a fifo replaced the file between the two
- * calls. A fifo that the user names is opened without O_NONBLOCK; otherwise reading would end before another program
+ * opened. With O_NONBLOCK, open() does not wait for a file of /proc, or for a fifo that replaced the file after
+ * stat(). A fifo that the user names is opened without O_NONBLOCK; otherwise reading would end before another program
  * has begun to write.
  */
 #include "core/read_file.h"
@@ -118,7 +118,8 @@ koksma_status koksma__check_text(const unsigned char *bytes, size_t size)
                                   : KOKSMA_OK;
 }
 
-/* Returns the number of bytes to allocate first: for a plain file its length plus 1, to detect the end; for a pipe 0.
+/* Returns the number of bytes to allocate before reading: for a plain file its length plus 1, to detect the end; for
+   a pipe 0.
    */
 static size_t length_of(FILE *stream, size_t most)
 {

@@ -27,7 +27,7 @@ typedef enum koksma__named { KOKSMA__BY_USER, KOKSMA__BY_FILE } koksma__named;
 koksma_status koksma__file_open(const char *path, koksma__file_kind kind, koksma__named by, FILE **stream);
 void koksma__file_close(FILE *stream);
 
-/* Return the size limit of a kind in bytes, and the error for a longer file: MALFORMED. */
+/* Return the size limit of a kind of file in bytes, and the error for a file above the limit: MALFORMED. */
 KOKSMA__LAB uint64_t koksma__file_most(koksma__file_kind kind);
 koksma_status koksma__file_too_long(const char *name, koksma__file_kind kind);
 

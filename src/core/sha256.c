@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SHA-256 (FIPS 180-4, section 6.2): blocks of 64 bytes are mixed into a state of eight words by 64 rounds. The
    constants are the first 32 bits of the fractional parts of the cube roots of the first 64 primes, and of the square
-   roots of the first eight. If an x86 processor has instructions for SHA-256, each does two rounds, and hashing is
-   eight times as fast. KOKSMA_KERNELS=ref and =baseline do not use them. */
+   roots of the first eight. If an x86 processor has instructions for SHA-256, one of which does two rounds, hashing
+   is eight times as fast. They are not used if the environment has KOKSMA_KERNELS=ref or =baseline. */
 #include "core/sha256.h"
 
 #include <stdatomic.h>
@@ -30,7 +30,8 @@ static inline uint32_t rotate(uint32_t x, int n)
     return x >> n | x << (32 - n);
 }
 
-/* Round k modulo 8. The working variables rotate: a is s[-k] and h is s[7 - k], indices modulo 8. */
+/* Computes round k, given modulo 8. The working variables a to h stay in place while their names rotate: a is s[-k]
+   and h is s[7 - k], with indices modulo 8. */
 static inline void mix_round(uint32_t s[8], unsigned k, uint32_t add)
 {
     const uint32_t a = s[(8 - k) % 8], b = s[(9 - k) % 8], c = s[(10 - k) % 8];

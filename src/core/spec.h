@@ -26,7 +26,7 @@ KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *v
 /* Splits a spec into the name before the colon, which has up to 63 letters, and the parameters. Errors: ARGUMENT. */
 KOKSMA__LAB koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
 
-/* Makes the arguments for the functions of a pattern or measure from its spec. */
+/* Converts the spec of a pattern or measure to the arguments of its functions. */
 koksma_args koksma__spec_arguments(const koksma_spec *spec, const koksma_run *run);
 
 #endif

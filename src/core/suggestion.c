@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Finds the name that a misspelt word probably means: the name that the fewest edits turn the word into. An edit
- * inserts, deletes or replaces a character or swaps two neighbours (Damerau 1964; the distance without edits inside a
- * swapped pair, "optimal string alignment", three rows at a time). A word that is the beginning of a name counts as
- * one edit away, so that `jitter` means jittered. Among equally close names the one with the longer common beginning
- * wins, then the first.
+ * inserts, deletes or replaces a character or swaps two neighbours (Damerau 1964). No edit is made inside a swapped
+ * pair (the "optimal string alignment" distance); the dynamic programme stores three rows of its table. A word that
+ * is the beginning of a name counts as one edit away, so that `jitter` means jittered. Among equally close names the
+ * one with the longer common beginning wins, and among these the first in the table.
  */
 #include <ctype.h>
 #include <stdio.h>

@@ -21,8 +21,8 @@ static inline double koksma__sum_value(const koksma__sum *sum)
     return sum->total + sum->lost;
 }
 
-/* Returns the value, or 0 if it is negative, which rounding can cause for a square. Unlike fmax it returns NaN for
-   NaN. */
+/* Returns the value, or 0 if it is negative, which rounding can cause for a square. Unlike fmax(x, 0) it returns NaN
+   for NaN. */
 static inline double koksma__not_below_0(double square)
 {
     return square < 0 ? 0 : square;

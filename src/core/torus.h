@@ -13,7 +13,7 @@ static inline double koksma__torus_difference(double a, double b)
 }
 
 /* Returns the index of the cell of x in [0,1) among `cells` equal cells. If the product of x and `cells` rounds up to
-   `cells`, this is the last cell. */
+   `cells`, the result is the last cell. */
 static inline uint32_t koksma__cell_along(double x, uint32_t cells)
 {
     const uint32_t cell = (uint32_t)(x * cells);

@@ -24,7 +24,7 @@ static inline void koksma__subtract(const double a[3], const double b[3], double
     }
 }
 
-/* Scales v to length 1. Returns false when v is too short to have a direction. */
+/* Scales v to length 1. Returns false, and leaves v unchanged, if its length is at most 1e-12. */
 static inline bool koksma__normalise(double v[3])
 {
     const double length = sqrt(koksma__dot(v, v));

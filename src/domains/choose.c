@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Makes points on a domain (domain.h) with the method of a pattern; the table at the end lists the patterns that have
- * one. These methods choose among candidates, which are independent and have the wanted density:
+ * such a method. These methods choose among candidates, which are independent and have the wanted density:
  *
  *   random                 the first n candidates
  *   elimination            n of factor * n candidates, chosen by patterns/shared/elimination.c, which also makes the
- *                          progressive order; d_max is that of n points in the unit square times the square root of the
- *                          domain's area
- *   poisson-disk           the candidates in turn, except those that are too near to one that was kept (dart_grid.c);
+ *                          progressive order; its radius d_max is that for n points in the unit square, times the square
+ *                          root of the domain's area
+ *   poisson-disk           the candidates in turn, except those that are too near to one already chosen (dart_grid.c);
  *                          it fails after 20,000 rejections in a row
- *   best-candidate         of k * candidates + 1 candidates the one that is furthest from the k points before it. A query
- *                          of dart_grid.c rejects a candidate that is nearer than the best one so far; the few others
- *                          are compared with all points: with c candidates a point in O(n (c + n log c)) in the plane
+ *   best-candidate         point k is, of k * candidates + 1 candidates, the one that is furthest from points 0 to k - 1. A
+ *                          query of dart_grid.c rejects most candidates that are nearer than the best one so far; the
+ *                          few others are compared with all points. With c candidates for each point this takes
+ *                          O(n (c + n log c)) in the plane
  *
  * poisson-disk-maximal and dart-throwing (maximal.c), and gaussian-blue-noise (gaussian.c), work differently. With
- * order=progressive the elimination orders their finished sets. Each part of a domain has a unit of distance; the
- * distance of two points is measured in the smaller of their two units.
+ * order=progressive, patterns/shared/elimination.c orders the points that they have made. Each part of a domain has a
+ * unit of distance; the distance of two points is measured in the smaller of their two units.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -45,7 +46,7 @@ static koksma_status choose_first(const choice *c)
 
 /* ---- Elimination ----------------------------------------------------------------------------------------- */
 
-/* Returns d_max of n points. */
+/* Returns d_max, the largest distance at which elimination counts two of n points as near. */
 static double radius_of(const koksma__point_domain *domain, size_t n)
 {
     return koksma__elimination_radius(n, 2) * sqrt(domain->area);
@@ -53,14 +54,14 @@ static double radius_of(const koksma__point_domain *domain, size_t n)
 
 /* Positions and units of distance of points, and an order of them. */
 typedef struct layout {
-    double *xs, *units; /* units: NULL if all are 1 */
+    double *xs, *units; /* units: NULL if all units of distance are 1 */
     uint32_t *order;
 } layout;
 
 static koksma_status layout_init(layout *l, const koksma__point_domain *domain, size_t n)
 {
     const size_t dim = (size_t)domain->dim, bytes = n * ((dim + 1) * sizeof *l->xs + sizeof *l->order);
-    l->xs = calloc(1, bytes); /* gcc does not see that place() fills it */
+    l->xs = calloc(1, bytes); /* calloc, because gcc does not see that place() fills the memory */
     KOKSMA__REQUIRE_MEMORY(l->xs, bytes);
     l->units = domain->varies ? l->xs + n * dim : NULL;
     l->order = (uint32_t *)(l->xs + n * (dim + 1));
@@ -75,7 +76,7 @@ static void lay_out(layout *l, const koksma__point_domain *domain, size_t i, con
     }
 }
 
-/* Puts n points into progressive order; d_max and d_min are those of the whole set. */
+/* Puts n points into progressive order; d_max and d_min are the parameters of the elimination for all n points. */
 static koksma_status order_progressively(const koksma__point_domain *domain, size_t n, double d_max, double d_min,
                                          const koksma_run *run, koksma__domain_point *points)
 {
@@ -98,7 +99,7 @@ static koksma_status order_progressively(const koksma__point_domain *domain, siz
     return status;
 }
 
-/* Chooses `length` of factor * length candidates. */
+/* Chooses `length` points among factor * length candidates by elimination. */
 static koksma_status choose_from(const choice *c, size_t length, size_t factor, double d_max, double d_min,
                                  koksma__domain_point *chosen)
 {
@@ -197,7 +198,8 @@ static koksma_status choose_darts(const choice *c)
 
 /* ---- Best candidates ------------------------------------------------------------------------------------- */
 
-/* Returns the square of the smallest distance to a point, in units of the smaller of both units of distance. */
+/* Returns the square of the smallest distance from a candidate to a point of the grid; each distance is divided by
+   the smaller of the units of distance of the two. */
 static double squared_room(const koksma__dart_grid *grid, const koksma__dart_query *q)
 {
     const size_t dim = (size_t)grid->dim;
@@ -215,7 +217,7 @@ static double squared_room(const koksma__dart_grid *grid, const koksma__dart_que
     return least;
 }
 
-/* Adds the best of `count` candidates for the next point. */
+/* Adds as next point the best of `count` candidates. */
 static koksma_status add_best(const choice *c, size_t count, koksma__dart_grid *grid, size_t *looks)
 {
     const koksma__point_domain *domain = c->domain;

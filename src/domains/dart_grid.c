@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Finds the points that conflict with a position or a region: each cell of a grid has a list of its points, and a query
- * visits the cells within d times its own unit of distance. A ball is convex, so it contains a region if it contains
- * the region's corners. On the torus only the image of a point that is nearest to the position is tested, against all
- * corners of the region.
+ * Finds the points that conflict with a position or a region: each cell of a grid has a list of its points, and a
+ * query visits the cells within d times the unit of distance of its position or region. A ball is convex, so it
+ * contains a region if it contains the region's corners. On the torus only the image of a point that is nearest to
+ * the position is tested, against all corners of the region.
  */
 #include "domains/dart_grid.h"
 

@@ -9,7 +9,7 @@
 typedef struct koksma__dart_grid {
     int dim;
     bool torus;
-    double d;           /* smallest distance where the unit is 1 */
+    double d;           /* smallest distance allowed where the unit is 1 */
     size_t n, capacity; /* number of points; capacity for points */
     double *xs, *units; /* positions and units of distance of the points */
     uint32_t *next, *head;
@@ -28,7 +28,7 @@ koksma_status koksma__dart_grid_init(koksma__dart_grid *grid, const koksma__poin
                                      size_t capacity, double d);
 void koksma__dart_grid_fini(koksma__dart_grid *grid);
 
-/* Keeps the first n points, n <= grid->n, and changes the distance. */
+/* Removes all but the first n points, n <= grid->n, and sets the smallest distance to d. */
 void koksma__dart_grid_reset(koksma__dart_grid *grid, size_t n, double d);
 
 /* Adds a point; there must be capacity for it. */

@@ -36,7 +36,8 @@ static double inside(const density_field *f, double u, double v)
     return (1 - b) * ((1 - a) * low[0] + a * low[1]) + b * ((1 - a) * high[0] + a * high[1]);
 }
 
-/* Does the same for any u and v, by repeating the torus over the plane: each period along an axis adds its points. */
+/* Returns the number of points in [0,u] x [0,v] for any u and v >= 0, where the image is repeated over the plane; for
+   negative ones the number has the sign of u v. */
 static double repeated(const density_field *f, double u, double v)
 {
     const double i = floor(u), j = floor(v);
@@ -179,7 +180,7 @@ koksma_status koksma__density_field_open(const koksma__point_domain *domain, siz
     KOKSMA__REQUIRE_MEMORY(f, sizeof *f);
     *f = (density_field){.m = m, .table = malloc(bytes), .n = (double)n, .sigma = sigma, .field = field};
     *field = (koksma__field){.data = f, .width = width, .settle = settle, .along = along, .close = close_field};
-    KOKSMA__REQUIRE_MEMORY(f->table, bytes); /* the caller closes the field */
+    KOKSMA__REQUIRE_MEMORY(f->table, bytes); /* the caller closes the field, also after an error */
     sum_up(f);
     const double origin[2] = {0, 0};
     return add_square(f, origin, 1, 0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The target of gaussian-blue-noise with a density. */
+/* The target (field.h) of gaussian-blue-noise with a density. */
 #ifndef KOKSMA_DOMAINS_DENSITY_FIELD_H
 #define KOKSMA_DOMAINS_DENSITY_FIELD_H
 

@@ -22,7 +22,7 @@ typedef struct koksma__point_domain {
     int corners;        /* number of corners of a part: 4 or 3 */
     bool torus, varies; /* varies: the density is not constant */
     double area;        /* area of the domain, in the coordinates of positions */
-    double unit;        /* the length, in these coordinates, that d=1 of a pattern means */
+    double unit;        /* the length, in these coordinates, that a pattern's d=1 stands for */
     size_t n_parts;
     const void *data; /* argument of the functions below */
     /* Makes candidate i. Candidates are independent and have the density of the domain. */
@@ -33,12 +33,13 @@ typedef struct koksma__point_domain {
     double (*share)(const void *data, size_t part);
     /* Returns the unit of distance on a part: 1 / sqrt p where the density is p times its mean. */
     double (*unit_of)(const void *data, size_t part);
-    /* Prepares what gaussian.c needs for n points; koksma__field_close frees it. */
+    /* Makes the target of gaussian-blue-noise (field.h) for n points and the pattern's parameter sigma;
+       koksma__field_close frees it. */
     koksma_status (*open_field)(const struct koksma__point_domain *domain, size_t n, double sigma,
                                 struct koksma__field *field);
 } koksma__point_domain;
 
-/* The task of a method: the domain, the pattern with its parameters, the seed, and where the n points go. */
+/* The task of a method: make n points of the pattern, with its parameters and a seed, on the domain. */
 typedef struct koksma__choice {
     const koksma__point_domain *domain;
     const koksma_pattern *pattern;

@@ -21,7 +21,7 @@ typedef struct koksma__field {
     /* Returns the width s of the Gaussian exp(-|t|^2 / s^2) of a point at x (gaussian.c). */
     double (*width)(const void *data, const double *x);
     /* Replaces x by the nearest position of the domain and writes this position to *point, which on entry is the
-       position of the point before it moved. Returns false, and leaves *point unchanged, if no point may be at x. */
+       position from which the point moved. Returns false, and leaves *point unchanged, if no point may be at x. */
     bool (*settle)(const void *data, double *x, koksma__domain_point *point);
     /* Removes from a vector at a point the component that is perpendicular to the domain. */
     void (*along)(const void *data, const koksma__domain_point *point, double *vector);

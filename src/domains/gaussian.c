@@ -10,9 +10,9 @@
  *
  *     (2 s_i^2 / v)^2  exp(-d^2 / v)  (x_i - x_j), v = s_i^2 + s_j^2, d = |x_i - x_j|,
  *
- * which is the gradient divided by the stiffness at point i. The density attracts points in the same way: it is a sum
- * over nodes (field.h), which act like points with negative masses. Where the density is constant, all widths are sigma
- * / sqrt n, the attraction cancels out, and the forces are those of the pattern on the torus
+ * which is minus the gradient of the energy, times pi s_i^4. The density attracts points in the same way: it is a sum
+ * over nodes (field.h), which act like points with negative masses. Where the density is constant, all widths are
+ * sigma / sqrt n, the attraction cancels out, and the forces are those of the pattern on the torus
  * (patterns/gaussian_blue_noise.c); its parameters are also those of this method.
  *
  * The widths of the moving points are computed anew in each of the first 128 steps, which have little momentum, and
@@ -45,12 +45,12 @@ typedef struct descent {
     const koksma__choice *c;
     const koksma__point_domain *domain;
     koksma__field field;
-    koksma__source_tree tree;    /* sources: nodes and points */
+    koksma__source_tree tree;    /* its sources are the nodes of the field and the points */
     double *xs, *moves, *widths; /* of the points */
     double *squares;             /* squared force on each point, in units of its width */
     double step, momentum, least;
     bool update; /* whether this step computes the widths anew */
-    int wait;    /* number of steps since `least` was replaced */
+    int wait;    /* number of steps since `least`, the smallest sum of squares, fell by 19 % */
 } descent;
 
 /* Returns source number i: a node, with a negative mass, or a point. */
@@ -91,7 +91,7 @@ static void move_point(descent *d, size_t i, double force[3])
     }
 }
 
-/* Moves the points of one block of groups. */
+/* Moves the points of one block of groups (source_tree.h). */
 static koksma_status move_block(void *context, size_t block)
 {
     descent *d = context;
@@ -108,8 +108,8 @@ static koksma_status move_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* Returns whether the descent may end. The squares are summed in the order of the points, so that the result does not
-   depend on the number of threads. */
+/* Returns whether the descent may end. The squares of the forces are summed in the order of the points, so that the
+   result does not depend on the number of threads. */
 static bool converged(descent *d)
 {
     const double limit = TOLERANCE * d->c->params[1];

@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * poisson-disk-maximal on a domain: dart throwing until nothing fits. Two points are at least d min(r, r') apart, where
- * r and r' are the units of distance of their parts, and nowhere does another point fit.
+ * poisson-disk-maximal on a domain: dart throwing until no other point fits. Two points are at least d min(r, r')
+ * apart, where r and r' are the units of distance of their parts (domain.h).
  *
  * The free area is a list of pieces: parts (rectangles or triangles) and quarters of them. A piece lies in one part and
  * thus has one unit of distance; it is covered if the ball of one point contains its corners. In each round as many
  * darts are thrown as there are pieces, at random pieces with probabilities proportional to their shares of the points.
  * Then every piece is divided into four, and covered quarters are dropped. The set is maximal when no piece is left;
- * pieces with 2^-30 of their part's side are dropped, too. The points have the distribution of dart throwing on the
- * whole domain, because every dart outside of the pieces would be rejected.
+ * pieces whose side is 2^-30 of that of their part are dropped, too. The points have the distribution of dart
+ * throwing on the whole domain, because every dart outside of the pieces would be rejected.
  *
- * dart-throwing throws darts in the same way, but until there are n points. A set that becomes maximal with fewer is
- * discarded and thrown again, at most 200 times.
+ * dart-throwing throws darts in the same way, but until there are n points. A set that becomes maximal with fewer
+ * points is discarded and another one is made, at most 200 in all.
  *
  * d=0 searches for the distance at which a maximal set has exactly n points (patterns/shared/maximal_search.h). The
  * search starts at an estimated distance, which is multiplied by about the square root of (number of points that fit) /
  * n until between 3/4 n and n points fit.
  *
  * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree; Mitchell, Rand, Ebeida & Bajaj 2012 for
- * radii that vary ("smaller disks"). One set takes O((n + number of parts) log n); the search makes 20 to 40 sets.
+ * radii that vary (their rule "smaller disks"). One set takes O((n + number of parts) log n); the search makes 20 to
+ * 40 sets.
  */
 #include "domains/maximal.h"
 
@@ -54,7 +55,7 @@ typedef struct maximal {
     size_t n_pieces, capacity; /* of the pieces */
 } maximal;
 
-/* Makes a query of the centre and the corners of a piece. */
+/* Makes the query that asks whether a point covers a piece. */
 static void query_of(const maximal *m, const piece *p, double *centre, koksma__dart_query *q)
 {
     static const double units[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -189,8 +190,8 @@ static koksma_status shrink(void *set, size_t kept, double d, size_t n, const ko
     return status;
 }
 
-/* Makes sets of at most 2 n points, each at a distance estimated from the number of points in the set before, until
-   between 3/4 n and n points fit; then lets the distance shrink until n points fit. */
+/* Makes sets of at most 2 n points until one has between 3/4 n and n points, each at a distance estimated from the
+   number of points in the previous set; then reduces the distance until n points fit. */
 static koksma_status search(maximal *m, uint32_t first)
 {
     const size_t n = m->c->n;
@@ -240,7 +241,7 @@ static koksma_status by_distance(maximal *m)
     return KOKSMA_OK;
 }
 
-/* Throws n points at the distance of the grid. */
+/* Throws n points that are at least the distance of the grid apart; starts again with another seed if fewer fit. */
 static koksma_status by_fraction(maximal *m)
 {
     const size_t n = m->c->n;
@@ -256,14 +257,14 @@ static koksma_status by_fraction(maximal *m)
         }
         most = m->grid.n > most ? m->grid.n : most;
         if (restart >= 5 && (double)most < 0.97 * (double)n - 1) {
-            break; /* further tries would end far from n points, too */
+            break; /* even the best of six tries is far from n points */
         }
     }
     return koksma__fail(KOKSMA_IMPOSSIBLE, "dart-throwing: f=%g jams at %zu of %zu points %s; a smaller f would do",
                         m->c->params[0], most, n, m->c->domain->what);
 }
 
-/* Makes the points of a choice by a method, with the distance d for which the grid is laid out. */
+/* Makes the points of the task c by a method; d is the initial distance, for which the grid's cells are sized. */
 static koksma_status choose(const koksma__choice *c, size_t capacity, double d, koksma_status (*method)(maximal *m))
 {
     maximal m = {.c = c};

@@ -37,8 +37,9 @@ static void corners_of(const koksma__point_domain *domain, uint32_t part, double
     }
 }
 
-/* Orders triangles first to end - 1 such that number `middle` is where sorting by centroids along an axis would put it
-   (Hoare 1961). */
+/* Quickselect (Hoare 1961): reorders triangles first to end - 1 so that position `middle` has the triangle that
+   sorting by the centroids' coordinate on an axis would put there, and no triangle before it has a larger
+   coordinate. */
 static void select_middle(const koksma__nearest *s, size_t first, size_t end, size_t middle, int axis)
 {
     while (end - first > 1) {

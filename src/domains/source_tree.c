@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A quadtree or octree of sources, rebuilt in every step of a descent: sources are sorted by the interleaved bits of
- * their coordinates (Morton 1966) with a radix sort, so that a box is a range of them. Neighbours have one walk down the
- * tree together: a group is a box with at most 16 sources whose parent has more. The walk collects the ranges of the
- * leaves that the wider of both widths can reach from the smallest box about the group's points, and the kernel
- * source_force sums over these ranges for each point. The kernel cuts pairs off by a rule that is the same for both
- * points, so that their forces stay those of an energy. Time: building n, a sum about log n and the sources in reach.
- * The order of a sum depends on the sources alone.
+ * A quadtree or octree of sources, rebuilt in every step of a descent: a radix sort orders the sources by the
+ * interleaved bits of their coordinates (Morton 1966), so that the sources of a box are a range of the sorted array.
+ * Neighbouring points share one walk down the tree: they form a group, the sources of a box with at most 32 sources
+ * whose parent has more. The walk collects the ranges of those leaves that are in reach of the bounding box of the
+ * group's points, and the kernel source_force sums over these ranges for each point. The kernel's cut-off distance is
+ * the same for both points of a pair, so that the forces are the gradient of an energy. Building the tree takes O(n);
+ * the forces on a point take about O(log n + number of sources in reach). The order in which forces are added depends
+ * only on the sources.
  */
 #include "domains/source_tree.h"
 
@@ -19,8 +20,9 @@
 
 enum { LEAF = 8, DEEPEST = 16, PADDING = 8 };
 
-/* Ranges of sources that are summed at once, and the largest gap between two that become one: the kernel takes eight
-   sources at a time, and those of a gap are out of reach. */
+/* RUNS: the largest number of ranges for one call of the kernel. GAP: two ranges at most this many sources apart
+   become one range, because the kernel takes eight sources at a time; the sources between them are out of reach and
+   add 0. */
 enum { RUNS = 128, GAP = 8 };
 
 /* The weight exp(-d^2 / v) - exp(-CUT2) is 0 at the cut-off d^2 = CUT2 v. Without the second term it would jump there,
@@ -103,7 +105,7 @@ static koksma_status add_boxes(koksma__source_tree *t, size_t n)
     return KOKSMA_OK;
 }
 
-/* A box of sources first .. end - 1, before it is extended by them. */
+/* Makes the box of sources first .. end - 1 without bounds; extend_by_sources() sets these. */
 static koksma__source_box empty_box(size_t first, size_t end)
 {
     const double least = -INFINITY, most = INFINITY;
@@ -111,7 +113,7 @@ static koksma__source_box empty_box(size_t first, size_t end)
         .low = {most, most, most}, .high = {least, least, least}, .first = (uint32_t)first, .end = (uint32_t)end};
 }
 
-/* Extends a box by another one. */
+/* Extends the bounds of a box so that they contain those of another box. */
 static void extend(koksma__source_box *box, const koksma__source_box *by)
 {
     for (int k = 0; k < 3; k++) {
@@ -129,7 +131,8 @@ static void extend_by_sources(const koksma__source_tree *t, koksma__source_box *
     }
 }
 
-/* Divides box number b, at a depth, as far as it has many sources. */
+/* Divides box number b, at this depth of the tree, until its boxes have at most LEAF sources or the greatest
+   depth. */
 static koksma_status divide(koksma__source_tree *t, size_t b, int depth)
 {
     const int bits = t->dim == 2 ? DEEPEST : 10, ways = 1 << t->dim, shift = 32 + (bits - 1 - depth) * t->dim;
@@ -159,7 +162,8 @@ static koksma_status divide(koksma__source_tree *t, size_t b, int depth)
     return KOKSMA_OK;
 }
 
-/* Adds the groups of a box. A leaf with more sources than a group may have, many of them at one position, has several. */
+/* Makes groups of the sources of a box. A leaf with more sources than fit into a group, which are nearly at one
+   position, is split into several groups. */
 static void add_groups(koksma__source_tree *t, const koksma__source_box *box)
 {
     if (box->end - box->first <= KOKSMA__SOURCE_GROUP || !box->children) {
@@ -201,19 +205,20 @@ koksma_status koksma__source_tree_build(koksma__source_tree *t,
     return KOKSMA_OK;
 }
 
-/* The walk of a group: the box about its points, its image moved by `offset`, the largest square of their widths, and the
-   ranges of sources that were found and not summed yet. */
+/* The walk of a group down the tree. low, high: bounding box of the group's points; from, to: this box moved by
+   `offset`, a period of the torus; square: largest squared width of the points; runs: ranges of sources that were
+   found and are not summed yet. */
 typedef struct walk {
     const koksma__source_tree *t;
     size_t count;
-    uint32_t points[KOKSMA__SOURCE_GROUP], start;              /* sorted numbers; that of the group's first source */
-    double low[3], high[3], square, offset[3], from[3], to[3]; /* from, to: the image of low, high */
+    uint32_t points[KOKSMA__SOURCE_GROUP], start; /* numbers in the sorted array; start: of the first source */
+    double low[3], high[3], square, offset[3], from[3], to[3];
     size_t n_runs;
     uint32_t runs[2 * RUNS];
     double (*force)[3];
 } walk;
 
-/* Sums over the ranges found. */
+/* Adds the forces of the sources in the ranges to those on the group's points, and empties the list of ranges. */
 static void sum_runs(walk *w)
 {
     for (size_t i = 0; i < w->count && w->n_runs; i++) {
@@ -246,14 +251,15 @@ static void add_run(walk *w, uint32_t first, uint32_t end)
     w->n_runs++;
 }
 
-/* The distance between two intervals; 0 if they meet. */
+/* Returns the distance between two intervals; 0 if they overlap. */
 static double gap(double low, double high, double from, double to)
 {
     const double below = from - high, above = low - to, most = below > above ? below : above;
     return most > 0 ? most : 0;
 }
 
-/* Adds the leaves below a box that are in reach. In the plane the third coordinate is 0, and so is that distance. */
+/* Adds the leaves below a box that are in reach of the group. In the plane all third coordinates are 0, and z is
+   0. */
 static void visit(walk *w, const koksma__source_box *box)
 {
     const double x = gap(w->from[0], w->to[0], box->low[0], box->high[0]);
@@ -271,7 +277,7 @@ static void visit(walk *w, const koksma__source_box *box)
     }
 }
 
-/* Collects the points of a group. */
+/* Collects the sources of a group that are points, whose numbers before sorting are at least `first`. */
 static void gather(walk *w, size_t group, size_t first)
 {
     const koksma__source_tree *t = w->t;

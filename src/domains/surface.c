@@ -2,8 +2,8 @@
 /*
  * koksma_generate_on: points on the triangles of a model, uniform in area. A candidate is a uniform point in a
  * triangle that is drawn with probability proportional to its area, by bisection in the running sums of the areas;
- * the warp `triangle` maps the unit square to the triangle. The methods of choose.c get positions in the model's
- * smallest bounding cube, scaled to the unit cube.
+ * the warp `triangle` maps the unit square to the triangle. The methods of choose.c get positions that are scaled so
+ * that the smallest cube about the model becomes the unit cube.
  */
 #include <koksma/density.h>
 #include <koksma/warp.h>

@@ -190,7 +190,7 @@ koksma_status koksma__surface_field_open(const koksma__point_domain *domain, siz
     f->width = sigma * sqrt(domain->area / (double)n);
     f->per_area = (double)n / domain->area;
     *field = (koksma__field){.data = f, .width = width, .settle = settle, .along = along, .close = close_field};
-    KOKSMA__TRY(koksma__nearest_open(domain, &f->nearest)); /* the caller closes the field */
+    KOKSMA__TRY(koksma__nearest_open(domain, &f->nearest)); /* the caller closes the field, also after an error */
     for (size_t part = 0; part < domain->n_parts; part++) {
         double corners[3][3], normal[3];
         edges_of(domain, (uint32_t)part, corners, normal);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The target of gaussian-blue-noise on a model. */
+/* The target (field.h) of gaussian-blue-noise on a model. */
 #ifndef KOKSMA_DOMAINS_SURFACE_FIELD_H
 #define KOKSMA_DOMAINS_SURFACE_FIELD_H
 

@@ -2,30 +2,31 @@
 /*
  * The coherence of an image's error: the peak of the error's power spectrum divided by the spectrum's mean. Shirley
  * 1991 (5.5.6): "it is the regularity of the error, rather than its magnitude, that is objectionable"; Mitchell 1992
- * warns of the Moire patterns of the Zaremba points. The spectrum of noise is flat, and rises with the frequency
- * after good dithering (Ulichney 1987; Georgiev & Fajardo 2016; Heitz & Belcour 2019 study the spectra of rendering
- * errors for that reason); bands and Moire patterns have peaks. Fisher's test of 1929 (coherence_law.c) decides
- * whether a peak of a periodogram is significant; here it covers all frequencies of an image, and the mean over
- * several images.
+ * warns of the Moire patterns of the Zaremba points. The spectrum of white noise is flat, and that of good dithering
+ * rises with the frequency (Ulichney 1987; Georgiev & Fajardo 2016 and Heitz & Belcour 2019 aim at such spectra of
+ * rendering errors); the spectra of bands and Moire patterns have peaks. Fisher's test of 1929 (coherence_law.c)
+ * decides whether a peak of a periodogram is significant; here it is applied to all frequencies of an image, or of
+ * the mean spectrum of several images.
  *
- * How the peak is made a fair test:
- * - Single frequencies, no window and no smoothing. Errors occur at edges: they are noise whose size varies over the
- *   image. The power of such noise is still exponentially distributed at each frequency, but neighbouring frequencies
- *   are correlated, so that sums over neighbours, and windows, have a distribution that depends on the scene. The
- *   price is that a wave half-way between two frequencies in both directions keeps (2/pi)^4 = 0.16 of its peak; the
- *   mean over all waves is 0.6.
+ * How the peak becomes a fair test:
+ * - The peak is that of a single frequency, without window or smoothing. Errors are large at edges and small
+ *   elsewhere: they are noise whose variance differs between pixels. The power of such noise is still exponentially
+ *   distributed at each frequency, but neighbouring frequencies are correlated, so that the distribution of a smoothed
+ *   or windowed spectrum depends on the scene. The price is that a wave half-way between two frequencies in both
+ *   directions keeps (2/pi)^4 = 0.16 of its peak; the mean over all waves is 0.6.
  * - Each image's power is divided by its own mean before the images are averaged, so that all images have the same
  *   weight.
  * - Blue noise is not coherent: the power P of a frequency is divided by the power of its ring where that is above 1.
  *   The rings have equal areas (16, or fewer so that each has 64 frequencies). The power of a ring is the mean of P in
- *   it, where a peak counts no more than noise of the ring's power would have (in ROUNDS rounds), made nondecreasing
- *   in frequency (isotonic regression by pooling adjacent violators, Ayer et al. 1955). So a ring whose power exceeds
- *   that of rings of higher frequency keeps the excess: coarse errors, which the eye sees best, always remain.
+ *   it, where a power above the largest that noise would have counts only as that largest power (found in ROUNDS
+ *   rounds). These means are then made nondecreasing in frequency (isotonic regression by pooling adjacent violators,
+ *   Ayer et al. 1955). The power of a ring is thus at most that of the next ring, and an excess at low frequencies
+ *   counts as coherence: coarse errors, which the eye sees best, are never divided out.
  * - The share r of the error that T images have in common follows from z, the errors divided by their standard
  *   deviations and summed over the images: |sum z|^2 / n = T + T (T - 1) r.
  *
- * Sums are in index order. Errors whose deviation from their mean is below 1e-12 of the largest error count as 0,
- * because they are rounding.
+ * Sums are in index order. Errors whose standard deviation is below 1e-12 of the largest error count as 0, because
+ * they are rounding.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -109,7 +110,7 @@ static double signed_frequency(size_t v, int height)
     return (2 * v > (size_t)height ? (double)v - height : (double)v) / height;
 }
 
-/* The share of the square of frequencies, [-1/2, 1/2]^2, that lies within distance f of 0. */
+/* Returns the fraction of the area of the square of frequencies, [-1/2, 1/2]^2, that lies within distance f of 0. */
 static double share_within(double f)
 {
     const double square = f * f;
@@ -128,7 +129,8 @@ static size_t ring_of(const koksma_coherence *c, size_t u, size_t v, size_t ring
 
 /* ---- Adding -------------------------------------------------------------------------------------------- */
 
-/* Subtracts the mean of the errors and divides them by their standard deviation. *even: all errors are equal. */
+/* Subtracts the mean of the errors and divides them by their standard deviation. *even is set if all errors are
+   equal. */
 static koksma_status standardise(const koksma_coherence *c, double *errors, bool *even)
 {
     const size_t n = pixels_of(c);
@@ -158,8 +160,8 @@ static koksma_status standardise(const koksma_coherence *c, double *errors, bool
     return KOKSMA_OK;
 }
 
-/* By Parseval's theorem the mean power over all frequencies but (0, 0) is the mean squared error times n / (n - 1).
-   The power at (0, 0) is only rounding, and is left out. */
+/* Adds a spectrum, scaled to mean power 1 over all frequencies but (0, 0). By Parseval's theorem the unscaled mean is
+   n^2 / (n - 1), as the mean squared error is 1. The power at (0, 0) is only rounding, and is left out. */
 static void add_power(koksma_coherence *c, const double *errors, const double *power)
 {
     const size_t n = pixels_of(c), n_powers = powers_of(c);
@@ -259,8 +261,8 @@ static void count_frequencies(const koksma_coherence *c, rings *out)
     out->n = n < 1 ? 1 : n < MAX_RINGS ? n : MAX_RINGS;
 }
 
-/* The mean power of each ring, in several rounds. A power above `most` times the previous round's mean counts as only
-   `most` times that mean. */
+/* Computes the mean power of each ring in several rounds. A power above `most` times the mean of the previous round
+   counts as `most` times that mean. */
 static void find_rings(const koksma_coherence *c, double most, rings *out)
 {
     const size_t columns = koksma__fourier_columns(c->width);
@@ -288,7 +290,7 @@ static void find_rings(const koksma_coherence *c, double most, rings *out)
     }
 }
 
-/* The share of the squared errors that is common to all images. */
+/* Returns the share of the squared errors that is common to all images. */
 static double find_common(const koksma_coherence *c)
 {
     const double images = (double)c->images;
@@ -323,7 +325,7 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
     }
     const double y = signed_frequency(peak / columns, c->height);
     out->frequency_x = (double)(peak % columns) / c->width;
-    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* -y: rows are counted downwards */
+    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* -y, because rows are counted downwards */
     if (c->images > 1) {
         const double images = (double)c->images, mean = c->power[peak];
         const double variance = fmax(c->squares[peak] - mean * mean, 0) * images / (images - 1);

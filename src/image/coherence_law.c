@@ -18,15 +18,16 @@
  *     P(a X + b G > x) = Q(T - 1, x / b) + exp(-x / a) (1 - b / a)^(1 - T) P(T - 1, (x / b) (1 - b / a))
  *
  * with the regularised incomplete gamma functions P and Q = 1 - P. For r = 0 this is a gamma distribution of shape T;
- * for r = 1 it is the distribution of one image. The power of the few frequencies without a mirror image is taken as
- * gamma distributed with half the shape of the gamma distribution that has a wave's variance, 1 / (a^2 + (T - 1)
- * b^2).
+ * for r = 1 it is the distribution of one image. The power of the few frequencies without a mirror image is
+ * approximated by a gamma distribution of mean 1 and twice the variance of a wave's power, so of shape 1 / (2 a^2 + 2
+ * (T - 1) b^2).
  *
  * The distribution of the largest power assumes that powers at different frequencies are independent, which holds for
- * Gaussian noise. Errors that are independent but not Gaussian, or larger in some pixels than in others, have the
- * same distribution at each frequency (in the limit), but depend on those at neighbouring frequencies. The tail of
- * their largest power is at most the sum of the tails over the frequencies, which exceeds the tail computed here by
- * 2.6 % at a tail of 5 %, and by less for smaller tails.
+ * Gaussian noise. If errors are independent but not Gaussian, or larger in some pixels than in others, the power has
+ * the same distribution at each frequency (for large n), but powers at neighbouring frequencies are dependent. The
+ * probability that the largest power exceeds x is then at most the sum over all frequencies of the probability that
+ * the power there exceeds x. If the probability computed here is 0.05, the sum is larger by a factor of 1.026; for
+ * smaller probabilities the factor is smaller.
  */
 #include "image/coherence_law.h"
 
@@ -36,7 +37,7 @@
 
 enum { TERMS = 1000000, HALVINGS = 200 };
 
-/* log of P(k, x) for x up to about k + 1: Abramowitz & Stegun 1964, 6.5.29. */
+/* The logarithm of P(k, x) for x up to about k + 1, by the series 6.5.29 of Abramowitz & Stegun 1964. */
 static double log_series(double k, double x)
 {
     double term = 1, sum = 1;
@@ -71,7 +72,7 @@ static double upper_gamma(double k, double x)
     return x <= 0 ? 1 : x < k + 1 ? -expm1(log_series(k, x)) : upper_fraction(k, x);
 }
 
-/* The tail of the power at one frequency with a mirror image. */
+/* Returns the probability that the power at one frequency with a mirror image exceeds x. */
 static double wave_tail(const koksma__coherence_law *law, double x)
 {
     const double images = (double)law->images, free = 2 * (double)law->waves + (double)law->real;
@@ -97,7 +98,7 @@ static double wave_tail(const koksma__coherence_law *law, double x)
     return upper_gamma(k, z) + exp(-x / a - k * log(rest)) * (1 - upper_fraction(k, y));
 }
 
-/* One without. */
+/* Returns the probability that the power at one frequency without a mirror image exceeds x. */
 static double real_tail(const koksma__coherence_law *law, double x)
 {
     const double images = (double)law->images;

@@ -5,7 +5,7 @@
 
 #include "image/formats.h"
 
-/* Functions that the module provides; they have the same meaning as in koksma__image_format. */
+/* Functions that the module provides; koksma__image_format (formats.h) says what they do. */
 typedef struct koksma__exr_functions {
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);

@@ -138,10 +138,10 @@ static void aim(exr_decode_pipeline_t *decoder, koksma_image *image, int x, int 
     }
 }
 
-/* Chooses the routines that decode. Where one channel of halves is read out of 3 or 4 channels, OpenEXRCore 3.1.5 would
-   choose a routine for files whose channels are all read, and write through the null pointers of the others. Only for
-   this choice, each channel that is not read asks for another type than its own: files that need several conversions
-   get the general routine, which leaves out channels without a pointer. */
+/* Chooses the routines that decode. If one of 3 or 4 channels of half floats is read, OpenEXRCore 3.1.5 would choose
+   a routine that reads all channels, and write through the null pointers of the other channels. Therefore, during the
+   choice, each channel that is not read has a pointer and asks to be converted to another type: the library then
+   chooses its general routine, which skips channels without a pointer. */
 static exr_result_t choose(exr_const_context_t file, exr_decode_pipeline_t *decoder, koksma_image *image)
 {
     aim(decoder, image, 0, 0);
@@ -205,8 +205,8 @@ static exr_result_t read_tiles(exr_const_context_t file, exr_decode_pipeline_t *
     return r;
 }
 
-/* Whether a tile is no larger than the image, or than 2048 x 2048 pixels: OpenEXR's C++ library allocates memory for
-   whole tiles. */
+/* Whether a tile is at most as large as the image, or at most 2048 x 2048 pixels: OpenEXR's C++ library allocates
+   memory for whole tiles. */
 static bool tiles_fit(exr_const_context_t file, const exr_attr_box2i_t *window)
 {
     uint32_t width, height;

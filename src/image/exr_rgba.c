@@ -57,8 +57,8 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
                 : koksma__fail(KOKSMA_MALFORMED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
 }
 
-/* Whether a list of channels ends where its value does: entries are a name and 16 bytes, and an empty name ends the
-   list. */
+/* Whether a list of channels has exactly `size` bytes. Each entry is a name with its zero byte and 16 more bytes; an
+   empty name ends the list. */
 static bool is_channel_list(const unsigned char *value, size_t size)
 {
     size_t at = 0;
@@ -70,8 +70,8 @@ static bool is_channel_list(const unsigned char *value, size_t size)
 }
 
 /* Whether a value's stated size is that of its type, for the types in the table below. For these the C++ library
-   ignores the stated size: if it differed from the type's, the library would look for the next attribute at another
-   place than a reader that uses stated sizes. For all other types the C++ library uses the stated size. */
+   ignores the stated size: if it differed from the type's, the library would find the next attribute at another
+   position than readers that use the stated size. For all other types the C++ library uses the stated size. */
 static bool value_fits(const char *type, const unsigned char *value, size_t size)
 {
     static const struct {

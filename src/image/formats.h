@@ -18,7 +18,8 @@ typedef struct koksma__bytes {
 typedef struct koksma__image_format {
     const char *name;
     bool (*recognises)(const unsigned char *bytes, size_t size);
-    /* Reads an image. Errors name no file: the caller puts its name in front. On failure the caller releases *out. */
+    /* Reads an image. Errors do not name the file: the caller puts its name in front of the text. On failure the
+       caller releases *out. */
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
     /* NULL, or reads an image as `read` does, but always with sRGB's transfer function, whatever function the file
        states. */
@@ -26,9 +27,9 @@ typedef struct koksma__image_format {
     /* NULL, or reads the transparency as an image of one channel, 1 where a pixel is opaque; the image is empty if
        the file has no transparency. */
     koksma_status (*read_alpha)(const unsigned char *bytes, size_t size, koksma_image *out);
-    /* Writes the first of n layers, or more if the format can hold them. */
+    /* Writes the first of n layers, or all of them if has_layers is set. */
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
-    bool has_layers; /* whether a file holds all layers; otherwise it holds only the first */
+    bool has_layers; /* whether a file can hold several layers */
     /* 0 if every float is kept exactly; otherwise numbers are clamped to [0,1], and this is their largest error */
     double error;
     const char *left_out; /* the library that the format needs and this build lacks, in which case read and write are
@@ -40,7 +41,7 @@ typedef struct koksma__image_format {
 #include "image/formats.def"
 #undef FORMAT
 
-/* maximum length of a layer's name, and the capacity for the name, ".R" and the final 0 */
+/* maximum length of a layer's name; capacity for a channel's name: the layer's name, ".R" and the final 0 */
 enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 };
 
 /* The maximum number of pixels of an image that a scene or model names: 8192 x 8192. */

@@ -2,8 +2,8 @@
 /*
  * Computes the power of a picture at its Fourier frequencies: transforms first all rows, then those columns that are
  * not mirrors of others (the values are real). The kernel fourier16 transforms lines whose length is a power of two,
- * 16 at a time; core/dft.c transforms other lines one by one. O(n log n) for n pixels of any size. Memory: 16 bytes
- * for each frequency, and about 64 lines.
+ * 16 at a time; core/dft.c transforms other lines one by one. This takes O(n log n) for n pixels, whatever the width
+ * and the height, and memory of 16 bytes for each frequency and for about 64 lines.
  */
 #include "image/fourier.h"
 
@@ -52,7 +52,7 @@ static koksma_status open_lines(size_t n, lines *l)
     return status || l->power_of_two ? status : koksma__dft_init(&l->dft, &l->fourier, n);
 }
 
-/* Transforms the first `count` lines that begin at work; re and im then point to the results. */
+/* Transforms the first `count` of the lines in `work`; re and im then point to the results. */
 static void transform(lines *l, size_t count)
 {
     const size_t size = LANES * l->n;
@@ -60,8 +60,7 @@ static void transform(lines *l, size_t count)
     l->re = l->work;
     l->im = l->work + size;
     if (!l->power_of_two) {
-        for (size_t i = 0; i < count; i++) { /* takes fewer than 4 n of the LANES n numbers of scratch that there are
-                                                for real and for imaginary parts each */
+        for (size_t i = 0; i < count; i++) { /* uses less than 4 n of the LANES n numbers of each half of `spare` */
             koksma__dft_transform(&l->dft, &l->fourier, LANES, l->re + i, l->im + i, spare, spare + size);
         }
     } else if (koksma__kernels()->fourier16(l->n, l->twiddles, l->re, l->im, spare, spare + size)) {

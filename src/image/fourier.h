@@ -12,8 +12,8 @@ static inline size_t koksma__fourier_columns(int width)
 }
 
 /* power[v * columns + u] = |sum_xy values[y * width + x] exp(-2 pi i (u x / width + v y / height))|^2 for u = 0 ..
-   width / 2 and v = 0 .. height - 1. The error is about 1e-15 of sum values^2 for any size. O(n log n). The bits are
-   the same on every instruction set and for any number of threads. Errors: MEMORY. */
+   width / 2 and v = 0 .. height - 1. The error of power is about 1e-15 times the sum of values^2, for any size. O(n
+   log n). The bits are the same on every instruction set and for any number of threads. Errors: MEMORY. */
 koksma_status koksma__fourier_power(int width, int height, const double *values, double *power);
 
 #endif

@@ -12,8 +12,8 @@ void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__C
    the channel in the layer. */
 size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k);
 
-/* Fails with ARGUMENT unless the layers are images of one size, and no two channels have the same name. Errors name
-   no file. */
+/* Fails with ARGUMENT unless the layers are images of one size, and no two channels have the same name. Errors do not
+   name the file. */
 koksma_status koksma__layers_check(const koksma_layer *layers, size_t n);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reads and writes PFM files: "Pf" or "PF", width, height, a scale whose sign is the byte order (negative:
- * little-endian), one blank, then floats, the bottom row first. The scale's magnitude has no agreed meaning and is
- * ignored. Some writers end the header with blanks and CR LF. The first byte of the floats may look like a blank, so
- * their start is computed from the end of the file.
+ * Reads and writes PFM files: "Pf" or "PF", width, height, a scale whose sign gives the byte order (negative:
+ * little-endian), one blank, then the pixels as floats, with the bottom row first. The scale's magnitude has no
+ * agreed meaning and is ignored. Some writers end the header with blanks and CR LF. The first byte of the floats may
+ * look like a blank, so their start is computed from the end of the file.
  */
 #include <math.h>
 #include <stdio.h>

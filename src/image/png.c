@@ -3,10 +3,11 @@
  * Reads and writes PNG files of 1 to 16 bits by libpng. Levels are read as sRGB, whose curve (IEC 61966-2-1) is
  * applied here in double precision:
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
- * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
- * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is read as sRGB, because writers of sRGB
- * files often store it. read_srgb ignores gAMA. Transparency does not change the colours, so that albedos and
- * comparisons use each pixel's colour; read_alpha reads the transparency alone. Files are written as sRGB with 8 bits.
+ * A gAMA chunk with the value g replaces this curve by linear = s^(1/g), unless the file also has a chunk sRGB or
+ * iCCP, which take precedence (PNG, 3rd edition, section 13.13). A g within 5 % of 1/2.2 is read as sRGB, because
+ * writers of sRGB files often store such a g. read_srgb ignores gAMA. Transparency does not change the colours, so
+ * that albedos and comparisons use each pixel's colour; read_alpha reads the transparency alone. Files are written as
+ * sRGB with 8 bits.
  */
 #ifdef KOKSMA_PNG
 #include <math.h>
@@ -171,7 +172,7 @@ static koksma_status to_linear(const unsigned char *levels, const head *h, size_
     return KOKSMA_OK;
 }
 
-/* Copies the last channel, without a transfer function. */
+/* Copies the last channel, which is the transparency, without a transfer function. */
 static void to_alpha(const unsigned char *levels, const head *h, size_t pixels, float *out)
 {
     const size_t bytes = (size_t)h->level_bytes, step = (size_t)h->channels * bytes;

@@ -12,9 +12,9 @@
    another file named it (core/read_file.h). */
 koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out);
 
-/* The part of an image file to read: colours in linear light; colours in linear light from levels that count as sRGB,
-   whatever transfer function the file states; numbers as stored in the file, without a transfer function; or the
-   transparency, which a file may lack. */
+/* The part of an image file to read. COLOURS: in linear light. SRGB: in linear light, with levels read as sRGB
+   whatever transfer function the file states. NUMBERS: the numbers of the file, without a transfer function. ALPHA:
+   the transparency, which a file may lack. */
 typedef enum koksma__image_part {
     KOKSMA__IMAGE_COLOURS,
     KOKSMA__IMAGE_SRGB,
@@ -24,19 +24,19 @@ typedef enum koksma__image_part {
 koksma_status koksma__image_read_part(const unsigned char *bytes, size_t size, koksma__image_part part,
                                       koksma_image *out);
 
-/* A check for koksma__read_file: whether a file begins like an image in a supported format. Errors: MALFORMED,
+/* A check for koksma__read_file: fails unless the file begins like an image in a supported format. Errors: MALFORMED,
    UNSUPPORTED. */
 koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size);
 
-/* Writes an image as koksma_image_write does, to a file in `folder` whose name the program, not the user, has chosen
-   (koksma__atomic_open). */
+/* Writes an image as koksma_image_write does, to the file `name` in `folder`; the program, not the user, has chosen
+   the name (koksma__atomic_open). */
 koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
                                      const char *metadata);
 
 /* Format i of the table; NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
-/* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors name no
+/* Reads an image file in memory, whose format is found by its content; kind: IMAGE or TEXTURE. Errors do not name the
    file. */
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
                                        koksma_image *out);

@@ -7,8 +7,8 @@
  *     component   sum over v within u of (-1)^(|u| - |v|) V(v) / D
  *
  * If the integrand has a closed form of V, the indices are computed from it. Otherwise they are pick-freeze estimates
- * from N pairs of points A, B: where B_v is the point B with coordinates v replaced by those of A, so that A and B_v
- * have only x_v in common,
+ * from N pairs of points A, B. With B_v the point B with coordinates v replaced by those of A, so that A and B_v have
+ * only x_v in common,
  *
  *     V(v) = mean of f(A) (f(B_v) - f(B))              (Saltelli et al. 2010)
  *     D - V(not u) = mean of (f(A) - f(A_u))^2 / 2     (Jansen 1999), A_u: A with B's coordinates u

@@ -4,19 +4,19 @@
  * at d equal steps up to T = 1 (Kemna & Vorst 1990; Glasserman 2004, 3.2), with the initial price S = 100, rate R =
  * .05 and prices S exp((R - v^2 / 2) t + v W(t)). Each x_k is mapped to a normal number z_k, and the z_k to the
  * Brownian motion W: by steps in time (path=steps), or by the Brownian bridge (Caflisch, Morokoff & Owen 1997). The
- * bridge sets the last time first and then always the middle of the widest gap, so that the first coordinates have
- * most of the variance.
+ * bridge computes W at the last time first, and then always in the middle of the widest gap between known times, so
+ * that the first coordinates cause most of the variance.
  *
  * log G = mu + sum a_k z_k, where the weights a_k depend on the path and sum a_k^2 = s^2. With h = (mu - log K) / s,
  *
- *     integral / discount       exp(mu + s^2 / 2) Phi(h + s) - K Phi(h)
- *     E(E(f | x_u)^2)           E of the product of two payoffs whose logarithms have the correlation
- *                               rho = sum_u a^2 / s^2:
- *                               exp(2 mu + s^2 (1 + rho)) Phi2(h + s (1 + rho), same)
- *                               - 2 K exp(mu + s^2 / 2) Phi2(h + s, h + rho s) + K^2 Phi2(h, h)
+ *     integral / discount            exp(mu + s^2 / 2) Phi(h + s) - K Phi(h)
+ *     E(E(f | x_u)^2) / discount^2   the mean of the product of two payoffs whose log G have the correlation
+ *                                    rho = sum_u a^2 / s^2:
+ *                                    exp(2 mu + s^2 (1 + rho)) Phi2(h + s (1 + rho), h + s (1 + rho))
+ *                                    - 2 K exp(mu + s^2 / 2) Phi2(h + s, h + rho s) + K^2 Phi2(h, h)
  *
- * with Phi2 the normal distribution in the plane with correlation rho. The payoff is unbounded, and
- * so is its variation.
+ * where discount = exp(-R T), and Phi and Phi2 are the distribution functions of the standard normal distribution on
+ * the line and, with correlation rho, in the plane. The payoff is unbounded, and its variation is infinite.
  */
 #include <math.h>
 #include <stdlib.h>

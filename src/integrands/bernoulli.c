@@ -5,7 +5,7 @@
  * has a jump. r is the smoothness. The mean of B_r^2 is (r!)^2 |B_2r| / (2 r)!.
  *
  * Variation of B_r over [0,1]: B_r' = r B_{r-1}. For even r the only extremum inside (0, 1) is at 1/2. For odd r >= 3
- * there are two, at the roots of B_{r-1}, and B_r(0) = B_r(1/2) = B_r(1) = 0.
+ * there are two extrema, at the roots of B_{r-1}, and B_r(0) = B_r(1/2) = B_r(1) = 0.
  */
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * ANOVA components of products as integrands. The component for the coordinates u of offset + scale prod g_i(x_i) is
+ * ANOVA components of products as integrands. The component that belongs to a set u of coordinates of the product
+ * offset + scale prod g_i(x_i) is
  *
  *     scale prod_{i in u} (g_i(x_i) - m_i) prod_{i not in u} m_i,      m_i the mean of g_i,
  *

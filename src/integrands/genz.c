@@ -9,22 +9,22 @@
  *     continuous      exp(-sum a_i |x_i - u_i|)
  *     discontinuous   exp(sum a_i x_i) for x_1 <= u_1 and x_2 <= u_2, else 0
  *
- * u and a are random in (0,1), from the seed; a is then scaled such that its sum is the difficulty. The default
- * difficulties are those of Barthelmann, Novak and Ritter (2000); Genz's own program takes h / d^e as the sum, with
- * constants h and e for each family.
+ * u and a are random numbers in (0,1) that depend on the seed; the a_i are then scaled such that their sum is the
+ * parameter `difficulty`. The default difficulties are those of Barthelmann, Novak and Ritter (2000); Genz's own
+ * program takes h / d^e as the sum, with constants h and e for each family.
  *
- * Four of the families are products, with closed forms of each factor. For the oscillatory family, with s(t) = sin(t)
- * / t,
+ * Four of the families are products, and the properties of their factors have closed forms. For the oscillatory
+ * family, with s(t) = sin(t) / t,
  *
  *     E(f | x_v)          r cos(2 pi u_1 + sum_v a x + theta),
  *                         r = prod_{i not in v} s(a_i / 2), theta = sum_{not v} a / 2
  *     E(E(f | x_v)^2)     r^2 / 2 (1 + cos(4 pi u_1 + sum a) prod_v s(a_i))
  *
  * The corner peak is 1/d! times the integral over t of t^d exp(-t - t sum a_i x_i). Its integral is therefore an
- * integral over t that contains the product of (1 - exp(-a_i t)) / (a_i t); the same holds for its square, with 2 d +
- * 1 in place of d. They are computed by the trapezoidal rule in log t, which converges exponentially and avoids the
- * cancellation of the closed form, a sum over the 2^d corners of the cube. The integral over t also gives the variation
- * of the corner peak, f(0) - f(1, .., 1).
+ * integral over t that contains the product of (1 - exp(-a_i t)) / (a_i t); the same holds for the square of the
+ * corner peak, with 2 d + 1 in place of d. Both integrals over t are computed by the trapezoidal rule in log t, which
+ * converges exponentially and avoids the cancellation of the closed form, a sum over the 2^d corners of the cube. The
+ * integral over t also gives the variation of the corner peak, f(0) - f(1, .., 1).
  */
 #include <math.h>
 #include <stdlib.h>

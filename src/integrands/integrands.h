@@ -18,7 +18,7 @@ typedef struct koksma__factor {
 
 struct koksma_integral {
     const koksma_integrand *integrand; /* NULL: a function of the caller */
-    koksma_function function;          /* the row for a function of the caller, which has its own name */
+    koksma_function function;          /* the caller's function, if integrand is NULL */
     int dim, axes;
     double params[KOKSMA_MAX_PARAMS];
     double value, variance, variation, lowest, highest;

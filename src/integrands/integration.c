@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Errors of integration over trials and sizes. With e_t the error of trial t, RMSE is the root of the mean of e_t^2
- * over the trials. Its confidence interval is computed for log rmse by the delta method, log rmse +- t_{T-1} sd(e^2)
- * / (2 sqrt(T) mean(e^2)), because squared errors have a skewed distribution and the lower bound must be positive.
- * The slope of the RMSE is half the slope of the mean squared errors, with the error that koksma_joint_line gives.
+ * Errors of integration over trials and sizes. With e_t the error of trial t and T the number of trials, the RMSE is
+ * the root of the mean of e_t^2 over the trials. Its confidence interval is computed for log rmse by the delta
+ * method, log rmse +- t_{T-1} sd(e^2) / (2 sqrt(T) mean(e^2)), because squared errors have a skewed distribution and
+ * the lower bound must be positive. The slope of the RMSE is half the slope of the mean squared errors, with the
+ * error that koksma_joint_line gives.
  *
- * The sets of all trials and sizes are independent jobs. If there are fewer jobs than threads, the jobs run one after
- * the other, each on all threads; the bits are the same either way.
+ * Each set (one trial at one size) is an independent job. If there are fewer jobs than threads, the jobs run one
+ * after the other, each on all threads; the bits are the same either way.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Functions of the line and the plane whose integral and variation are known. Smooth functions: Vitali's variation is
- * the integral of the absolute mixed derivative. Boxes parallel to the axes: the variation counts 1 for each corner
- * inside the square and 1 for each end of a side at x = 1 or y = 1. Regions with edges that are not parallel to an
- * axis: the variation is infinite. The checkerboard of 8 x 8 squares is (1 - c(x) c(y)) / 2, where c alternates
- * between 1 and -1 in 7 steps. docs/findings/koksma-inequality.md uses these functions.
+ * the integral of the absolute mixed derivative. Boxes parallel to the axes: the variation is the number of corners
+ * inside the square plus the number of points on x = 1 or y = 1 where a side of the box ends. Regions with edges that
+ * are not parallel to an axis have infinite variation. The checkerboard of 8 x 8 squares is (1 - c(x) c(y)) / 2,
+ * where c jumps 7 times between 1 and -1. docs/findings/koksma-inequality.md uses these functions.
  *
  * E(f | x) is 2 sqrt(r^2 - (x - 1/2)^2) for the disk, whose square integrates to 16 r^3 / 3; .2 + x/2 for the region
  * below the line, where E(f | y) is 1 - max(0, 2 y - .4) up to y = .7; and |1 - 2 a| for the turned checkerboard,

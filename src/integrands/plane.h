@@ -6,7 +6,7 @@
 #include "integrands/product.h"
 
 /* square: the integral of f^2; of_x, of_y: the integrals of E(f | x)^2 and E(f | y)^2. The function's range is [0,1],
-   its variation is infinite. */
+   and its variation is infinite. */
 typedef struct koksma__plane {
     double value, square, of_x, of_y;
 } koksma__plane;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The functions with which Christensen et al. (2018), and papers since then, compare sequences: a quarter of a disk,
- * a triangle, a step, a quarter of a Gaussian and a bilinear function.
+ * The functions with which Christensen et al. (2018) and later papers compare sequences: a quarter of a disk, a
+ * triangle, a step, a quarter of a Gaussian and a bilinear function.
  *
  * E(f | x) of the quarter disk of radius r is sqrt(r^2 - x^2) up to r, whose square integrates to 2 r^3 / 3; r^2 =
  * 2/pi makes the integral 1/2. The triangle has E(f | x) = 1 - x and E(f | y) = y.

@@ -147,7 +147,8 @@ koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status 
 /* ---- Documents and nodes --------------------------------------------------------------------------------- */
 
 /* Parses the text. It first checks that twice the memory of the longest possible string is free, because jansson 2.14
-   ignores a failed allocation for a longer string and writes past the old one (lex_save() in its load.c). */
+   ignores a failed allocation for a longer string and writes past the end of the old memory (lex_save() in its
+   load.c). */
 static koksma_status read_text(koksma__json *d, json_error_t *error)
 {
     const size_t room = 4 * d->size + 4096;
@@ -229,7 +230,8 @@ static bool other_spelling(const char *key, char *other, size_t size)
     return false;
 }
 
-/* Finds the member of an object whose key has this spelling or the other one; NULL if there is none. */
+/* Finds the member of an object whose key has the given spelling, British or American, or the other one; NULL if
+   there is none. */
 static const json_t *find(const json_t *object, const char *key)
 {
     char other[KOKSMA__JSON_PATH];

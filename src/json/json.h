@@ -51,7 +51,7 @@ koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status 
 /* Fails unless node is an object whose keys are all among `keys`, which ends at NULL. */
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys);
 
-/* Returns whether the object has a member `key` whose value is an object. */
+/* Returns whether an object has a member `key` that is itself an object. */
 bool koksma__json_is_object_at(const koksma__json_node *node, const char *key);
 bool koksma__json_is_array(const koksma__json_node *node);
 bool koksma__json_is_text(const koksma__json_node *node);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A tile of cells as the dart throwing kernels see it. A cell has at most one point, whose "place" is its position
- * packed into one 32-bit word: x in the lower half and y in the upper half, measured from the tile's corner, rounded
- * to 2^-12 of a cell, modulo 16 cells. If two places are less than 8 cells apart, the differences of their halves,
- * read as signed 16-bit numbers, are the differences of the positions. One instruction squares and adds the halves of
- * eight words. The place of an empty cell is 6 cells beyond its middle in y, too far away to affect any result.
+ * A tile of cells in the form that the dart throwing kernels read. A cell has at most one point, whose "place" is its
+ * position packed into one 32-bit word: x in the lower half and y in the upper half, measured from the tile's corner,
+ * rounded to 2^-12 of a cell, modulo 16 cells. If two places are less than 8 cells apart, the differences of their
+ * halves, read as signed 16-bit numbers, are the differences of the positions. One instruction squares and adds the
+ * halves of eight words. The place of an empty cell is 6 cells beyond its middle in y, too far away to affect any
+ * result.
  */
 #ifndef KOKSMA_KERNELS_DART_CELLS_H
 #define KOKSMA_KERNELS_DART_CELLS_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds the box corners whose count and volume differ by more than a limit. Most blocks have no such corner and are
-   skipped after one comparison with the block's largest difference. */
+/* Finds the corners of boxes anchored at 0 whose number of points differs from n times their volume by more than a
+   limit. Most blocks of corners have no such corner; comparing the block's largest difference with the limit shows
+   this. */
 #include "kernels/kernels.h"
 
 enum { BLOCK = 128, LANES = 32 };

@@ -58,8 +58,8 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
 LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t cell_x, uint32_t cell_y,
                                  uint32_t *out)
 {
-    /* Subtracting `start` moves the y coordinate of points into the first 8 of 16 cells, and that of empty cells into
-       the last 8. */
+    /* After `start` is subtracted, y is in the first 8 of 16 cells for points and in the last 8 for empty cells, so
+       that its sign bit distinguishes the two. */
     lanes8_pairs start;
     size_t count = 0;
     lanes8_splat((4 * cell_y - 17) << (KOKSMA__PLACE_BITS + 14), &start);
@@ -77,7 +77,8 @@ LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t 
     return count;
 }
 
-/* The four quarters of a square: their middles, half of their side (in x and in y), and the distances to places. */
+/* The four quarters of a square: their centres `at`, half of their side (in x and in y), and squared distances to
+   places. */
 typedef struct four {
     lanes8_pairs at[4], half;
     lanes8 least[4]; /* the smallest squared distance, in each lane, from a place to a quarter's far corner */
@@ -120,7 +121,7 @@ LANES8_INLINE size_t put_quarters(uint32_t square, unsigned covered, uint32_t *o
 }
 
 /* Used for squares so large that points outside the eight neighbour cells hardly ever cover a quarter. Each row is
-   read as four cells, one more than needed. The squares are independent of each other, and there are no branches. */
+   read as four cells, one more than needed. The loop has no branches, and its iterations are independent. */
 static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;

@@ -62,7 +62,7 @@ void KERNEL_NAME(fractions)(size_t count, const uint32_t *restrict v, double *re
     }
 }
 
-/* The block is built by doubling: the second half of an aligned block is the first half xor one direction. */
+/* The block is built by doubling: the second half of an aligned block is the first half xor one direction number. */
 void KERNEL_NAME(digital)(size_t count, const uint32_t *restrict directions, uint32_t start, uint32_t *restrict out)
 {
     if (count) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds the best boxes of 16 vertical strips at once, in one pass over the points in order of y. A point outside a
-   strip does not change the count of the strip; its y only becomes another candidate for a side of a box. This does
-   not change the largest value, because a side through a point of the strip is at least as good. */
+/* Finds the boxes of largest discrepancy in 16 vertical strips at once, in one pass over the points in order of y. A
+   point outside a strip does not change the count of the strip; its y only becomes another candidate for a side of a
+   box. This does not change the largest value, because a side through a point of the strip is at least as good. */
 #include <math.h>
 #include <string.h>
 

@@ -37,8 +37,8 @@ void KERNEL_NAME(outer_sums)(size_t count, const double *a, const double *b, dou
 }
 
 typedef struct stage {
-    size_t quarter, stride, step; /* length / 4 (or length / 2), stride of the sequences, step in the table of twiddle
-                                     factors */
+    size_t quarter, stride, step; /* quarter: length / 4 (radix 4) or length / 2 (radix 2); step: distance of
+                                     the twiddle factors in their table */
     const double *twiddles;
     const double *re, *im;
     double *to_re, *to_im;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The Gaussian forces of the pattern gaussian-blue-noise: between points in the plane, and between sources with widths
-   and masses of their own, for points on a domain (domains/gaussian.c). Sums run in eight lanes for every vector
+/* The Gaussian forces of the pattern gaussian-blue-noise: between points in the plane, and between sources whose
+   widths and masses differ, for points on a domain (domains/gaussian.c). Sums run in eight lanes for every vector
    width, so that all instruction sets give the same bits. */
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"

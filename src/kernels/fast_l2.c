@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Computes the sums over pairs of points in the L2 discrepancies. Rows are summed in a fixed number of lanes, so that
-   every instruction set adds in the same order and gives the same bits. The row sums are added with compensation. */
+/* Computes the sums over pairs of points in the L2 discrepancies. The pairs of a point i with all j < i (row i) are
+   summed in a fixed number of lanes, so that every instruction set adds in the same order and gives the same bits.
+   The row sums are added with compensation. */
 #include <math.h>
 
 #include "core/sum.h"
@@ -18,8 +19,8 @@ typedef struct shape {
     double q, r;
 } shape;
 
-/* Computes the kernels of point i with points j .. j + count - 1 in coordinate k: stores them in out[0 .. count) for
-   k = 0, and multiplies out[0 .. count) by them for other k. */
+/* Computes the factors that coordinate k contributes to the pairs of point i with points j .. j + count - 1 (l2_pairs
+   in kernels.def): stores them in out[0 .. count) for k = 0, and multiplies out[0 .. count) by them for other k. */
 static inline void multiply(const shape *s, size_t k, size_t i, size_t j, size_t count, double *restrict out)
 {
     const double *restrict u = s->u + k * s->n + j, *restrict g = s->g + k * s->n + j;
@@ -37,7 +38,7 @@ static inline void multiply(const shape *s, size_t k, size_t i, size_t j, size_t
     }
 }
 
-/* Returns the sum over all j < i of the products over the coordinates of the kernels of points i and j. */
+/* Returns the sum over all j < i of the product, over the coordinates, of these factors for points i and j. */
 static double row(const shape *s, size_t i)
 {
     double lanes[LANES] = {0}, products[CHUNK];

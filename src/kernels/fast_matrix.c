@@ -15,9 +15,9 @@ enum { POINTS = 32 };
 /* Tables for the byte shuffle, which looks up for 32 points at once the contribution of four bits of a word to one
    byte of the result. */
 typedef struct tables {
-    __m256i bytes[4]
-                 [4]; /* entry [j][k] is the contribution of byte j to byte k: the low half for its low four bits, the
-                     high half for its high four bits */
+    /* entry [j][k] is the contribution of byte j to byte k: the low half for the low four bits of byte j, the high half
+       for its high four bits */
+    __m256i bytes[4][4];
 } tables;
 
 /* Transposes, within each 128-bit half, the 4 x 4 matrix of 4-byte words of four vectors. The function is its own

@@ -61,7 +61,7 @@ static inline __attribute__((always_inline)) void look_at(uint32_t base, double 
     }
 }
 
-/* Writes relative number d of each stratum to v, which has its two random words on entry. */
+/* Writes relative number d of each stratum to v, where each number on entry has two random words for it. */
 static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t d, double width, strata *s, double *v)
 {
     const double part = width * 0x1p-32;
@@ -73,7 +73,7 @@ static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t 
                 (lanes64_u)lanes64_product((lanes64)lanes64_even_words(w), (lanes64)lanes64_splat(base - d));
             const lanes64_u pick = ((product >> 32) + d) << 2, kept = digit;
             digit = s->order[c] >> pick & 15;
-            s->order[c] ^= (digit ^ kept) << pick; /* no write-back: entry d of the order is not read again */
+            s->order[c] ^= (digit ^ kept) << pick; /* entry d is not read again and stays */
         }
         const lanes64_d below = lanes64_floor(part * to_doubles(lanes64_odd_words(w)));
         const lanes64_d x = (s->prefix[c] + to_doubles(digit)) * width + below;

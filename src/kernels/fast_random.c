@@ -33,16 +33,17 @@ void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, si
 void KERNEL_NAME(nested_bits)(uint64_t seed, uint32_t lane, const koksma__nested_node *first, size_t count,
                               uint64_t *x);
 
-/* Values that are equal for all counters that differ only in their lowest word: w[0] and w[1] after round 0; w[3],
-   and the word that is xored into w[2], after round 1. The keys of the other rounds follow; they are used as memory
-   operands and need no load instruction. */
+/* The parts of the first two rounds that are equal for all counters that differ only in their lowest word: w2_of_0 is
+   xored into w[2] in round 0, w0_of_1 into w[0] and w2_of_1 into w[2] in round 1, and w3_of_1 is w[3] after round 1.
+   keys: the keys of the other rounds, as memory operands that need no load instruction. */
 typedef struct stream {
     lanes64_u w2_of_0, w0_of_1, w2_of_1, w3_of_1, keys[ROUNDS][2];
 } stream;
 
 static const uint32_t multiplier[2] = {0xD2511F53u, 0xCD9E8D57u}, weyl[2] = {0x9E3779B9u, 0xBB67AE85u};
 
-/* Not inlined, because compilers would otherwise build the vectors again in each round. */
+/* Makes the stream of the counters whose second word is `high`. Not inlined, because compilers would otherwise build
+   its vectors again in each round. */
 static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpose, uint32_t high, uint32_t lane,
                                                   int rounds, stream *out)
 {
@@ -280,9 +281,9 @@ INLINE void insert(const uint32_t *at, uint32_t first, uint32_t count, uint32_t 
     }
 }
 
-/* Computing random numbers is limited by the latency of multiplications, inserting them into the permutation by the
-   caches. To overlap the two, each round of one block's random numbers is followed by inserting a part of the
-   previous block. */
+/* The time to compute random numbers is limited by the latency of multiplications, the time to insert them into the
+   permutation by the caches. To overlap the two, each round of one block's random numbers is followed by inserting a
+   part of the previous block. */
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
 {
     enum { WORDS = 4 * LANES, SHARE = WORDS / ROUNDS };
@@ -313,8 +314,10 @@ INLINE lanes64_d place(lanes64_u word, lanes64_u upper, lanes64_d base, lanes64_
     return power_of_two ? x : x / n;
 }
 
-/* For n <= 2^20 the quotient is below the cell's end after rounding: the two are at least 2^-52 apart, and the double
-   before 1 is 1 - 2^-53. Each counter gives two points, which are stored as a row of four numbers. */
+/* Makes the first points of rooks_2d, as many as fill whole blocks, and returns their number. Unlike in_cell it does
+   not compare the quotient with the cell's end: for n <= 2^20 the quotient is below the end also after rounding,
+   because the two are at least 2^-52 apart, and the double before 1 is 1 - 2^-53. Each counter gives two points,
+   which are stored as a row of four numbers. */
 INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, size_t count, double n,
                           bool power_of_two, double *xs)
 {
@@ -339,7 +342,7 @@ INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, s
     return i;
 }
 
-/* koksma__in_cell of patterns/shared/cells.h. */
+/* Returns the same as koksma__in_cell of patterns/shared/cells.h. */
 static double in_cell(double cell, uint32_t word, double n)
 {
     const double x = (cell + word * 0x1p-32) / n, end = (cell + 1) / n;
@@ -367,14 +370,16 @@ void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, si
     }
 }
 
-/* What the first two rounds take for counters of any two low words: what is xored into w[0] after round 0, and the key of
-   w[2] in round 1. The stream has the rest; its w2_of_1 and w3_of_1 are of counters below 2^32. */
+/* The same as a stream, for counters whose two lowest words both vary: w0_of_0 is xored into w[0] in round 0, and
+   key_of_1 is the key of w[2] in round 1. w2_of_1 and w3_of_1 of the stream are not used, because they hold only for
+   counters below 2^32. */
 typedef struct tree {
     stream s;
     lanes64_u w0_of_0, key_of_1;
 } tree;
 
-/* Replaces nodes, which are counters, by their random words: the words 0 and 1 in `low`, 2 and 3 in `high`. */
+/* Computes the random words of the nodes in `low`, which are the generator's counters: replaces them by words 0 and
+   1, and writes words 2 and 3 to `high`. */
 INLINE void nested_words(const tree *t, int chains, lanes64_u *low, lanes64_u *high)
 {
     const lanes64 m0 = (lanes64)lanes64_splat(multiplier[0]), m1 = (lanes64)lanes64_splat(multiplier[1]);
@@ -397,7 +402,8 @@ INLINE void nested_words(const tree *t, int chains, lanes64_u *low, lanes64_u *h
     }
 }
 
-/* Returns koksma__nested_flips in each lane, below `flips`, the flips of the digits before. */
+/* Returns `flips`, the flips of the digits before the node, followed by the result of koksma__nested_flips, in each
+   lane. */
 INLINE lanes64_u nested_flips(lanes64_u low, lanes64_u high, lanes64_u path, lanes64_u flips)
 {
     const lanes64_u one = lanes64_splat(1), leaf = (path & 127) | 128;
@@ -454,7 +460,7 @@ void KERNEL_NAME(nested_bits)(uint64_t seed, uint32_t lane, const koksma__nested
     if (i < count) {
         uint64_t last[LANES64];
         for (size_t l = 0; l < LANES64; l++) {
-            last[l] = x[i + l < count ? i + l : i]; /* whose node `first` has */
+            last[l] = x[i + l < count ? i + l : i]; /* pads with x[i], whose node is in `first` */
         }
         nested_points(&t, first, 1, last);
         memcpy(x + i, last, (count - i) * sizeof *x);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Two parts of the star discrepancy. The sweep of the plane uses the counts after each insertion twice: for the
-   excess at this x and for the deficit at the next x. Each lane has its own maximum, because a maximum does not
-   depend on the order. The steps of the partition are convolutions in which maxima or minima replace the sums. Each
-   vector of results stays in registers while one list slides along the other. */
+/* Kernels of two algorithms for the star discrepancy. The sweep of the plane uses the counts after each insertion of
+   a point twice: for the excess at this x and for the deficit at the next x. Each lane has its own maximum, because a
+   maximum does not depend on the order of the numbers. The steps of the partition are convolutions in which maxima or
+   minima replace the sums. Each vector of results stays in registers while one list slides along the other. */
 #include <math.h>
 #include <string.h>
 
@@ -22,7 +22,8 @@ typedef struct step {
 } step;
 
 /* Computes the largest excess over ranks 0 .. n-1 and the largest deficit over ranks 0 .. n. The last vector reads
-   past the end, where y is 1. A box of this height has the deficit of rank n, and at most the excess of rank n-1. */
+   past the end, where y is 1. Boxes of this height have the deficit of rank n, and at most the excess of rank n-1, so
+   that they change no result. */
 static void maxima(size_t n, const double *y, const double *count, step *s)
 {
     lanes64_d excess = lanes64_splat_d(-INFINITY), deficit = excess;
@@ -64,7 +65,7 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
 
 enum { WIDTH = 8, VECTORS = WIDTH / LANES64, ROOM = 256 };
 
-/* longs: up to ROOM sides of the longer list, padded at both ends with WIDTH numbers that change no result: 0 when
+/* longs: up to ROOM numbers of the longer list, padded at both ends with WIDTH numbers that change no result: 0 when
    the largest product is wanted, infinity for the smallest (0 times infinity is NaN, which is not below any number).
    shorts: the shorter list, not copied. */
 typedef struct convolution {

@@ -22,7 +22,7 @@ void KERNEL_NAME(nested_bits)(uint64_t seed, uint32_t lane, const koksma__nested
     for (size_t i = 0; i < count; i++) {
         const koksma__nested_node *node = &first[x[i] >> (DIGITS - LEVELS)];
         uint64_t flips = node->flips << LEVELS | koksma__nested_flips(*node, x[i] >> (DIGITS - 2 * LEVELS));
-        for (int top = 2 * LEVELS; top < DIGITS; top += LEVELS) { /* the last LEVELS digits end in three zeros */
+        for (int top = 2 * LEVELS; top < DIGITS; top += LEVELS) { /* the last LEVELS digits are padded by 0s */
             flips = flips << LEVELS |
                     koksma__nested_flips(koksma__nested_node_of(koksma__nested_words(seed, x[i], top, lane)),
                                          x[i] << SPARE >> (DIGITS + SPARE - LEVELS - top));
@@ -173,7 +173,7 @@ void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count,
     }
 }
 
-/* koksma__in_cell of patterns/shared/cells.h. */
+/* Returns the same as koksma__in_cell of patterns/shared/cells.h. */
 static double in_cell(double cell, double u, double m)
 {
     const double x = (cell + u) / m, end = (cell + 1) / m;

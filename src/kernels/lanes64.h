@@ -116,8 +116,8 @@ static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
 #endif
 }
 
-/* For lanes loaded from an array of words: the words of even index (for lanes64_odd_words: of odd index), in the
-   lower halves; the upper halves are meaningless. */
+/* For lanes loaded from an array of words: returns the words of even index (lanes64_odd_words: of odd index) in the
+   lower halves of lanes; the upper halves are meaningless. */
 static inline lanes64_u lanes64_even_words(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -136,8 +136,8 @@ static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
 #endif
 }
 
-/* For lanes loaded from an array of words: the words of even index (for lanes64_odd_upper: of odd index), in the
-   upper halves; the lower halves are meaningless. */
+/* For lanes loaded from an array of words: returns the words of even index (lanes64_odd_upper: of odd index) in the
+   upper halves of lanes; the lower halves are meaningless. */
 static inline lanes64_u lanes64_even_upper(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -156,7 +156,7 @@ static inline lanes64_u lanes64_odd_upper(lanes64_u lanes)
 #endif
 }
 
-/* Lanes of two words each, the word from `even` first in memory and the word from `odd` second. lanes64_words takes
+/* Return lanes of two words each: first in memory the word from `even`, then the word from `odd`. lanes64_words takes
    the lower halves of its arguments, lanes64_upper_words the upper halves. */
 static inline lanes64_u lanes64_words(lanes64_u even, lanes64_u odd)
 {

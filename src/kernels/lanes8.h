@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Vectors of eight words of two 16-bit numbers each, with operations that compilers do not turn into one instruction
-   by themselves: the sum of the squares of the two numbers, the bits of the lanes that are set in a mask, and packing
-   the chosen lanes of a vector. Without AVX2 a vector is a pair of 128-bit vectors, or the compiler chooses the
+   by themselves: the sum of the squares of the two numbers, a mask with one bit for each lane, and packing the chosen
+   lanes of a vector. Without AVX2 a vector is a pair of 128-bit vectors (SSE2), or the compiler chooses the
    instructions. */
 #ifndef KOKSMA_KERNELS_LANES8_H
 #define KOKSMA_KERNELS_LANES8_H
@@ -136,7 +136,7 @@ LANES8_INLINE unsigned lanes8_below(const lanes8 v[4], int32_t limit)
 #endif
 }
 
-/* Writes contiguously to out, which has capacity for eight words, those of the first five lanes whose bit is set. */
+/* Writes to out, without gaps, those of the first five lanes whose bit is set; out has capacity for eight words. */
 LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2
@@ -158,7 +158,7 @@ LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *
 #endif
 }
 
-/* Writes contiguously to out, which has capacity for four words, those of the four lanes whose bit is set. */
+/* Writes to out, without gaps, those of the four lanes whose bit is set; out has capacity for four words. */
 LANES8_INLINE void lanes4_pick(const lanes4 *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2

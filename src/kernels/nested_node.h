@@ -14,7 +14,7 @@ enum {
 };
 
 /* The random bits at a node: bit 2^j + (the j digits after the node) of the two words, low and high, flips the digit
-   after these. flips: the flips of the 7 digits before the node, for the kernel nested_bits. */
+   that follows these j digits. flips: the flips of the 7 digits before the node, for the kernel nested_bits. */
 typedef struct koksma__nested_node {
     uint64_t low, high, flips;
 } koksma__nested_node;
@@ -31,7 +31,7 @@ static inline koksma__nested_node koksma__nested_node_of(koksma__words r)
     return (koksma__nested_node){r.w[0] | (uint64_t)r.w[1] << 32, r.w[2] | (uint64_t)r.w[3] << 32, 0};
 }
 
-/* Returns the flips of the 7 digits after a node, which are the lowest of `path`. */
+/* Returns the flips of the 7 digits after a node, which are the lowest 7 bits of `path`. */
 static inline uint64_t koksma__nested_flips(koksma__nested_node node, uint64_t path)
 {
     const uint64_t p = path & 127;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The interface of the backends that draw a canvas: the few drawing operations of which plots consist. svg.c
-   implements it for SVG, the module koksma-cairo.so (cairo.c), loaded with the first such canvas, for PDF and PNG.
-   Backends do not clip: canvas.c clips shapes. */
+/* The interface of the backends that draw a canvas: the few operations that draw all plots. svg.c implements it for
+   SVG; the module koksma-cairo.so (cairo.c), which is loaded when the first PDF or PNG is drawn, implements it for
+   these two. Backends do not clip: canvas.c clips shapes. */
 #ifndef KOKSMA_PLOT_BACKEND_H
 #define KOKSMA_PLOT_BACKEND_H
 
@@ -31,8 +31,8 @@ typedef struct koksma__box {
     double x, y, width, height;
 } koksma__box;
 
-/* The first member of every backend's canvas; dashes[dash] alternates the lengths of strokes and gaps, and ends with
-   0. */
+/* The first member of every backend's canvas. dashes[dash] lists the lengths of strokes and gaps in turn, and ends
+   with 0. */
 enum { KOKSMA__MAX_DASHES = 4 };
 typedef struct koksma__canvas {
     const struct koksma__canvas_functions *draw;

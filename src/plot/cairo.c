@@ -116,7 +116,7 @@ static koksma_status pixels(koksma__canvas *canvas, koksma__box b, int columns, 
     cairo_translate(p->cairo, b.x, b.y);
     cairo_scale(p->cairo, b.width / columns, b.height / rows);
     cairo_set_source_surface(p->cairo, image, 0, 0);
-    /* enlarged squares keep sharp edges; if there are more squares than pixels, they are averaged */
+    /* squares larger than a pixel keep sharp edges; smaller ones are averaged */
     const bool enlarged = p->format != KOKSMA_PLOT_PNG || b.width >= columns;
     cairo_pattern_set_filter(cairo_get_source(p->cairo), enlarged ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
     cairo_rectangle(p->cairo, 0, 0, columns, rows);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The code that all backends share: the choice of the backend for a format; clipping of shapes at a box (lines by
- * Liang and Barsky, polygons by Sutherland and Hodgman); and texts, whose widths are bounded by an upper bound for
- * each class of characters, so that the layout and the line breaks are the same with any font.
+ * Liang and Barsky, polygons by Sutherland and Hodgman); and texts. The layout uses an upper bound of the width of
+ * each class of characters instead of real widths, so that positions and line breaks are the same with any font.
  */
 #include "plot/canvas.h"
 
@@ -82,14 +82,14 @@ koksma_status koksma__canvas_pixels(koksma__canvas *canvas, koksma__box box, int
     return canvas->draw->pixels(canvas, box, columns, rows, rgb);
 }
 
-/* Signed distance of a position to side 0 to 3 of a box, positive inside. */
+/* The signed distance of a position from the line through side 0 to 3 of a box, positive inside. */
 static double depth(const double *xy, koksma__box b, int side)
 {
     const double low = side % 2 ? b.y : b.x, high = low + (side % 2 ? b.height : b.width);
     return side < 2 ? xy[side % 2] - low : high - xy[side % 2];
 }
 
-/* The point where the line from a to b crosses a side. */
+/* Computes the point where the line from a to b crosses a side. */
 static void cross(const double *a, const double *b, double depth_a, double depth_b, double *out)
 {
     const double t = depth_a / (depth_a - depth_b);
@@ -97,7 +97,7 @@ static void cross(const double *a, const double *b, double depth_a, double depth
     out[1] = a[1] + t * (b[1] - a[1]);
 }
 
-/* Clips a polygon at each side in turn; each side of a convex window adds at most one corner. */
+/* Clips a polygon at the four sides in turn; a side adds at most one corner to a convex polygon. */
 static void polygon_inside(koksma__canvas *canvas, const double *xys, size_t n, koksma__box inside,
                            koksma__style style)
 {

@@ -14,17 +14,18 @@ void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1
 void koksma__canvas_box(koksma__canvas *canvas, koksma__box box, koksma__style style);
 void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, koksma__style style);
 
-/* Draw the part inside a box: of an open path, or of a filled polygon of at most KOKSMA__MAX_CORNERS corners. */
+/* Draws the part of a path that is inside a box. The path is open, or a filled polygon of at most KOKSMA__MAX_CORNERS
+   corners. */
 enum { KOKSMA__MAX_CORNERS = 192 };
 void koksma__canvas_path_inside(koksma__canvas *canvas, const double *xys, size_t n, koksma__box inside,
                                 koksma__style style);
 
-/* Draws columns x rows squares of red, green and blue bytes, from the upper left corner. Errors: MEMORY,
-   UNSUPPORTED. */
+/* Fills a box with columns x rows squares, whose colours are bytes of red, green and blue, row by row from the upper
+   left corner. Errors: MEMORY, UNSUPPORTED. */
 koksma_status koksma__canvas_pixels(koksma__canvas *canvas, koksma__box box, int columns, int rows,
                                     const unsigned char *rgb);
 
-/* Writes a text. anchor 0: x is its left end, 0.5: its middle, 1: its right end. */
+/* Writes a text. x is the left end of the text if anchor is 0, its middle if 0.5, its right end if 1. */
 void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                          koksma__colour colour);
 
@@ -32,14 +33,16 @@ void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double heig
 double koksma__text_width(const char *text, double height);
 
 /* Writes a text in lines of at most a given width, broken after blanks and punctuation marks; y is the base line of
-   the first line. With a NULL canvas it only counts. Returns the number of lines, 0 for a NULL text. */
+   the first line. Returns the number of lines, 0 for a NULL text. With a NULL canvas it draws nothing and only counts
+   the lines. */
 size_t koksma__canvas_lines(koksma__canvas *canvas, double x, double y, double width, double height, double anchor,
                             const char *text, koksma__colour colour);
 
 /* The distance between the base lines of successive lines of text. */
 double koksma__line_height(double height);
 
-/* Returns the finished picture, which the caller frees. Releases the canvas, even if it fails. */
+/* Returns the finished picture, which the caller frees. Releases the canvas, also if it fails and returns no
+   picture. */
 koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Curves on a pair of axes. Ticks are at 1, 2 or 5 times powers of ten; on a logarithmic axis at powers of ten, also
- * at 2 and 5 times these if the axis spans less than two decades, or at the abscissas of the marks if there are few.
- * The layout from top to bottom: title, label of y, axes, ticks and label of x, and the legend, which is below the
- * axes so that it hides no curve.
+ * Curves on a pair of axes. Ticks of a linear axis are at multiples of 1, 2 or 5 times a power of ten. Those of a
+ * logarithmic axis are at powers of ten, also at 2 and 5 times these if the axis spans at most two decades, or at the
+ * abscissas of the marks if there are few. The layout from top to bottom: title, label of y, axes, ticks and label of
+ * x, and the legend, which is below the axes so that it hides no curve.
  */
 #include "plot/chart.h"
 
@@ -73,7 +73,7 @@ static void find_ranges(const koksma_chart *c, axis *x, axis *y)
 }
 
 /* Extends the range a little at both ends; a linear axis whose low end is positive and small begins at exactly 0.
-   Returns false when there are no values. */
+   Returns false if the axis has no values. */
 static bool settle(axis *a, double room)
 {
     if (!(a->high >= a->low)) {
@@ -116,7 +116,7 @@ static int linear_ticks(double low, double high, double most, double ticks[MAX_T
     return n;
 }
 
-/* most: the number of labels for which there is space. */
+/* Writes the values of the ticks and returns their number. most: the number of labels for which there is space. */
 static int find_ticks(const axis *a, double most, double ticks[MAX_TICKS])
 {
     if (!a->log) {
@@ -136,7 +136,8 @@ static int find_ticks(const axis *a, double most, double ticks[MAX_TICKS])
     return n > 1 ? n : linear_ticks(pow(10, a->low), pow(10, a->high), fmin(most, 4), ticks);
 }
 
-/* The abscissas of the marks in ascending order, for ticks; returns 0 if there are too many. */
+/* Writes the abscissas of the marks in ascending order, for ticks, and returns their number, or 0 if there are too
+   many. */
 static int marked_xs(const koksma_chart *c, const axis *x, double ticks[MAX_TICKS])
 {
     int n = 0;
@@ -199,7 +200,7 @@ static void draw_ticks(const axes *a, const koksma_chart *c)
     }
 }
 
-/* The width of the widest label of y. The ticks of y depend only on the height. */
+/* The width of the widest label of y; the ticks of y depend only on the height of the chart. */
 static double label_width(const axis *y, double height)
 {
     double ticks[MAX_TICKS], widest = 0;
@@ -218,8 +219,8 @@ static koksma__style style_of(const koksma__theme *theme, const koksma_curve *k)
                      : koksma__curve_style(theme, k->colour, 1.5);
 }
 
-/* A mark of the curve. Each colour has its shape, and each dash of a colour another, so that curves differ without
-   colours, too: a disk, a square, a triangle, a diamond, a triangle that points down, a plus, a star, a cross. */
+/* Draws a mark of a curve. Its shape depends on the curve's colour and dash, so that curves can be distinguished
+   without colours: a disk, a square, a triangle, a diamond, a triangle that points down, a plus, a star, a cross. */
 static void draw_mark(koksma__canvas *canvas, double x, double y, const koksma_curve *k, koksma__style style)
 {
     enum { MOST_CORNERS = 12 };
@@ -250,7 +251,8 @@ static void draw_mark(koksma__canvas *canvas, double x, double y, const koksma_c
     koksma__canvas_path(canvas, at, shapes[shape - 1].n, style);
 }
 
-/* Standard errors: bars at marks, otherwise a band along a run of points that begins at `first`. */
+/* Draws the standard errors of a run of points that begins at `first`: as bars if the curve has marks, otherwise as a
+   band. */
 static void draw_errors(const axes *a, const koksma_curve *k, size_t first, size_t n, double *band)
 {
     koksma__style style = style_of(a->theme, k);
@@ -275,7 +277,7 @@ static void draw_errors(const axes *a, const koksma_curve *k, size_t first, size
     }
 }
 
-/* Draws each run of drawable points as a line; a run of one point as a mark. xys: scratch of 4 numbers for each
+/* Draws each run of finite points as a line, and a run of one point as a mark. xys: scratch of 4 numbers for each
    point. */
 static void draw_curve(const axes *a, const koksma_curve *k, double *xys)
 {

@@ -2,7 +2,7 @@
 /*
  * Figures: panels and charts in rows below a title; a row is broken into several lines if the width is too small. All
  * heights follow from the width: texts are measured, squares are as wide as their column, and axes have a fixed
- * aspect ratio. If the caller requests a height, squares and axes shrink, or axes grow, to match it.
+ * aspect ratio. If the caller requests a smaller height, squares and axes shrink; if a larger one, axes grow.
  */
 #include "plot/figure.h"
 
@@ -19,7 +19,7 @@ enum { TITLE = 15, TOP = 6, CHART = 480, MIN_PANEL = 128, MIN_CHART = 300, LEAST
 
 static const double aspect = 0.5; /* height of a chart's axes over the width of the chart */
 
-/* Cells side by side. */
+/* A line of cells side by side. */
 typedef struct line {
     size_t first, n, columns;
     double title, texts, flexible; /* heights of the titles, of all texts, and of the squares or axes */
@@ -85,7 +85,8 @@ static void lay_out(layout *a, const koksma_figure *f, double width)
     }
 }
 
-/* Fits squares and axes to a requested height: all shrink by the same factor, and only charts grow. */
+/* Fits squares and axes to a requested height: if it is too small for them, all shrink by the same factor; if it is
+   larger, only charts grow. */
 static koksma_status fit_height(layout *a, double asked)
 {
     const double room = asked - a->fixed, more = room - a->flexible;
@@ -134,7 +135,7 @@ static koksma_status draw(const layout *a, double height, koksma_plot_format for
         y += a->lines[i].texts + a->lines[i].flexible;
     }
     const koksma_status closed = koksma__canvas_close(canvas, bytes, n);
-    if (status && !closed) { /* drawing failed: frees the file, and leaves NULL, as the caller may free *bytes, too */
+    if (status && !closed) { /* drawing failed: no file; NULL, because the caller may free *bytes */
         free(*bytes);
         *bytes = NULL;
         *n = 0;

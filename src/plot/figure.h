@@ -5,7 +5,8 @@
 
 #include <koksma/plot.h>
 
-/* The requested size, or the fallback if it is 0. Errors: ARGUMENT, also for an unknown format. */
+/* Sets *size to the requested width or height, or to the fallback if the request is 0. Errors: ARGUMENT, also for an
+   unknown format. */
 koksma_status koksma__figure_size(koksma_plot_format format, double asked, double fallback, double *size);
 
 #endif

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The colours of plots. The style number of a curve is colour + KOKSMA__COLOURS * dash. palette.def gives each pattern
- * the colour of its family. Up to KOKSMA__COLOURS curves of a picture have different colours: the first of a family has
- * the family's, the others get the next that no curve has; further curves differ in dashes. A curve that belongs to no
- * pattern gets the first free number.
+ * the colour of its family. koksma_plot_colours gives up to KOKSMA__COLOURS curves of a picture different colours:
+ * the first curve of a family gets the family's colour, and each other curve the next colour that no curve has yet;
+ * if there are more curves, they differ in dashes. koksma__take_curve_number, for reports, gives all patterns of a
+ * family the family's colour with different dashes. In both, a curve that belongs to no pattern gets the first free
+ * number.
  */
 #include "plot/palette.h"
 
@@ -50,7 +52,7 @@ koksma__style koksma__curve_style(const koksma__theme *theme, size_t number, dou
     return (koksma__style){thickness, colour, (koksma__dash)(number / KOKSMA__COLOURS % KOKSMA__DASH_GUIDE)};
 }
 
-/* The colour of the pattern with whose name the text begins; KOKSMA__COLOURS if no pattern's name matches. */
+/* Compares the text up to the first ':', '@' or blank with the names of patterns. */
 size_t koksma__colour_of(const char *spec)
 {
     const size_t length = strcspn(spec, ":@ ");
@@ -78,7 +80,8 @@ size_t koksma__take_curve_number(const char *spec, bool *taken)
     return KOKSMA__CURVE_STYLES;
 }
 
-/* Takes the first free number: of the dashes in turn, the colours from `colour` on. KOKSMA__CURVE_STYLES: none is free. */
+/* Takes the first free number, trying for each dash in turn the colours from `colour` on. Returns
+   KOKSMA__CURVE_STYLES if none is free. */
 static size_t next_free(size_t colour, bool *taken)
 {
     for (size_t i = 0; i < KOKSMA__CURVE_STYLES; i++) {
@@ -96,13 +99,13 @@ koksma_status koksma_plot_colours(const char *const *specs, size_t n, size_t *nu
     KOKSMA__REQUIRE(specs, numbers);
     const koksma_status status = koksma__array_check("specs", specs, n, sizeof *specs);
     bool taken[KOKSMA__CURVE_STYLES] = {false};
-    for (size_t i = 0; i < n && !status; i++) { /* the first of each family has the family's colour */
+    for (size_t i = 0; i < n && !status; i++) { /* the first of each family gets the family's colour */
         KOKSMA__REQUIRE(specs[i]);
         const size_t colour = koksma__colour_of(specs[i]);
         numbers[i] = colour < KOKSMA__COLOURS && !taken[colour] ? colour : KOKSMA__CURVE_STYLES;
         taken[numbers[i] % KOKSMA__CURVE_STYLES] |= numbers[i] < KOKSMA__CURVE_STYLES;
     }
-    for (size_t pass = 0; pass < 2 && !status; pass++) { /* then the others of the families, then the other texts */
+    for (size_t pass = 0; pass < 2 && !status; pass++) { /* then the other patterns, then texts that name none */
         for (size_t i = 0; i < n; i++) {
             const size_t colour = koksma__colour_of(specs[i]);
             if (numbers[i] == KOKSMA__CURVE_STYLES && (colour < KOKSMA__COLOURS) == (pass == 0)) {

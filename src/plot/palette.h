@@ -21,12 +21,13 @@ enum {
     KOKSMA__CURVE_STYLES = KOKSMA__COLOURS * KOKSMA__DASH_GUIDE
 };
 
-/* The colour of a pattern's family; KOKSMA__COLOURS: the text is not a pattern's spec. */
+/* Returns the colour of the family of the pattern whose spec this is, or KOKSMA__COLOURS if the text names no
+   pattern. */
 size_t koksma__colour_of(const char *spec);
 
-/* Chooses and marks as taken the style number, colour + KOKSMA__COLOURS * dash, of a curve in one picture, from a
-   pattern's spec or another text. taken: KOKSMA__CURVE_STYLES flags. A text that names no pattern gets the first free
-   number. Returns KOKSMA__CURVE_STYLES if no number is free. */
+/* Chooses the style number, colour + KOKSMA__COLOURS * dash, of a curve in one picture, and marks it in `taken`,
+   which has KOKSMA__CURVE_STYLES flags. The spec of a pattern gets the colour of its family with the first free dash;
+   a text that names no pattern gets the first free number. Returns KOKSMA__CURVE_STYLES if no number is free. */
 size_t koksma__take_curve_number(const char *spec, bool *taken);
 
 /* The style of curve `number` (koksma_curve): successive numbers vary the colour first, then the dash. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Panels that show point sets in the unit square, as in figures 5.13 to 5.27 of Shirley 1991; points mapped by a
- * warp, with the borders of the cells, as in figure 5.34; points of more dimensions by their projections on all pairs
- * of axes, the lower triangle of a scatter matrix; and power spectra.
+ * warp, with the borders of the cells, as in figure 5.34; points of more than two dimensions as the lower triangle of
+ * a scatter matrix, which has a projection for each pair of axes; and power spectra.
  */
 #include "plot/scatter.h"
 
@@ -46,8 +46,8 @@ static double at_y(const plot *p, double y)
     return p->top + (1 - y) * p->side;
 }
 
-/* The position in the picture of a point of the unit square: scaled, or first mapped by a warp, whose range fills the
-   picture's square. Hemispheres are seen from above. */
+/* Computes the position in the picture of a point of the unit square, which is mapped by the warp, if there is one,
+   and scaled; the range of the warp fills the square in the picture. Hemispheres are seen from above. */
 static void position(const plot *p, const koksma_warp *warp, const double in[2], double out[2])
 {
     double at[3] = {in[0], in[1], 0};
@@ -120,7 +120,8 @@ static void draw_half_plane(const plot *p, const koksma_witness *w)
 {
     const double norm = hypot(w->lo[0], w->lo[1]), a = w->lo[0] / norm, b = w->lo[1] / norm, reach = 2;
     const double x = a * w->hi[0] / norm, y = b * w->hi[0] / norm;
-    /* the line, and a band of width `reach` on its inner side */
+    /* the first two corners are on the line; with the others they bound a band of width `reach` inside the
+       half-plane */
     const double xys[] = {at_x(p, x - reach * b),       at_y(p, y + reach * a),       at_x(p, x + reach * b),
                           at_y(p, y - reach * a),       at_x(p, x + reach * (b - a)), at_y(p, y - reach * (a + b)),
                           at_x(p, x - reach * (a + b)), at_y(p, y + reach * (a - b))};
@@ -143,7 +144,7 @@ static void draw_witness(const plot *p, const koksma_witness *w)
     }
 }
 
-/* The colour of a value: white for 0, orange for 1, blue for -1, and mixtures between. */
+/* The colour of a value from -1 to 1: blue for -1, white for 0, orange for 1, and mixtures in between. */
 static void paint(double share, unsigned char rgb[3])
 {
     static const double full[2][3] = {{0.13, 0.4, 0.72}, {0.9, 0.38, 0.05}};
@@ -198,7 +199,8 @@ static int dimensions(const koksma_panel *panel)
     return dim < KOKSMA_PLOT_MAX_DIM ? dim : KOKSMA_PLOT_MAX_DIM;
 }
 
-/* Draws the lower triangle of the scatter matrix: coordinate j against i > j, labelled at the left and below. */
+/* Draws the lower triangle of the scatter matrix: in row i and column j < i, coordinate i against coordinate j; the
+   coordinates are named at the left and below. */
 static void draw_matrix(const plot *p, const koksma_panel *panel)
 {
     const int n = dimensions(panel) - 1, gap = 4;
@@ -271,7 +273,7 @@ static double lines_height(const char *text, double width, double height)
 
 double koksma__panel_side(const koksma_panel *panel)
 {
-    return fmax(320, 110 * (dimensions(panel) - 1.0)); /* this runs before the panel is checked */
+    return fmax(320, 110 * (dimensions(panel) - 1.0)); /* the panel may be invalid: it is checked later */
 }
 
 double koksma__panel_title(const koksma_panel *panel, double width)

@@ -11,12 +11,12 @@ koksma_status koksma__panel_check(const koksma_panel *panel);
 /* The default side of a panel; it grows with the number of projections. */
 double koksma__panel_side(const koksma_panel *panel);
 
-/* The height of the texts above the square, and of all texts, for a given width. */
+/* Return the height of the texts above the square, and of all texts, for a given width of the panel. */
 double koksma__panel_title(const koksma_panel *panel, double width);
 double koksma__panel_texts(const koksma_panel *panel, double width);
 
-/* Draws a panel. title: the height for the texts above, equal within a row; side: the width of the square with its
-   margins. Errors: MEMORY. */
+/* Draws a panel. title: the height reserved for the texts above the square, which is equal for all panels of a row;
+   side: the width of the square and its margins. Errors: MEMORY. */
 koksma_status koksma__panel_draw(koksma__canvas *canvas, const koksma__theme *theme, const koksma_panel *panel,
                                  koksma__box box, double title, double side);
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Pictures of subdivided squares, as in figures 5.35 and 5.36 of Shirley 1991: boxes filled with the greys of their
- * values, dots at the samples, and over these the splits: a black mark where a split was needless, a circle where it
- * was needed. Circles are drawn last, so that a needed split inside a needless one remains visible.
+ * values, dots at the samples, and over these a symbol for each split of a box: a black mark if the split was
+ * needless, a circle if it was needed. Circles are drawn last, so that a needed split inside a needless one remains
+ * visible.
  */
 #include <math.h>
 
@@ -30,8 +31,8 @@ static void add_box(const square *q, double x, double y, double width, double he
     koksma__canvas_box(q->canvas, box, (koksma__style){.thickness = thickness, .colour = colour});
 }
 
-/* Adds boxes in greys from black at 0 to white at 1; if black marks are drawn on them, in greys from MARKED_GREY on,
-   scaled to the range of the values. */
+/* Draws boxes in greys from black for value 0 to white for 1. If black marks follow, the greys run from MARKED_GREY
+   for the smallest value to white for the largest. */
 static void add_values(const square *q, const koksma_strata_panel *panel)
 {
     const bool marked = panel->n_splits > 0;

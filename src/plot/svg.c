@@ -2,7 +2,7 @@
 /*
  * The SVG backend: shapes become elements such as <rect> and <circle>, texts become <text>, which can be searched and
  * edited, and images become PNG. Successive shapes of one style share a <g>. Elements have no ids, so that several
- * pictures can be put into one page. No counter outlives a canvas, so that equal drawings give equal bytes.
+ * pictures can be put into one page. Nothing is kept between canvases, so that equal drawings give equal bytes.
  */
 #include "plot/svg.h"
 

@@ -2,8 +2,8 @@
 /* Percentile bootstrap intervals (Efron 1979). A resample draws n of the n pairs with replacement and replaces
    each mean by a random number from the normal distribution with that mean and its standard error. The interval lies
    between the 2.5 % and 97.5 % quantiles of the statistic over all resamples. Random numbers are hashes of (seed,
-   resample, index), so that different statistics of the same pairs use the same resamples, and their difference has
-   an interval, too. */
+   resample, index), so that different statistics of the same pairs use the same resamples, which also give an
+   interval for their difference. */
 #include "stats/bootstrap.h"
 
 #include <math.h>

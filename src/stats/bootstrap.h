@@ -17,18 +17,19 @@ typedef struct koksma__means {
     uint64_t seed;
 } koksma__means;
 
-/* Computes the statistic and its percentile bootstrap interval (Efron 1979) over the pairs from `samples`
-   resamples, ignoring those without a value. Each resample also redraws the means from normal distributions with
-   their standard errors. Random numbers are hashes: equal seeds draw the same pairs, and means with equal `seed` get
-   the same deviations in units of their errors. `values` is NULL or receives the statistic of each resample, in order,
-   NaN if it has none. With n below 7 the interval is [-1, 1] and `values` is not set: bootstrap intervals of so few
-   pairs exclude 0 in 8 to 13 % of cases without any correlation. If the pairs are in perfect order, all resamples have
-   the same order. The interval then has width 0, although the statistic is not certain. Errors: MEMORY. */
+/* Computes the statistic and its percentile bootstrap interval (Efron 1979) over the pairs from `samples` resamples;
+   resamples in which the statistic has no value are ignored. Each resample also redraws the means from normal
+   distributions with their standard errors. Random numbers are hashes: equal seeds draw the same pairs, and means
+   with equal `seed` get the same deviations in units of their errors. `values` is NULL or receives the statistic of
+   each resample, in order, or NaN where it has no value. With n below 7 the interval is [-1, 1] and `values` is not
+   set: bootstrap intervals of so few pairs exclude 0 in 8 to 13 % of cases without any correlation. If the pairs are
+   in perfect order, all resamples have the same order. The interval then has width 0, although the statistic is not
+   certain. Errors: MEMORY. */
 koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
                                       koksma__pair_statistic statistic, size_t samples, uint64_t seed, double *values,
                                       koksma__estimate *out);
 
-/* A value, with its resamples values[s] * factor. */
+/* The value of a statistic; in resample s it is values[s] * factor. */
 typedef struct koksma__draws {
     double value, factor;
     const double *values;

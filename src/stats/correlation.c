@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rank correlation: Spearman's rho and Kendall's tau-b, by their definitions in O(n^2), which is fast because n
-   is a number of patterns. Values that koksma__compare finds equal are ties, so that rounding does not decide an
-   order. */
+/* Rank correlation: Spearman's rho and Kendall's tau-b, by their definitions in O(n^2), which is fast because n is
+   the number of patterns and thus small. Values that koksma__compare finds equal are ties, so that rounding does not
+   decide an order. */
 #include "stats/correlation.h"
 
 #include <math.h>
 
 #include "stats/statistics.h"
 
-/* Returns the mean rank of value i, which is (number below) + (number equal + 1) / 2, minus the middle rank (n + 1) /
-   2. Spearman's rho is Pearson's correlation of these (Spearman 1904). */
+/* Returns the mean rank of value i minus the middle rank (n + 1) / 2. The mean rank is b + (e + 1) / 2, with b the
+   number of smaller values and e the number of equal values, i included. Spearman's rho is Pearson's correlation of
+   these ranks (Spearman 1904). */
 static double centred_rank(const double *values, size_t n, size_t i)
 {
     double rank = -0.5 * (double)n;

@@ -2,8 +2,8 @@
 /*
  * Several tests at once: p-values from resamples, and Holm's step-down correction ("A simple sequentially rejective
  * multiple test procedure", Scandinavian Journal of Statistics 6, 1979). The smallest of n p-values is multiplied by
- * n, the next by n - 1 and so on; a result smaller than the previous one is replaced by the previous one. This is the
- * closed test procedure of Bonferroni's test.
+ * n, the next by n - 1 and so on; a product smaller than the previous result is replaced by that result. This is
+ * Bonferroni's test with the closed testing principle.
  */
 #include "stats/holm.h"
 

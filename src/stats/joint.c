@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Least-squares slopes of means against n on logarithmic axes. With several trials the standard error of a slope
- * comes from the covariance of a trial's values at different n (delta method), with one trial from the residuals.
+ * comes from the covariance of a trial's values at different n (delta method); with one trial it comes from the
+ * residuals.
  */
 #include <math.h>
 
@@ -48,7 +49,7 @@ static double error_of_trials(size_t n, const double *sizes, const double *means
         for (size_t i = 0; i < n; i++) {
             weights[i] = 0;
             if (!(means[i] > 0 && isfinite(means[i]))) {
-                continue; /* skipped, because the fit of the line skips this mean, too */
+                continue; /* the fit of the line skips this mean, too */
             }
             if (pass == 0) {
                 middle += (log(sizes[i]) - middle) / ++count;

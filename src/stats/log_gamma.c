@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The logarithm of the gamma function, computed by lgamma_r. The function lgamma is not safe with several threads,
-   because it stores the sign in a global variable. */
+/* The logarithm of the gamma function, computed by lgamma_r. lgamma is not safe with several threads, because it
+   stores the sign in a global variable. */
 #define _DEFAULT_SOURCE /* for lgamma_r */
 #include "stats/log_gamma.h"
 

@@ -4,9 +4,9 @@
  * fraction, and the incomplete gamma function by its series (Abramowitz & Stegun 1964, 26.5.8, 26.7.1, 6.5.29,
  * 26.4.19).
  *
- * The logarithms of gamma in the beta function cancel, so t with nu degrees of freedom has an error of about 1e-17 nu
- * log nu. With more than MANY degrees of freedom, t is therefore computed from the normal quantile z by the first terms
- * of its expansion in 1/nu (26.7.5):
+ * The logarithms of gamma functions in the beta function are large and cancel, so that t with nu degrees of freedom
+ * has an error of about 1e-17 nu log nu. With more than MANY degrees of freedom, t is therefore computed from the
+ * normal quantile z by the first terms of its expansion in 1/nu (26.7.5):
  *     t = z + (z^3 + z) / (4 nu) + (5 z^5 + 16 z^3 + 3 z) / (96 nu^2) + O(nu^-3)
  */
 #include "stats/quantiles.h"

@@ -2,10 +2,10 @@
 /*
  * Rank regression with cross-validation over scenes (Hastie, Tibshirani and Friedman, The Elements of Statistical
  * Learning, 2009: ridge regression 3.4.1, cross-validation 7.10; as 7.10.2 requires, every choice is made without the
- * scene that is predicted). Within a case, ranks are scaled to mean 0 and length 1, so that two matrices summarise a
- * scene: G = Z'Z / cases, the correlations of the k measures with each other, and c = Z'y / cases, their correlations
- * with the error. A fit to several scenes uses the sums of their G and c; leaving a scene out subtracts its G and c.
- * With weights b the squared error per case is 1 - 2 b'c + b'G b.
+ * scene that is predicted). Within a case (koksma__rank_case), ranks are shifted to mean 0 and scaled to length 1, so
+ * that two matrices summarise a scene: G = Z'Z / cases, the correlations of the k measures with each other, and c =
+ * Z'y / cases, their correlations with the error. A fit to several scenes uses the sums of their G and c; leaving a
+ * scene out subtracts its G and c. With weights b the squared error per case is 1 - 2 b'c + b'G b.
  *
  *   single the measure with the least squared error, that is, the largest c_j^2 / G_jj; only its sign is fitted
  *   pair     the pair of measures with the largest c' G^-1 c, among all k (k - 1) / 2 pairs
@@ -26,7 +26,7 @@ static const double penalties[PENALTIES] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 
 /* The matrices G (k x k) and c (k) of each scene and of sums over scenes, with memory for the computations. */
 typedef struct sums {
     size_t k, n_scenes, size; /* size: count of the numbers in G and c of a scene, k (k + 1) */
-    double *of;               /* G and c of each scene, `size` numbers for each */
+    double *of;               /* G and c of each scene, together `size` numbers for a scene */
     size_t *cases;            /* number of cases in each scene */
     /* sum over all scenes; sum over the training scenes; memory for a Cholesky factor and for k weights */
     double *all, *train, *factor, *weights;
@@ -116,7 +116,7 @@ static void fit_ridge(sums *s, double penalty, size_t count)
     }
 }
 
-/* Returns the squared error of the weights per case of a scene, minus the constant 1. */
+/* Returns the squared error per case of a scene for s->weights, 1 - 2 b'c + b'G b, without the constant 1. */
 static double error_in(const sums *s, size_t scene)
 {
     const size_t k = s->k;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds which combination of measures predicts the error in an unseen scene: regression of the ranks of patterns'
-   errors on the ranks of their measures, cross-validated over scenes. */
+/* Finds which combination of measures predicts the error in an unseen scene: the ranks of the patterns' errors are
+   regressed on the ranks of their measures, with cross-validation over scenes. */
 #ifndef KOKSMA_STATS_RANK_REGRESSION_H
 #define KOKSMA_STATS_RANK_REGRESSION_H
 
 #include <koksma/koksma.h>
 
-/* A case: n patterns, each with k measures and an error. */
+/* A case: n patterns in one scene, each with the values of k measures and an error. */
 typedef struct koksma__rank_case {
     size_t scene, n;
     /* k + 1 lists of n unit ranks (koksma__unit_ranks): one list for each measure, then one for the error */
@@ -22,14 +22,15 @@ typedef struct koksma__held_out {
     /* Penalty of the ridge regression on all measures. Aligned to 8 bytes on all machines, so that the struct is an
        array of doubles. */
     _Alignas(8) double penalty;
-    /* the measure that is best in the scene itself (chosen in hindsight, so it is no prediction); rho_hindsight is
-       its correlation */
+    /* the measure that is best in the scene itself, which is chosen in hindsight and thus no prediction;
+       rho_hindsight is its correlation with the error */
     size_t hindsight;
     double rho_single, rho_pair, rho_all, rho_hindsight;
 } koksma__held_out;
 
-/* Predicts each of n_scenes scenes, at least 3 of them with cases, from all others, which have equal weight.
-   `out` receives one result for each scene. Errors: ARGUMENT for fewer scenes, MEMORY. */
+/* Predicts the errors in each of n_scenes scenes from all other scenes, which have equal weight. At least 3 scenes
+   must have cases. `out` receives one result for each scene. Errors: ARGUMENT (fewer than 3 scenes with cases),
+   MEMORY. */
 koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_cases, size_t k, size_t n_scenes,
                                       koksma__held_out *out);
 

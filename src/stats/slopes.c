@@ -22,7 +22,8 @@ static double log_error(const koksma__summary *s)
     return s->sd / sqrt((double)s->n) / s->mean;
 }
 
-/* Flags: all numbers log_error are known; some of them are above 0; all of them are above 0. */
+/* Whether the results of log_error for the means are all known, whether some are above 0, and whether all are above
+   0. */
 typedef struct errors {
     bool known, some, all;
 } errors;
@@ -129,8 +130,8 @@ koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, siz
     return trend;
 }
 
-/* Between two measured sizes the error is interpolated as c n^slope. The interval comes from the standard errors
-   of the three means by first-order propagation in the logarithms. */
+/* Between two measured sizes the error is interpolated as c n^slope. The interval comes from the standard errors of
+   the mean errors at these sizes and of the target, by first-order propagation in the logarithms. */
 koksma__estimate koksma__samples_for(const koksma__convergence *p, double target, double target_error, bool *outside)
 {
     koksma__estimate none = {NAN, NAN, NAN};

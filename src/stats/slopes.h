@@ -12,11 +12,11 @@ typedef struct koksma__trend {
     bool off_line; /* true: a test at the 1 % level rejects the hypothesis that the means lie on a line */
 } koksma__trend;
 
-/* Computes the average slope of positive means at ascending n[i] on logarithmic axes. It is that of the least-squares
-   line with equal weights, which is meaningful even if the means follow a curve. Its interval comes from the standard
-   errors of the means, by Student's t with Welch's and Satterthwaite's degrees of freedom, whether or not the means
-   lie on a line. If no mean varies, or if a mean has only one trial, the interval comes from the residuals, with
-   count - 2 degrees of freedom, and is NaN for two sizes. With fewer than two sizes the slope is NaN. */
+/* Computes the average slope of positive means at ascending n[i] on logarithmic axes: the slope of the least-squares
+   line with equal weights, which is meaningful even if the means follow a curve. The slope's interval comes from the
+   standard errors of the means, by Student's t with Welch's and Satterthwaite's degrees of freedom, whether or not
+   the means lie on a line. If no mean varies, or if a mean has only one trial, the interval comes from the residuals,
+   with count - 2 degrees of freedom, and is NaN for two sizes. With fewer than two sizes the slope is NaN. */
 koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, size_t count);
 
 /* A pattern's mean errors at ascending numbers of samples, with standard errors. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Means, standard deviations and intervals of values, and comparisons of pairs by their differences. Sums are
    compensated (core/sum.h) and in order of the index, so that equal values give equal bits. If all differences are 0
-   in exact arithmetic, rounding leaves about 1e-16 of the values, and an interval of width 0 would make that
-   significant. Therefore differences up to 1e-12 of the values count as 0. */
+   in exact arithmetic, rounding leaves about 1e-16 of the values, and an interval of width 0 would make this
+   difference significant. Therefore differences up to 1e-12 of the values count as 0. */
 #include "stats/statistics.h"
 
 #include <math.h>
@@ -59,8 +59,9 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
     return s;
 }
 
-/* The standard error of the quotient q of the means is about that of the mean of a - q base, divided by the mean
-   of base (Cochran 1977, section 6.3); it includes the variation of base. */
+/* The standard error of the quotient q = mean a / mean base is about the standard error of the mean of a - q base,
+   divided by the mean of base (Cochran 1977, section 6.3). It accounts for the variation of base as well as that of
+   a. */
 koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n)
 {
     const double mean_a = koksma__summarize(a, n, 1).mean, mean = koksma__summarize(base, n, 1).mean;

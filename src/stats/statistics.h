@@ -11,7 +11,7 @@
 
 typedef struct koksma__summary {
     size_t n;
-    double mean, sd;  /* sd: of the sample, with n - 1; NaN for n = 1 */
+    double mean, sd;  /* sd: of the sample, with divisor n - 1; NaN for n = 1 */
     double low, high; /* interval of the mean by Student's t; NaN for n = 1, because one value has no spread */
     double max;
 } koksma__summary;
@@ -27,8 +27,8 @@ koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
 /* Makes the summary of a value without variance, such as the result of a deterministic pattern. */
 koksma__summary koksma__exactly(double value);
 
-/* Summarises the differences a[i] - b[i] of n pairs, 0 where they compare equal; consecutive values are `stride`
-   apart. */
+/* Summarises the differences a[i] - b[i] of n pairs, which count as 0 where koksma__compare finds a[i] and b[i]
+   equal; consecutive values are `stride` apart. */
 koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride);
 
 /* Takes the largest value of each complete block of `block` values, and computes the mean and the sample SD of these
@@ -40,9 +40,9 @@ typedef struct koksma__estimate {
     double value, low, high;
 } koksma__estimate;
 
-/* Returns the factor by which the number of trials must grow so that a test at 5 % finds the difference of two means
-   with a probability of 80 %; standard errors decrease as trials^-1/2. half: half the width of the present interval of
-   the difference. */
+/* Returns the factor by which the number of trials must grow so that a test at the 5 % level detects the difference
+   of two means with a probability of 80 %, if standard errors decrease as trials^-1/2. half: half the width of the
+   present 95 % interval of the difference. */
 double koksma__trials_factor(double difference, double half);
 
 /* Computes the relative difference of means over n pairs, mean a / mean base - 1. It is 0 if both means are 0; the

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * koksma_verify: checks one set of points for every property of properties.def and collects the findings. A property
- * adds no finding where its check would take more than about a second for the given numbers of points and dimensions.
+ * adds no finding if its check would take more than about a second for this number of points and dimensions.
  */
 #include "verify/verify.h"
 

@@ -33,6 +33,6 @@ static koksma_status look(koksma__verification *v)
 
 const koksma__property koksma__property_below_one_as_float = {
     .public = {.name = "below-one-as-float",
-               .meaning = "no coordinate becomes 1 as a float; value: coordinates that do"},
+               .meaning = "no coordinate becomes 1 as a float; value: number of coordinates that become 1"},
     .look = look,
 };

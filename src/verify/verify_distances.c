@@ -4,8 +4,8 @@
  * divide and conquer finds the closest pair in O(n log n) (core/closest_pair.c). In other dimensions d a sweep over
  * the points sorted by their first coordinate compares only pairs whose first coordinates differ by less than the
  * smallest distance found so far: O(n^2 d) at worst, about n^(2 - 1/d) for evenly distributed points. Findings also
- * give the distance divided by the distance of the densest packing (patterns/shared/packing.h), which is exact for 30
- * points or fewer in the square, else an upper bound.
+ * give the smallest distance divided by that of the densest packing of n points (patterns/shared/packing.h); the
+ * latter is exact for up to 30 points in the square, and an upper bound otherwise.
  */
 #include <math.h>
 #include <stdio.h>
@@ -55,8 +55,8 @@ static double square_of(const point *p, const point *q, bool torus)
     return sum;
 }
 
-/* Closest pair of points sorted by their first coordinate: compares only pairs whose first coordinates differ by less
-   than the smallest distance so far. */
+/* Finds the smallest distance of points sorted by their first coordinate: compares only pairs whose first coordinates
+   differ by less than the smallest distance so far. */
 static koksma_status sweep(const point *sorted, size_t n, bool torus, const koksma_run *run, double *distance)
 {
     double best = INFINITY;
@@ -149,20 +149,20 @@ static koksma_status look_distinct(koksma__verification *v)
 }
 
 const koksma__property koksma__property_distinct = {
-    .public = {.name = "distinct", .meaning = "no point repeats another; value: points that do"},
+    .public = {.name = "distinct", .meaning = "no two points are equal; value: number of points that repeat another"},
     .look = look_distinct,
 };
 
 const koksma__property koksma__property_distance_square = {
     .public = {.name = "distance-square",
-               .meaning = "the smallest distance in the cube, the value, is above 0; detail: as a fraction of the "
-                          "densest packing's"},
+               .meaning = "the smallest distance in the cube, which is the value, is above 0; detail: this distance "
+                          "divided by that of the densest packing"},
     .look = look_distance,
 };
 
 const koksma__property koksma__property_distance_torus = {
     .public = {.name = "distance-torus",
-               .meaning = "the smallest distance on the torus, the value, is above 0; detail: as a fraction of the "
-                          "densest packing's"},
+               .meaning = "the smallest distance on the torus, which is the value, is above 0; detail: this distance "
+                          "divided by that of the densest packing"},
     .look = look_distance,
 };

@@ -12,7 +12,7 @@
 
 enum { MAX_NET_DIM = 8 };
 
-#define WORK 4e8 /* maximum number of point visits to compute one t */
+#define WORK 4e8 /* limit of the work for one t: points times shapes of intervals */
 
 typedef struct search {
     const koksma__net *net;
@@ -86,7 +86,7 @@ static koksma_status look(koksma__verification *v)
 #define NET(b)                                                                                                       \
     const koksma__property koksma__property_net_base_##b = {                                                         \
         .public = {.name = "net-base-" #b,                                                                           \
-                   .meaning = "prefixes of " #b "^m points are (t,m,s)-nets with t = 0; value: the worst t",         \
+                   .meaning = "prefixes of " #b "^m points are (t,m,s)-nets with t = 0; value: the largest t",       \
                    .coordinates = KOKSMA_VERIFY_NET_DIM},                                                            \
         .look = look,                                                                                                \
         .base = (b),                                                                                                 \

@@ -24,8 +24,8 @@ static size_t at_origin(const koksma_points *points)
 }
 
 /* Whether the points look like points 1 to n of a sequence like Sobol's: in each coordinate different multiples of
-   2^-m, 2^m > n, none of them 0. Grids fail because their points share coordinates, cell centres because all their
-   coordinates are odd multiples. `seen` has room for one bit for each multiple. */
+   2^-m, 2^m > n, none of them 0 and not all odd. Grids are excluded because their points share coordinates, and cell
+   centres because all their coordinates are odd multiples. `seen` has room for one bit for each multiple. */
 static bool is_sequence_from_one(const koksma_points *points, uint32_t *seen)
 {
     size_t cells = 1;
@@ -81,12 +81,14 @@ static koksma_status look_present(koksma__verification *v)
 }
 
 const koksma__property koksma__property_origin_unique = {
-    .public = {.name = "origin-unique", .meaning = "at most one point is at the origin; value: points there"},
+    .public = {.name = "origin-unique",
+               .meaning = "at most one point is at the origin; value: number of points there"},
     .look = look_unique,
 };
 
 const koksma__property koksma__property_origin_present = {
     .public = {.name = "origin-present",
-               .meaning = "no unscrambled sequence has lost its first point, the origin; value: points there"},
+               .meaning = "the points do not look like an unscrambled sequence whose first point, the origin, is "
+                          "missing; value: number of points at the origin"},
     .look = look_present,
 };

@@ -2,8 +2,8 @@
 /*
  * progressive: whether the points can be used progressively, in their order, a few at first and more later. The value
  * is the largest ratio, over the prefixes of 2^j >= 16 points, of the prefix's L2 star discrepancy to its root mean
- * square over random points, sqrt((2^-d - 3^-d) / n). The longest prefix is one that takes about a second: 2^22
- * points in the plane, 2^18 in three dimensions, 2^12 in four to twelve.
+ * square for as many random points, sqrt((2^-d - 3^-d) / n). The longest prefix is one that takes about a second:
+ * 2^22 points in the plane, 2^18 in three dimensions, 2^12 in four to twelve.
  */
 #include <math.h>
 #include <stdio.h>

@@ -12,7 +12,8 @@
 #include "core/net.h"
 #include "verify/verify.h"
 
-/* Counts the points in each of the n cells: cutting coordinate use[k] into m[k] strata, k < dim, makes the cells. */
+/* Counts the points in each of the n cells that arise if coordinate use[k] is cut into m[k] strata, for each k <
+   dim. */
 static void count_cells(const koksma_points *points, const int *use, const size_t *m, int dim, uint32_t *counts)
 {
     memset(counts, 0, points->n * sizeof *counts);
@@ -86,14 +87,14 @@ static koksma_status look_stratified(koksma__verification *v)
 
 const koksma__property koksma__property_latin = {
     .public = {.name = "latin",
-               .meaning = "each of n strata of a coordinate, the subject, holds one point; value: empty strata"},
+               .meaning =
+                   "each of n strata of the coordinate `subject` has one point; value: number of empty strata"},
     .look = look_latin,
 };
 
 const koksma__property koksma__property_stratified = {
-    .public =
-        {.name = "stratified",
-         .meaning =
-             "each of m x k cells in coordinates 0 and 1, or of m^dim cells, holds one point; value: empty cells"},
+    .public = {.name = "stratified",
+               .meaning = "each of m x k cells in coordinates 0 and 1, or of m^dim cells, has one point; value: "
+                          "number of empty cells"},
     .look = look_stratified,
 };

@@ -2,7 +2,7 @@
 /*
  * polar-disk: radius sqrt(u_0), angle 2 pi u_1. The map preserves ratios of areas but not distances: two sides of the
  * square meet along one radius of the disk, and a third side shrinks to the centre. Source: Shirley 1991, section
- * 5.5, which compares it with the preferred map to the disk.
+ * 5.5, which prefers another map to the disk.
  */
 #include "warps/shared/disk_maps.h"
 #include "warps/warps.h"

@@ -3,7 +3,7 @@
  * ldr-flip and hdr-flip: the difference that a viewer sees who flips between two images, 0 to 1 in each pixel.
  *
  * LDR-FLIP (Andersson et al. 2020), on linear RGB clamped to [0,1]:
- *   colour   RGB -> XYZ (sRGB primaries) -> YyCxCz, relative to the white of RGB (1,1,1): Yy = 116 Y - 16,
+ *   colour   RGB -> XYZ (sRGB primaries) -> YyCxCz, with X, Y, Z divided by those of RGB (1,1,1): Yy = 116 Y - 16,
  *            Cx = 500 (X - Y), Cz = 200 (Y - Z); filtered by the contrast sensitivity of each channel at ppd pixels
  *            per degree; clamped to [0,1] in RGB; CIELAB with a* and b* times L* / 100 (Hunt); the distance HyAB
  *            |dL| + sqrt(da^2 + db^2), to the power 0.7. M is the value of this distance between green and blue. The
@@ -14,17 +14,18 @@
  *            f = sqrt(max(e, p) / sqrt 2)
  *   error    c^(1 - f)
  * The contrast sensitivities are Gaussians sum_k a_k sqrt(pi / b_k) exp(-pi^2 x^2 / b_k), x in degrees: (a, b) is
- * (1, 0.0047) for Yy, (1, 0.0053) for Cx, (34.1, 0.04) and (13.5, 0.025) for Cz, all with the radius of three standard
- * deviations of the widest and weights of sum 1 in two dimensions. Pixels beyond the border repeat those on it. All
- * filters are separable: O(n radius).
+ * (1, 0.0047) for Yy, (1, 0.0053) for Cx, (34.1, 0.04) and (13.5, 0.025) for Cz, all cut off at three standard
+ * deviations of the widest, with weights of sum 1 in two dimensions. Pixels beyond the border repeat those on it. All
+ * filters are separable, which takes O(n radius).
  *
- * HDR-FLIP (Andersson et al. 2021): the largest LDR-FLIP in each pixel of the two images, exposed by 2^e and
- * tone-mapped, over max(2, ceil(e1 - e0)) exposures from e0 = log2(x / largest luminance) to e1 = log2(x / median
- * luminance) of the reference, with x where the tone-mapper (of grey) reaches 0.85. A median of 0, a case that the
- * paper leaves open, is replaced by the median of the pixels above 0; a black reference has the one exposure 0.
+ * HDR-FLIP (Andersson et al. 2021): both images are multiplied by 2^e and tone-mapped, for max(2, ceil(e1 - e0))
+ * exposures e from e0 = log2(x / largest luminance) to e1 = log2(x / median luminance) of the reference, where the
+ * tone-mapper maps grey x to 0.85. The value of a pixel is its largest LDR-FLIP over all exposures. A median of 0, a
+ * case that the paper leaves open, is replaced by the median of the pixels above 0; a black reference has only the
+ * exposure e = 0.
  *
- * ppd: pixels per degree = distance / width of the monitor x pixels across x pi / 180; the papers' default is 67.02,
- * 3840 pixels across 0.7 m, seen from 0.7 m.
+ * ppd: pixels per degree = (distance / width of the monitor) x (pixels across the monitor) x pi / 180; the papers'
+ * default is 67.02, for 3840 pixels across 0.7 m, seen from 0.7 m.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -42,8 +43,8 @@ enum { MOST_RADIUS = 160, MOST_EXPOSURES = 64 };
 
 /* ---- Colours --------------------------------------------------------------------------------------------- */
 
-/* RGB to XYZ: from the primaries and white of sRGB (IEC 61966-2-1), with the exact rational numbers of its
-   chromaticities. */
+/* The matrix from RGB to XYZ for the primaries and the white of sRGB (IEC 61966-2-1), as fractions that are exact for
+   its chromaticities. */
 static const double to_xyz[3][3] = {{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
                                     {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
                                     {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
@@ -147,8 +148,8 @@ typedef struct filter {
     double w[2 * MOST_RADIUS + 1];
 } filter;
 
-/* A Gaussian exp(-x^2 / (2 s^2)) with sum 1. derivative 1 and 2: times -x and x^2 / s^2 - 1, with positive weights of
-   sum 1 and negative weights of sum -1. x is in units of `step`. */
+/* A Gaussian exp(-x^2 / (2 s^2)) with sum 1. For derivative = 1 it is multiplied by -x, for derivative = 2 by x^2 /
+   s^2 - 1; then its positive weights have the sum 1 and its negative weights the sum -1. x is in units of `step`. */
 static void gaussian(filter *f, int radius, double step, double s, int derivative)
 {
     double positive = 0, negative = 0;
@@ -337,9 +338,9 @@ static koksma_status ldr_errors(const koksma_metric_input *in, double *out)
     return clamped ? KOKSMA_OK : koksma__fail_memory(3 * f.n * sizeof *clamped);
 }
 
-/* A tone-mapper is (a x^2 + b x + c) / (d x^2 + e x + g), applied to each channel. aces: Narkowicz's (2015) fit to
-   ACES with the exposure 0.6; hable: Hable's (2010) curve over its value at 11.2, with the exposure 2; reinhard: x /
-   (1 + x) of the luminance. */
+/* A tone-mapper maps grey x to (a x^2 + b x + c) / (d x^2 + e x + g); all but reinhard apply this function to each
+   channel. aces: Narkowicz's (2015) fit to ACES with the exposure 0.6; hable: Hable's (2010) curve divided by its
+   value at 11.2, with the exposure 2; reinhard: x / (1 + x), where colours are divided by 1 + their luminance. */
 enum { ACES, HABLE, REINHARD };
 static const char *const tone_mappers[] = {"aces", "hable", "reinhard", NULL};
 

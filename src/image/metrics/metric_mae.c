@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* mae: the mean absolute error in luminance, sum |Y - Y_ref| / n (Shirley 1991, section 5.5.6). Bright parts of an
-   image usually have larger errors, and so contribute more than dark parts. */
+   image usually have larger errors than dark parts, and so contribute more to the mean. */
 #include <math.h>
 
 #include "image/metrics/metrics.h"

@@ -4,12 +4,12 @@
  * least 0; its value is the mean of the pixels' errors, or the root of the mean. Two more numbers are computed with
  * the value:
  *
- *     top_share  the share of the sum that the 0.1 % of the pixels with the largest errors carry; 0 for fewer
- *                than 1000 pixels
- *     robust     the value without these pixels: a mean trimmed at one side
+ *     top_share  the share of the sum of all errors that comes from the 0.1 % of the pixels with the largest
+ *                errors; 0 for fewer than 1000 pixels
+ *     robust     the value without these pixels, which is a one-sided trimmed mean
  *
  * Where top_share is large, the value says more about a few pixels (fireflies) than about the image, and ranking
- * images by it is unreliable. Quickselect (Hoare 1961) finds the largest errors in O(n).
+ * images by the value is unreliable. Quickselect (Hoare 1961) finds the largest errors in O(n).
  */
 #include <math.h>
 #include <stdio.h>
@@ -82,8 +82,7 @@ void koksma__metric_values(const koksma_metric *metric, const koksma_image *imag
 double koksma__metric_mean(const koksma_metric *metric, const double *errors, size_t n)
 {
     koksma__sum sum = {0};
-    for (size_t first = 0; first < n; first += BLOCK) { /* in each block, eight partial sums are added side by side
-                                                           (SIMD) */
+    for (size_t first = 0; first < n; first += BLOCK) { /* SIMD adds a block to eight partial sums */
         const size_t end = n - first < BLOCK ? n : first + BLOCK;
         double part[8] = {0};
         for (size_t p = first; p < end; p++) {
@@ -141,8 +140,8 @@ koksma_metric_value koksma__metric_pool(const koksma_metric *metric, double *err
     return out;
 }
 
-/* Evaluates the metrics with this number of channels. buffer: has space for the values of both images and for one
-   error a pixel. */
+/* Evaluates those of n metrics that compare this number of channels. buffer: has space for the values of both images
+   and for one error a pixel. */
 static koksma_status evaluate(const koksma_metric_spec *specs, size_t n, int channels, const koksma_image *image,
                               const koksma_image *reference, double *buffer, koksma_metric_value *out)
 {
