@@ -92,7 +92,12 @@ static void remove_leftovers(int folder)
 {
     static atomic_ullong last;
     struct stat info;
-    if (fstat(folder, &info) || atomic_exchange(&last, (unsigned long long)info.st_ino) == info.st_ino) {
+    if (fstat(folder, &info)) {
+        return;
+    }
+    /* Inode numbers are unique on one device only. */
+    const unsigned long long id = (unsigned long long)info.st_ino ^ (unsigned long long)info.st_dev << 40;
+    if (atomic_exchange(&last, id) == id) {
         return;
     }
     const int again = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
