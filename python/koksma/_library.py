@@ -55,7 +55,7 @@ class UnsupportedError(Error, NotImplementedError):
 
 
 class ForbiddenError(Error, PermissionError):
-    """A pattern runs code of others; koksma.allow_exec() lets it."""
+    """A pattern runs a program or shared library, which only koksma.allow_exec() allows."""
 
 
 # By the numbers of koksma/status.def, which never change.

@@ -359,12 +359,12 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     ArgumentError
         The spec is wrong, or the pattern has no such set; the message says which n would do.
     ForbiddenError
-        The pattern runs code of others, which allow_exec lets it.
+        The pattern runs a program or shared library, which needs allow_exec=True.
 
     Notes
     -----
-    density and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk",
-    "poisson-disk-maximal" and "gaussian-blue-noise"; the last two also with order=progressive. Equal arguments give
+    density and on are for "random", "sample-elimination", "progressive-elimination", "poisson-disk", "dart-throwing",
+    "best-candidate", "poisson-disk-maximal" and "gaussian-blue-noise"; the last two also with order=progressive. Equal arguments give
     equal bits, and the same as `koksma generate`.
 
     Examples

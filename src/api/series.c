@@ -32,8 +32,7 @@ koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_
     for (size_t i = 0; i < n_sizes && !status; i++) {
         const koksma_points prefix = {sizes[i], points->dim, points->xs};
         KOKSMA__FAIL_IF(prefix.n == 0 || prefix.n > points->n, KOKSMA_N,
-                        "prefixes: a prefix of %zu points is longer than the set, which has %zu", prefix.n,
-                        points->n);
+                        "prefixes: %zu points; a prefix of this set must have 1 to %zu", prefix.n, points->n);
         status = koksma_evaluate(measure, &prefix, run, &values[i]);
     }
     return status;
