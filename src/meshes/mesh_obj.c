@@ -8,7 +8,7 @@
  * of the file. Then each corner becomes a separate vertex, because OBJ files share positions, not vertices. A polygon
  * becomes a fan of triangles. A new mesh begins where o or g name another object or group and where usemtl names
  * another material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of
- * its corners names one; corners without get the value 0.
+ * its corners names one; corners without one get the value 0.
  *
  * Format: Wavefront's "Advanced Visualizer Manual", appendix B1.
  */
