@@ -120,7 +120,7 @@ static bool is_below(const char *scene, const char *full)
     return below;
 }
 
-/* Reads a text, which gzip has packed if its name ends in .gz. */
+/* Reads a text file, which is compressed by gzip if its name ends in .gz. */
 static koksma_status read_text(const char *path, unsigned char **bytes, size_t *size)
 {
     const char *dot = strrchr(path, '.');
@@ -197,7 +197,8 @@ void koksma__import_black_body(double kelvin, double rgb[3])
 
 bool koksma__import_metal(const char *name, double rgb[3])
 {
-    /* linear sRGB of the reflectance along the normal in daylight, by tools/metals.py from published constants */
+    /* reflectance along the normal in daylight, as linear sRGB, which tools/metals.py computes from published optical
+       constants */
     static const struct {
         const char *name;
         double rgb[3];
