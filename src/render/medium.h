@@ -23,7 +23,8 @@ void koksma__medium_transmittance(const koksma__medium *medium, const float o[3]
 bool koksma__medium_sample(const koksma__medium *medium, const float o[3], const float d[3], double end, float u,
                            const float beta[3], float *t, float weight[3]);
 
-/* The phase function of Henyey & Greenstein as a material without a normal; parameter 0 is g. No scene file names it. */
+/* The phase function of Henyey & Greenstein as a material without a normal; parameter 0 is g. Scene files cannot name
+   this material. */
 extern const koksma__bsdf koksma__phase_function;
 
 #endif
