@@ -28,7 +28,7 @@ typedef struct koksma__shading_light {
        pi */
     float power;
     int shape;  /* index of the light's own surface, or -1 */
-    void *data; /* the kind's data, released by its close() */
+    void *data; /* the kind's data, released by the kind's close() */
 } koksma__shading_light;
 
 /* How a spot's intensity falls off at the edge of its cone (light_spot.c): the value of its field `falloff`. */
@@ -85,7 +85,7 @@ typedef struct koksma__light_kind {
     float (*met)(const koksma__shading_light *light, uint32_t triangle, const float uv[2], float radiance[3]);
     /* NULL, or, for an environment, computes its radiance along w. */
     void (*radiance)(const koksma__shading_light *light, const float w[3], float out[3]);
-    /* NULL, or converts a light that rays do not see for lambert_lanes.c. */
+    /* NULL, or converts a light that rays do not see to the form that lambert_lanes.c reads. */
     void (*lanes)(const koksma__light *from, koksma__batch_light *out);
 } koksma__light_kind;
 
@@ -100,7 +100,7 @@ typedef struct koksma__lights {
     size_t n;
     koksma__shading_light *lights;
     float *cdf;                      /* cumulative powers, n + 1 numbers */
-    koksma__batch_lights *estimates; /* data for choosing lights by position */
+    koksma__batch_lights *estimates; /* data from which each light's contribution at a point is estimated */
     koksma__batch_light *rectangles; /* for lambert_lanes.c; set only if the kinds of all lights have lanes() */
     size_t first_around;             /* index of the first environment, or n */
 } koksma__lights;
