@@ -89,8 +89,8 @@ typedef struct koksma__batch_camera {
 
 /* An analytic shape. half_u and half_v are as in koksma__shape; radius2 is the squared radius of a sphere about the
    centre that contains the shape, if it is not flat. moves: the shape's own loops add time * motion. turns: rays are
-   moved into the frame in which it rests, with the members of koksma__shape.turn; here their angle is a fraction of a
-   full turn. */
+   transformed to the frame in which the shape rests, by the members of koksma__shape.turn, but with the angle as a
+   fraction of a full turn. */
 typedef struct koksma__batch_shape {
     int kind; /* index in koksma__shape_types */
     bool is_flat, moves, turns;
