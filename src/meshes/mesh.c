@@ -262,7 +262,7 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
 koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[3], const double scale[3])
 {
     koksma__pose p = {.rotation = {1, 0, 0, 0}};
-    for (int k = 0; k < 3; k++) { /* q = z y x: the rotation about x comes first */
+    for (int k = 0; k < 3; k++) { /* the product q = z y x rotates about x first */
         const double half = rotate_deg[k] * M_PI / 360, c = cos(half), s = sin(half), *q = p.rotation;
         const int i = 1 + (k + 1) % 3, j = 1 + (k + 2) % 3;
         double out[4];

@@ -27,8 +27,8 @@ typedef struct koksma__pose {
     double translate[3], rotation[4], stretch[9];
 } koksma__pose;
 
-/* The map x -> matrix x; the matrix has three rows of four numbers. At time t each position is moved by t motion; or,
-   if steps > 0, the matrix is that of koksma__placement_at at the times i / steps, and linear between them. */
+/* The map x -> matrix x; the matrix has three rows of four numbers. At time t each position is moved by t * motion;
+   or, if steps > 0, the matrix is that of koksma__placement_at at the times i / steps, and linear between them. */
 typedef struct koksma__placement {
     int mesh;
     double matrix[12], motion[3];
@@ -121,7 +121,7 @@ typedef struct koksma__unread {
     size_t too_bright;           /* lights and emissive materials brighter than a scene allows */
     size_t see_through;          /* materials */
     size_t libraries, materials; /* material files that are missing; materials that no material file defines */
-    /* name of the first of the missing files and of the first of the undefined materials */
+    /* names of the first missing file and of the first undefined material */
     char library[256], material[256];
     /* number of unsupported extensions in use; `extension` lists their names, as many as fit */
     size_t extensions;

@@ -53,7 +53,7 @@ typedef struct obj {
     koksma__list used;                 /* indices of names (size_t) in the order in which the names were first used */
     size_t material;                   /* material of the following polygons */
     bool split;                        /* the next polygon begins a new mesh */
-    uint64_t group, object;            /* hashes of the current names */
+    uint64_t group, object;            /* hashes of the names of the current group and object */
     uint64_t libraries[MAX_LIBRARIES]; /* hashes of the mtllib lines' names */
     size_t n_libraries;
     bool own_library; /* whether the material file with the same name as the model was read */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads PLY files, as text and binary in either byte order. The header lists the kinds of elements, the number of
- * each, and their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one
- * line.
+ * each, and their properties: numbers, or lists of numbers. The elements follow in that order; in a text file each
+ * element is one line.
  *
  * Of the element "vertex" the properties x y z, nx ny nz and texture coordinates (u v, s t, tx ty, texture_u
  * texture_v) are read, and whether there are colours. Of "face" two lists are read: vertex_indices or vertex_index, a

@@ -67,7 +67,8 @@ koksma_status koksma__parse_fields(const field *object, const koksma__kind *kind
    kinds. */
 koksma_status koksma__parse_kind(const field *object, const koksma__kind *const *kinds, size_t *out);
 
-/* For the end of an error message: which package contains a missing file; "" if none is known. */
+/* Returns text for the end of an error message: which Debian package contains a missing file, or "" if none is
+   known. */
 const char *koksma__package_hint(const char *path);
 
 /* Reads the image in the file `path`, which the scene file `name` mentions; NULL on failure, with a message that

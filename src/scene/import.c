@@ -3,8 +3,8 @@
  * Functions that the readers of other renderers' scenes share: paths, warnings about unsupported features,
  * materials, lights and the camera; import_shapes.c has the shapes. Every material becomes the nearest kind that
  * Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
- * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other loss is reported with file
- * and line.
+ * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is reported in a
+ * warning with file and line.
  */
 #include "scene/import.h"
 

@@ -88,8 +88,8 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
-/* Reads the mesh and adapts it to the other renderer: Mitsuba turns the texture coordinates of OBJ files upside down,
-   and gives smooth normals to meshes that have none. */
+/* Reads the mesh and adapts it to the conventions of the other renderer: Mitsuba turns the texture coordinates of OBJ
+   files upside down, and gives smooth normals to meshes that have none. */
 static koksma_status read_mesh(const koksma__import *im, const struct koksma__known_mesh *which, koksma__mesh *mesh)
 {
     KOKSMA__TRY(koksma__mesh_read_part(which->path, KOKSMA__BY_FILE, which->part, mesh));

@@ -257,8 +257,8 @@ static koksma_status push(reader *r, source *s)
     return KOKSMA_OK;
 }
 
-/* Restores the state or matrices on top of the stack. The stack keeps its memory, because koksma__add_one() computes
-   the capacity from nothing but the number of items. */
+/* Takes the top entry from the stack, and restores the graphics state or the matrices from it. The stack keeps its
+   memory, because koksma__add_one() computes the capacity from nothing but the number of items. */
 static koksma_status pop(reader *r, source *s, bool matrix_alone)
 {
     if (!r->n_stack) {
@@ -729,7 +729,8 @@ static koksma_status read_source(reader *r, source *s)
     }
 }
 
-/* Sets the screen window of a file that has none: -1 to 1 along the shorter side of the image, or of the frame. */
+/* Sets the screen window of a file that has none: -1 to 1 along the shorter side of the image, or of the frame if the
+   parameter frameaspectratio is given. */
 static void default_window(reader *r, double aspect)
 {
     const double frame = r->frame > 0 ? r->frame : aspect, x = fmax(frame, 1), y = fmax(1 / frame, 1);

@@ -44,7 +44,7 @@ static void grey(double value, double rgb[3])
     rgb[0] = rgb[1] = rgb[2] = value;
 }
 
-/* Converts pairs of wavelength and value. pbrt divides an emission by its luminance. */
+/* Converts pairs of wavelength and value to a colour; an emission is divided by its luminance, as in pbrt. */
 static koksma_status sampled(koksma__text_place place, const double *pairs, size_t n, bool emits, double rgb[3])
 {
     koksma__sampled_spectrum s = {0};
@@ -282,7 +282,7 @@ static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_par
     const double both = koksma__pbrt_number(p, name, 0);
     const double u = koksma__pbrt_number(p, u_name, both), v = koksma__pbrt_number(p, v_name, both);
     m->alpha = koksma__pbrt_flag(p, "remaproughness", true) ? sqrt(fmax(u * v, 0)) : fmax(u * v, 0);
-    m->alpha = sqrt(m->alpha); /* the geometric mean for u and v */
+    m->alpha = sqrt(m->alpha); /* the geometric mean of the widths along u and v */
     return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness is replaced by its mean")
                   : KOKSMA_OK;
 }

@@ -62,8 +62,8 @@ KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, f
     return outside ? pdf : 0;
 }
 
-/* Treats the light as a point at its centre: the intensity is `strength` times the radiance, and the light falls with
-   the squared distance. */
+/* Treats the light as a point at its centre: the intensity is `strength` times the radiance, and the light decreases
+   with the squared distance. */
 bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 
 /* value = scale times the light's radiance */

@@ -21,8 +21,8 @@ enum { KOKSMA__LOBE_DIFFUSE = 1, KOKSMA__LOBE_GLOSSY = 2, KOKSMA__LOBE_SPECULAR 
    {"image": FILE}. */
 enum { KOKSMA__ALBEDO = 1, KOKSMA__CHECKER = 2, KOKSMA__IMAGE = 4 };
 
-/* The formula of batch_materials.c that shades blocks of points of a material. Parameters 0 to 3 are the reflectance
-   and the exponent of the lobes, or the roughness of the facets. */
+/* The formula of batch_materials.c that shades blocks of points of a material. Parameters 0 to 2 are the reflectance;
+   parameter 3 is the exponent of the lobe or the roughness of the facets. */
 typedef enum koksma__material_form {
     KOKSMA__FORM_RAYS,    /* no formula: value() and sample() are called for each ray */
     KOKSMA__FORM_LAMBERT, /* albedo */

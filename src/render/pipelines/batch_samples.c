@@ -52,8 +52,9 @@ static void shuffle_few(const uint32_t *words, uint32_t n, uint16_t *out)
     }
 }
 
-/* Applies the bijection to several vectors at once, because the steps of one vector depend on each other. Bits
-   from k on need not be cleared in between: they are only masked off where a right shift would move them down. */
+/* Applies the bijection to several vectors at once, because the steps of one vector depend on each other. The bits
+   above the lowest k need not be cleared after each step: they are masked off only where a right shift would move
+   them down. */
 INLINE void walk(const uint32_t *words, int bits, int vectors, shorts *x)
 {
     const uint16_t turn = (uint16_t)((bits + 1) / 2), back = (uint16_t)(bits - turn),

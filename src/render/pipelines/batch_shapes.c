@@ -2,8 +2,8 @@
 /*
  * Intersects blocks of rays with analytic shapes, for the closest hits and for shadows: calls the loops of each
  * shape's kind (src/render/shapes) in turn, and completes hits on flat shapes. For a shape that turns, each ray is
- * moved, at the ray's own time, into the frame in which the shape rests; so the loops for shapes at rest also serve
- * shapes that turn.
+ * transformed, at the ray's own time, to the frame in which the shape rests; so the loops for shapes at rest also
+ * serve shapes that turn.
  */
 #include <math.h>
 #include <string.h>

@@ -78,7 +78,7 @@ static koksma_status generate_next(const koksma_spec *spec, uint64_t seed, size_
     return generate(spec, seed, n, dim, room->run, xs);
 }
 
-/* Expands numbers to pairs (x, 0) in place, from the last one on. */
+/* Expands numbers to pairs (x, 0) in place, beginning with the last number. */
 static void widen(double *xs, size_t n)
 {
     for (size_t i = n; i-- > 0;) {

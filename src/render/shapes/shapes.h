@@ -21,8 +21,8 @@ typedef struct koksma__shape_type {
     bool is_flat;      /* lies in a plane, within half[0] of the centre along axis_u and half[1] along axis_v */
     bool takes_checker, takes_image;
     bool may_emit; /* the field "emission", instead of "material", makes the shape a light */
-    /* NULL, or reads the fields that are not parameters; name is the scene file's. A compound adds its parts to the
-       scene. Errors: those of the fields, of files, and of too many shapes. */
+    /* NULL, or reads the fields that are not parameters; `name` is the name of the scene file. A compound adds its
+       parts to the scene. Errors: those of the fields, of files, and of too many shapes. */
     koksma_status (*parse)(const char *name, const field *f, koksma_scene *scene, koksma__shape *shape);
 
     /* The members below are NULL for a compound. */

@@ -55,7 +55,7 @@ typedef struct koksma__adaptive_method {
     /* NULL, or a function that is called when no pixel is selected any more and sets demands for one last round */
     void (*last)(koksma__adaptive *run);
     /* NULL, or returns the number of probes for the splits of a selected pixel. Probes are extra samples that test
-       whether a split was needed; in a round of probes, draw and take process them. */
+       whether a split was needed; in a round of probes, draw() and take() process probes in place of samples. */
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
     /* computes the value of a pixel and returns its variance */
     double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]);
