@@ -53,7 +53,7 @@ typedef struct koksma__kind {
     const koksma__parameter *parameters; /* the last entry has a NULL name; NULL: none */
     /* names of further fields, which the kind's own code reads; the list ends with NULL. NULL: no further fields */
     const char *const *keys;
-    const char *example; /* the required fields among `keys` as JSON, for tests; NULL: none are required */
+    const char *example; /* an example of the fields `keys` as JSON, for tests; NULL: none are required */
     /* scene files cannot name this kind: another part of the scene creates it */
     bool is_implied;
 } koksma__kind;
