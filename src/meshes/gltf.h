@@ -33,7 +33,7 @@ typedef struct koksma__gltf_bytes {
     size_t size;
 } koksma__gltf_bytes;
 
-/* The state of reading one file. Arrays are indexed by the file's own numbers. */
+/* The state of reading one file. An array that belongs to a list of the file has the same indices as that list. */
 typedef struct koksma__gltf {
     koksma__mesh_file *out;
     koksma__json_node root, lists[KOKSMA__GLTF_LISTS];

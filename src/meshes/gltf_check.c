@@ -30,7 +30,8 @@ static koksma_status each(const koksma__gltf *g, const field *object, const char
     return status;
 }
 
-/* Checks that the member `key`, if the object has it, is the index of a `thing`: below n. */
+/* Checks that the member `key`, if the object has it, is an index below n; `thing` names the indexed items in the
+   error message. */
 static koksma_status names(const field *object, const char *key, const char *thing, size_t n)
 {
     long long number = 0;

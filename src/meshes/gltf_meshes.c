@@ -20,8 +20,8 @@ enum { TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
 typedef struct primitive {
     koksma__gltf_elements positions, normals, uvs, colours, indices; /* n is 0 for an attribute that is missing */
-    long long mode, material;                                        /* material: its index; no material: the number
-                                                                        of materials */
+    /* material: index of the material, or the number of materials if the primitive has none */
+    long long mode, material;
 } primitive;
 
 /* Reads the attribute `key`, if it exists: `width` components for each of n vertices, or, if `wide`, width + 1. */

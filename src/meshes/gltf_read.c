@@ -54,7 +54,7 @@ static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__g
     return KOKSMA_OK;
 }
 
-/* Allocates the arrays, zeroed, for the lengths of the lists. */
+/* Allocates zeroed arrays that are as long as the file's lists. */
 static koksma_status make_arrays(koksma__gltf *g)
 {
     g->buffers = calloc(g->n[KOKSMA__GLTF_BUFFERS] + 1, sizeof *g->buffers);

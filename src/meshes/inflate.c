@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Decompresses with zlib, which finds out by itself whether a stream is zlib's or gzip's (32 added to the window's
- * bits). zlib counts bytes in 32 bits, so that longer blocks are passed in pieces. A stream is decompressed only as
- * far as the caller asks, so that a file that would decompress to more than it claims costs nothing.
+ * Decompresses with zlib, which finds out by itself whether a stream is zlib's or gzip's (32 is added to its
+ * parameter windowBits). zlib counts bytes in 32 bits, so that longer blocks are passed in pieces. A stream is
+ * decompressed only as far as the caller asks, so that a file that would decompress to more than it claims costs
+ * nothing.
  */
 #include "meshes/inflate.h"
 

@@ -5,8 +5,8 @@
 
 #include <koksma/koksma.h>
 
-/* The largest ratio that deflate reaches: its longest match, 258 bytes, in two bits. A claim of more bytes than this
-   times the compressed size is false. */
+/* The largest ratio that deflate reaches: its longest match, 258 bytes, in two bits. If a header claims more bytes
+   than this ratio times the compressed size, it is wrong. */
 #define KOKSMA__INFLATE_RATIO 1032
 
 typedef struct koksma__inflate koksma__inflate;

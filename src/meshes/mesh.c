@@ -262,7 +262,7 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
 koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[3], const double scale[3])
 {
     koksma__pose p = {.rotation = {1, 0, 0, 0}};
-    for (int k = 0; k < 3; k++) { /* q = z y x: the rotation about x comes first */
+    for (int k = 0; k < 3; k++) { /* the product q = z y x rotates about x first */
         const double half = rotate_deg[k] * M_PI / 360, c = cos(half), s = sin(half), *q = p.rotation;
         const int i = 1 + (k + 1) % 3, j = 1 + (k + 2) % 3;
         double out[4];
@@ -318,7 +318,7 @@ bool koksma__pose_of_matrix(const double matrix[12], koksma__pose *out)
         q[i] = m[i] = matrix[i / 3 * 4 + i % 3];
     }
     const bool mirrors = cofactors(m, c) < 0;
-    for (int i = 0; i < 9; i++) { /* the nearest orthogonal matrix to -m is a rotation */
+    for (int i = 0; i < 9; i++) { /* if m mirrors, the orthogonal matrix nearest to -m is a rotation */
         q[i] = mirrors ? -q[i] : q[i];
     }
     for (int round = 0; round < 100 && change > 1e-14; round++) { /* Q <- (Q + transpose of its inverse) / 2 */
@@ -425,7 +425,7 @@ bool koksma__matrix_mirrors(const double m[12])
 }
 
 /* Compares the determinant with the product of the columns' lengths: the ratio is the volume of the parallelepiped
-   over that of a box with the same edges. The matrix's entries may have been rounded to 24 bits. */
+   over that of a box with edges of the same lengths. The matrix's entries may have been rounded to 24 bits. */
 bool koksma__matrix_flattens(const double m[12])
 {
     double columns[3][3], cross[3], box = 1;

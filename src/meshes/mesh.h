@@ -27,21 +27,22 @@ typedef struct koksma__pose {
     double translate[3], rotation[4], stretch[9];
 } koksma__pose;
 
-/* The map x -> matrix x; the matrix has three rows of four numbers. At time t each position is moved by t motion; or,
-   if steps > 0, the matrix is that of koksma__placement_at at the times i / steps, and linear between them. */
+/* The map x -> matrix x; the matrix has three rows of four numbers. At time t each position is moved by t * motion;
+   or, if steps > 0, the matrix is that of koksma__placement_at at the times i / steps, and linear between them. */
 typedef struct koksma__placement {
     int mesh;
     double matrix[12], motion[3];
     int steps;
-    koksma__pose poses[2];        /* at the times 0 and 1, if steps > 0 */
-    double before[12], after[12]; /* matrices that are applied before and after the pose between the two */
-    double low[3], high[3];       /* a box around the placed mesh at time 0 */
-    int material;                 /* -1 for a light's own surface, which reflects nothing */
-    int light;                    /* the light whose surface this is, or -1 */
-    bool smooth;                  /* normals are interpolated over the triangles */
+    koksma__pose poses[2]; /* at the times 0 and 1, if steps > 0 */
+    /* matrices that are applied before and after the pose interpolated between `poses` */
+    double before[12], after[12];
+    double low[3], high[3]; /* a box around the placed mesh at time 0 */
+    int material;           /* -1 for a light's own surface, which reflects nothing */
+    int light;              /* index of the light, if the mesh is a light's surface; otherwise -1 */
+    bool smooth;            /* normals are interpolated over the triangles */
 } koksma__placement;
 
-/* Allocates a mesh of this size, zeroed but for the sizes. Errors: MALFORMED (too many), MEMORY. */
+/* Allocates a mesh of this size, zeroed except for the sizes. Errors: MALFORMED (too many), MEMORY. */
 koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool normals, bool uvs, koksma__mesh *out);
 void koksma__mesh_fini(koksma__mesh *mesh);
 
@@ -55,8 +56,8 @@ koksma_status koksma__mesh_check(koksma__mesh *mesh);
 koksma_status koksma__mesh_smooth(koksma__mesh *mesh);
 
 /* Computes normals for a checked mesh that has none, as Mitsuba does: each is the mean of the normals of the vertex's
-   triangles, weighted by their angles at the vertex (Thuermer and Wuethrich 1998). Vertices at one position that the
-   file keeps apart get normals of their own. Errors: MEMORY. */
+   triangles, weighted by their angles at the vertex (Thuermer and Wuethrich 1998). Vertices that the file lists
+   separately get separate normals, even at the same position. Errors: MEMORY. */
 koksma_status koksma__mesh_smooth_by_angles(koksma__mesh *mesh);
 
 /* 64-bit hash of the mesh's content. */
@@ -75,12 +76,12 @@ void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placemen
 void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
                               double matrix[12]);
 
-/* The pose with the same rotation as koksma__placement_matrix. */
+/* The pose whose matrix koksma__placement_matrix computes from the same arguments. */
 koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[3], const double scale[3]);
 
-/* The matrix of the pose between two, at time t of 0 to 1: translation and stretch are interpolated linearly, the
-   rotation along the shortest arc at constant speed (slerp, Shoemake 1985). koksma__placement_at multiplies it by the
-   placement's matrices before and after it. */
+/* The matrix of the pose interpolated between two poses, at time t from 0 to 1: translation and stretch are
+   interpolated linearly, the rotation along the shortest arc at constant speed (slerp, Shoemake 1985).
+   koksma__placement_at multiplies it by the placement's matrices before and after it. */
 void koksma__poses_at(const koksma__pose poses[2], double t, double matrix[12]);
 void koksma__placement_at(const koksma__placement *placement, double t, double matrix[12]);
 
@@ -117,10 +118,10 @@ typedef struct koksma__unread {
     size_t second_uvs;     /* textures that use another set of coordinates than the first texture of their material */
     /* morphs: primitives with morph targets; lines: primitives of points or lines */
     size_t morphs, lines;
-    size_t too_bright;           /* lights, or emissive materials */
+    size_t too_bright;           /* lights and emissive materials brighter than a scene allows */
     size_t see_through;          /* materials */
     size_t libraries, materials; /* material files that are missing; materials that no material file defines */
-    /* name of the first of the missing files and of the first of the undefined materials */
+    /* names of the first missing file and of the first undefined material */
     char library[256], material[256];
     /* number of unsupported extensions in use; `extension` lists their names, as many as fit */
     size_t extensions;

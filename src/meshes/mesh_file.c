@@ -2,8 +2,8 @@
 /*
  * Functions that the readers of mesh files share: lists that grow, the limits of a file, fans of triangles, and the
  * search for files that a model names. Reading takes time linear in the file's size, and at most 36 bytes of memory
- * for each byte of text (an OBJ file whose corners are all "1 "). All meshes of a file together have at most 64 Mi
- * vertices and triangles.
+ * for each byte of text (the worst case is an OBJ file whose corners are all "1 "). All meshes of a file together
+ * have at most 64 Mi vertices and triangles.
  */
 #include "meshes/mesh_file.h"
 

@@ -34,7 +34,8 @@ typedef struct koksma__file_texture {
     int wrap[2];
 } koksma__file_texture;
 
-/* A material as the file describes it. The values of textures are multiplied by colour and glow. */
+/* A material as the file describes it. The texels of colour_map are multiplied by `colour`, those of glow_map by
+   `glow`. */
 typedef struct koksma__file_material {
     float colour[3], metallic, roughness;
     double glow[3];
@@ -43,7 +44,7 @@ typedef struct koksma__file_material {
     /* principled: a material of glTF, with metallic and roughness values and further textures */
     /* blends: alpha and the transparency of colour_map apply; tinted: vertex colours apply */
     bool principled, blends, tinted;
-    bool two_sided;            /* its back is seen, and emits, too */
+    bool two_sided;            /* the back is seen, and emits, like the front */
     double ior, alpha, cutoff; /* cutoff 0: alpha is the fraction of the rays that meet the surface */
     koksma__file_texture surface_map, normal_map;
 } koksma__file_material;
@@ -107,7 +108,7 @@ koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, cons
 /* Adds a Lambert material of this grey. *out is valid until the next call. Errors: MEMORY. */
 koksma_status koksma__file_add_material(koksma__mesh_file *f, float grey, koksma__file_material **out);
 
-/* Adds a fan of triangles around the polygon's first corner to a list of 3 indices a triangle: this is exact for
+/* Adds a fan of triangles around the polygon's first corner to a list with 3 indices per triangle: this is exact for
    convex polygons; for a concave polygon some triangles may reach outside of the polygon or overlap. Errors, which
    name path: MALFORMED (too many triangles), MEMORY. */
 koksma_status koksma__fan_add(const char *path, koksma__list *indices, const uint32_t *corners, size_t n);

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Loop's subdivision (Loop 1987), with the masks of Pharr, Jakob and Humphreys (Physically Based Rendering, 3rd edition,
- * section 3.8). Each level puts a vertex on every edge and moves the old ones; then all vertices move to the surface
- * that endless division would reach. With n neighbours and their sum N, b = 3 / (8 n), or 3/16 for n = 3:
+ * section 3.8). Each level adds a vertex on every edge and moves the old vertices; after the last level all vertices
+ * are moved to the limit surface, which infinitely many levels would reach. A vertex v has n neighbours, whose sum is
+ * N; b is 3 / (8 n), or 3/16 for n = 3. The masks are
  *
  *   old vertex      (1 - n b) v + b N                   at a border with the neighbours p, q:  3/4 v + 1/8 (p + q)
  *   edge v w        3/8 (v + w) + 1/8 (c + d), the corners opposite to it                      1/2 (v + w)
  *   limit           (1 - n g) v + g N, g = 1 / (n + 3 / (8 b))                                 3/5 v + 1/5 (p + q)
  *
- * A border is an edge of one triangle, or of more than two. A vertex at no border is moved by the masks on the left,
- * a vertex at two borders by those on the right, and any other vertex stays. Edges are found by a hash table in
- * linear time. Normals are those of the fine triangles, weighted by angles, not those of the limit surface, which
- * they approach.
+ * A border is an edge of one triangle, or of more than two. A vertex without border edges is moved by the masks on
+ * the left, a vertex with two border edges by the masks on the right, and any other vertex is not moved. Edges are
+ * found by a hash table in linear time. Normals are computed from the fine triangles, weighted by angles; they
+ * approach the normals of the limit surface.
  */
 #include "meshes/mesh_loop.h"
 
@@ -26,8 +27,8 @@ typedef struct edge {
     uint32_t a, b, opposite[2], n;
 } edge;
 
-/* What surrounds a vertex: the sum of its n neighbours, and the sum of the neighbours along its borders, of which
-   there are `borders`. */
+/* What surrounds a vertex: the sum of its n neighbours, and the sum of the neighbours to which its border edges lead;
+   `borders` is the number of these edges. */
 typedef struct ring {
     double sum[3], border_sum[3];
     uint32_t n, borders;
@@ -47,7 +48,7 @@ static void fini(level *l)
     *l = (level){0};
 }
 
-/* Allocates what a level of this size needs; edges are at most as many as corners. */
+/* Allocates the arrays of a level of this size; a level has at most as many edges as triangle corners. */
 static koksma_status init(level *l, size_t n_vertices, size_t n_triangles)
 {
     *l = (level){.n_vertices = n_vertices, .n_triangles = n_triangles};
@@ -119,7 +120,7 @@ static koksma_status connect(level *l)
     return KOKSMA_OK;
 }
 
-/* Moves vertex i by the mask of a level, or by that of the limit. */
+/* Moves vertex i by the mask `old vertex` or by the mask `limit` (see the top of this file). */
 static void move(const level *l, size_t i, bool to_limit, double out[3])
 {
     const ring *r = &l->rings[i];

@@ -174,7 +174,7 @@ static koksma_status take_one(koksma__text *t, float *out)
     return take_number(t, out) ? KOKSMA_OK : koksma__text_wrong(t, "expected a number below 1e38");
 }
 
-/* Reads one line's property of material m. */
+/* Reads the property of material m that a line sets. */
 static koksma_status take_property(koksma__text *t, const char *word, size_t length, koksma__file_material *m)
 {
     float value = 1, glow[3];

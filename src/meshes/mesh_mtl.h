@@ -8,7 +8,7 @@
 typedef struct koksma__mtl_name {
     char *name;      /* owned */
     size_t material; /* index of the material in the mesh file */
-    bool made;       /* whether a material file defines the material; otherwise it is only used */
+    bool made;       /* whether a material file defines the material; otherwise only usemtl lines name it */
 } koksma__mtl_name;
 
 /* A hash table of names with open addressing: a slot is 1 + the index of a name, or 0 if it is free. At most half of

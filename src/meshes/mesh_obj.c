@@ -8,7 +8,7 @@
  * of the file. Then each corner becomes a separate vertex, because OBJ files share positions, not vertices. A polygon
  * becomes a fan of triangles. A new mesh begins where o or g name another object or group and where usemtl names
  * another material; polygons before the first usemtl are grey. A mesh has normals (or texture coordinates) if any of
- * its corners names one; corners without get the value 0.
+ * its corners names one; corners without one get the value 0.
  *
  * Format: Wavefront's "Advanced Visualizer Manual", appendix B1.
  */
@@ -53,7 +53,7 @@ typedef struct obj {
     koksma__list used;                 /* indices of names (size_t) in the order in which the names were first used */
     size_t material;                   /* material of the following polygons */
     bool split;                        /* the next polygon begins a new mesh */
-    uint64_t group, object;            /* hashes of the current names */
+    uint64_t group, object;            /* hashes of the names of the current group and object */
     uint64_t libraries[MAX_LIBRARIES]; /* hashes of the mtllib lines' names */
     size_t n_libraries;
     bool own_library; /* whether the material file with the same name as the model was read */

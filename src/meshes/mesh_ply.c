@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads PLY files, as text and binary in either byte order. The header lists the kinds of elements, the number of
- * each, and their properties: numbers, or lists of numbers. The elements follow in that order; as text each is one
- * line.
+ * each, and their properties: numbers, or lists of numbers. The elements follow in that order; in a text file each
+ * element is one line.
  *
  * Of the element "vertex" the properties x y z, nx ny nz and texture coordinates (u v, s t, tx ty, texture_u
  * texture_v) are read, and whether there are colours. Of "face" two lists are read: vertex_indices or vertex_index, a
@@ -31,7 +31,7 @@ typedef struct type {
     const char *names[2];
     size_t bytes;
     enum { WHOLE, NATURAL, REAL } kind;
-    double full; /* the value that means full intensity of a colour */
+    double full; /* the value of a colour component at full intensity */
 } type;
 
 typedef struct property {
@@ -42,7 +42,7 @@ typedef struct property {
 typedef struct element {
     char name[NAME];
     size_t count;
-    int first, n; /* range of its properties */
+    int first, n; /* its properties are first .. first + n - 1 */
     size_t bytes; /* smallest size of one element in bytes */
 } element;
 
@@ -450,7 +450,7 @@ static void take_column(ply *p, const property *of, const unsigned char *at, siz
 }
 
 /* Reads binary vertices without lists, in blocks that fit the cache, one property after the other, so that a
-   property's type is looked up once a block. Returns the number of vertices that the file holds in full. */
+   property's type is looked up once per block. Returns the number of vertices that the file holds in full. */
 static size_t take_vertices(ply *p, const element *e)
 {
     enum { BLOCK = 512 };

@@ -37,8 +37,8 @@ static koksma_status check_gzip(const unsigned char *bytes, size_t size)
 
 /* The reader for an ending of a file's name. The hash of a model's scene is the sum of the hashes of its files, with
    the model's own hash counted `times` times: stored studies find their scenes by this hash, and earlier versions
-   read the file that many times. When a change of the code makes another scene of the same files, `times` changes:
-   glTF's was 5 until the gamma of its images was ignored. */
+   read the file that many times. `times` is changed when a change of the code makes another scene from the same
+   files: for glTF it was 5 until the gamma of its images was ignored. */
 typedef struct reader {
     const char *ending;
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);

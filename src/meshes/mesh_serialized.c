@@ -11,7 +11,8 @@
  *   dictionary  the position of each mesh in the file (version 3: 32 bits each, 4: 64), and their number (32 bits)
  *
  * All numbers are little-endian; those of vertices have single or double precision. Mitsuba's flag for face normals
- * is ignored, as by Mitsuba 3, where the scene decides (its face_normals). A mesh without normals gets none here.
+ * is ignored; Mitsuba 3 ignores it too and follows the property face_normals of the scene file. A mesh without
+ * normals gets none here.
  *
  * The numbers of vertices and triangles that a mesh claims are compared with the size of its stream before memory is
  * allocated, and all meshes of a file together may decompress to at most as many bytes as a model may have. The
@@ -34,7 +35,7 @@ enum { MOST_NAME = 4096, PIECE = 4096 };
 typedef struct stream {
     koksma__inflate *in;
     bool is_double;
-    size_t size;    /* of the compressed data */
+    size_t size;    /* size of the compressed data in bytes */
     uint64_t *left; /* number of bytes to which the file's meshes may still decompress */
 } stream;
 

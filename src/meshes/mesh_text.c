@@ -91,8 +91,8 @@ size_t koksma__text_rest(koksma__text *t, const char **rest)
     return (size_t)(stop - *rest);
 }
 
-/* Reads digits into *w while it has fewer than 19, and returns their number. *left receives the number of further
-   digits, and *lossy is set if one of these is not 0. */
+/* Appends digits to *w until it has 19; the number of the remaining digits is added to *left, and *lossy is set if
+   one of them is not 0. Returns the number of all digits read. */
 static size_t take_digits(const char **at, const char *end, uint64_t *w, int *left, bool *lossy)
 {
     const char *first = *at;

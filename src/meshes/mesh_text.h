@@ -21,8 +21,8 @@ koksma__text koksma__text_open(const char *path, const unsigned char *file, size
 /* Goes to the next line, whose end (LF or CR LF) is not part of it; returns false if there is none. */
 bool koksma__text_line(koksma__text *t);
 
-/* Goes to the next line with text before the first character `comment`, at which the line is cut. Errors: MALFORMED
-   (there is none). */
+/* Goes to the next line that is neither empty nor only a comment; `comment` is the character that begins comments (0:
+   there are none), and the line is cut before it. Errors: MALFORMED (there is none). */
 koksma_status koksma__text_full_line(koksma__text *t, char comment);
 
 /* Fails with MALFORMED and the text "PATH: line N: REASON". */
@@ -42,7 +42,7 @@ size_t koksma__text_rest(koksma__text *t, const char **rest);
 
 /* Reads a decimal number at `*at`: digits with at most one point, perhaps with a sign and an exponent. The result is
    the nearest float, for any number of digits; beyond the largest float it is infinite. Returns false if there is no
-   number. The byte at `end` must not be able to continue a number. */
+   number. The byte at `end` must not be one that can continue a number, such as a digit. */
 bool koksma__text_float(const char **at, const char *end, float *out);
 
 /* Reads digits as an integer; a value above 2^62 becomes 2^62. Returns false if there is no digit. */

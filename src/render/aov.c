@@ -3,13 +3,13 @@
  * Arbitrary output variables (AOVs): further images, which are made from the same samples as the picture.
  *
  * The light of a sample is a sum over paths; a path whose light was reflected or refracted r times, mirrors and glass
- * included, belongs to `bounce:r`. `direct` is r = 0 and 1: light seen, and light of lights reflected once;
- * `indirect` is the rest. At the vertex that a ray reaches after b reflections the tracer adds emission (r = b),
- * light of sampled lights (r = b + 1), and the light that surfaces reflect onto each other, given by the scene's
- * ambient light or an irradiance cache (r = b + 2, because that light was reflected once before). Each of these parts
- * is the difference of the vertex's light after and before the tracer adds it, so that the parts of a sample add up
- * to its light within the rounding of floats; where the sample is clamped, its parts are reduced by the same factor.
- * The filter weights of the samples apply to their parts as well.
+ * included, belongs to `bounce:r`. `direct` is r = 0 and 1: light that the ray sees directly, and light that was
+ * reflected once; `indirect` is the rest. At the vertex that a ray reaches after b reflections the tracer adds
+ * emission (r = b), light of sampled lights (r = b + 1), and the light that surfaces reflect onto each other, given
+ * by the scene's ambient light or an irradiance cache (r = b + 2, because that light was reflected once before). Each
+ * of these parts is the difference of the vertex's light after and before the tracer adds it, so that the parts of a
+ * sample add up to its light within the rounding of floats; where the sample is clamped, its parts are reduced by the
+ * same factor. The filter weights of the samples apply to their parts as well.
  *
  * `id` is the number of the object (from 1 in the order of `koksma scene check`; 0: none) that most samples of the
  * pixel hit first; of equally frequent numbers the smallest. `half:even` and `half:odd` are the means of the samples

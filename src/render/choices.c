@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Defines the names of the render options that are enumerations (pairing, scope, selection of lights), for the
- * parsers of plans and of the command line, and frees an image with its layers.
+ * The names of the render options that are enumerations (pairing, scope, selection of lights), for the parsers of
+ * plans and of the command line; and the function that frees an image with its layers.
  */
 #include <stddef.h>
 

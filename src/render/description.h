@@ -29,12 +29,14 @@ typedef struct koksma__shape {
         double pivot[3], axis[3], angle_rad, scale;
     } turn;
     int material; /* -1 for a light's own surface, which reflects nothing */
-    int light;    /* the light whose surface this is, or -1 */
+    int light;    /* index of the light, if the shape is a light's surface; otherwise -1 */
 } koksma__shape;
 
-enum { KOKSMA__MAX_VALUES = 16 }; /* maximum number of numbers in a kind's parameters; a colour counts as 3 */
+/* largest number of values that the parameters of a kind have; a colour has 3 values */
+enum { KOKSMA__MAX_VALUES = 16 };
 
-/* How an image is mapped to a surface with coordinates (u, v): looked up at matrix (u, v, 1), if `moved`. */
+/* How an image is mapped to a surface: at texture coordinates (u, v) it is looked up at matrix (u, v, 1) if `moved`,
+   and otherwise at (u, v). */
 typedef enum koksma__wrap { KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR } koksma__wrap;
 typedef struct koksma__mapping {
     bool moved, nearest;
@@ -42,13 +44,13 @@ typedef struct koksma__mapping {
     koksma__wrap wrap[2]; /* along u and v */
 } koksma__mapping;
 
-/* The uses of a material's further images, beside the image of its albedo. */
+/* What a material's images are used for, except the image of its albedo, which is a separate member. */
 typedef enum koksma__map_use {
-    KOKSMA__MAP_SURFACE, /* green is multiplied by the roughness, blue by the metallic value */
+    KOKSMA__MAP_SURFACE, /* the roughness is multiplied by the image's green, the metallic value by its blue */
     /* 2 rgb - 1 is the normal along u, along v and outwards; scale multiplies the first two */
     KOKSMA__MAP_NORMAL,
-    KOKSMA__MAP_ALPHA,    /* grey is multiplied by material.alpha */
-    KOKSMA__MAP_EMISSION, /* multiplied by the radiance of the mesh's light */
+    KOKSMA__MAP_ALPHA,    /* material.alpha is multiplied by the image */
+    KOKSMA__MAP_EMISSION, /* the radiance of the mesh's light is multiplied by the image */
     KOKSMA__N_MAPS
 } koksma__map_use;
 
@@ -126,12 +128,13 @@ typedef struct koksma__camera {
     int blades;
     double blade_angle_rad;
     double
-        shutter[2];   /* the times when it opens and closes; rays before 0 and after 1 see what is there at 0 and 1 */
+        /* the times when the shutter opens and closes; rays before time 0 see the scene at 0, rays after 1 at 1 */
+        shutter[2];
     double motion[3]; /* at time t the eye is eye + t motion */
 } koksma__camera;
 
-/* Data that the renderer derives from a scene and that all its images share: made under the lock when first needed,
-   released with the scene. */
+/* Data that the renderer derives from a scene and that all images of the scene share. They are made, under the lock,
+   when they are first needed, and released with the scene. */
 typedef struct koksma__scene_cache {
     pthread_mutex_t lock;
     void *made; /* or NULL */
@@ -166,13 +169,13 @@ struct koksma_scene {
     koksma__unread unread;    /* unsupported parts of a model file */
     koksma__unknown *unknown; /* unsupported features of another renderer's scene */
     size_t n_unknown;
-    bool glows; /* a placement that has a material is also a light */
-    /* how many of the last lights and of the last shapes model.c added to the scene of a model file; each of these
-       shapes uses one of the last materials */
+    bool glows; /* some placement that has a material is also a light */
+    /* the numbers of lights and shapes that model.c added to the scene of a model file, at the ends of `lights` and
+       `shapes`; each of these shapes uses one material, and these materials are at the end of `materials` */
     struct {
         size_t lights, shapes;
     } studio;
-    size_t n_notes; /* number of further warnings about a model file */
+    size_t n_notes; /* number of `notes`: warnings about a model file, beside those that follow from `unread` */
     char (*notes)[256];
     koksma__scene_cache *cache;
 };

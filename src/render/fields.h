@@ -51,9 +51,9 @@ typedef struct koksma__kind {
     const char *title;                   /* one line of description for lists */
     const char *cite;                    /* keys of docs/references.bib, or "-" */
     const koksma__parameter *parameters; /* the last entry has a NULL name; NULL: none */
-    /* further fields, which the kind's own code reads; ended by NULL, or NULL */
+    /* names of further fields, which the kind's own code reads; the list ends with NULL. NULL: no further fields */
     const char *const *keys;
-    const char *example; /* the further fields as JSON, for tests; NULL: none are required */
+    const char *example; /* an example of the fields `keys` as JSON, for tests; NULL: none are required */
     /* scene files cannot name this kind: another part of the scene creates it */
     bool is_implied;
 } koksma__kind;
@@ -67,7 +67,8 @@ koksma_status koksma__parse_fields(const field *object, const koksma__kind *kind
    kinds. */
 koksma_status koksma__parse_kind(const field *object, const koksma__kind *const *kinds, size_t *out);
 
-/* For the end of an error message: which package contains a missing file; "" if none is known. */
+/* Returns text for the end of an error message: which Debian package contains a missing file, or "" if none is
+   known. */
 const char *koksma__package_hint(const char *path);
 
 /* Reads the image in the file `path`, which the scene file `name` mentions; NULL on failure, with a message that

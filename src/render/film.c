@@ -12,10 +12,10 @@
  *     v_i = 1 + (w_i - mean w) n / (n - 1),      whose mean is 1
  *
  * gives a constant picture exactly, whatever signs are drawn, and divides by no random number. For independent
- * samples it has no bias; for stratified ones the mean of w varies less than the factor n - 1 assumes, and the bias
- * is at most Cov(w, y) / (n - 1). A single sample gives no estimate of the covariance, and is therefore drawn from
- * the positive part of f. A deterministic pattern of few samples may have no sample in a negative lobe, which then
- * has no effect. If every w is 1, so is every v.
+ * samples m has no bias; for stratified ones the mean of w varies less than the factor n - 1 assumes, and the bias is
+ * at most Cov(w, y) / (n - 1). A single sample gives no estimate of the covariance, and is therefore drawn from the
+ * positive part of f. A deterministic pattern of few samples may have no sample in a negative lobe, which then has no
+ * effect. If every w is 1, so is every v.
  *
  * A splatted sample adds to several pixels. Each task has its own sums, which are added in the order of the tasks, so
  * that the image does not depend on the number of threads; a finished task waits only for the tasks before it. With

@@ -55,8 +55,8 @@ void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, siz
 void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t task, const koksma__group *group,
                       const koksma__values *values);
 
-/* Does what koksma__film_add does, for a group whose samples all have the colour rgb and a film without splatting and
-   without further layers. */
+/* Does what koksma__film_add does, if all samples of the group have the colour rgb and the film has neither splatting
+   nor layers beside the image. */
 void koksma__film_fill(const koksma__film *film, const koksma__group *group, const float *rgb, size_t channels);
 
 /* Called after all tasks have ended: adds the splats in the order of tasks. Pixels without samples are filled from

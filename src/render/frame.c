@@ -153,7 +153,7 @@ koksma_light_selection koksma__light_selection(const koksma_scene *scene, const 
 {
     const koksma__integrator_flags *flags = options->integrator->flags;
     const bool many = scene->n_lights > KOKSMA__FEW_LIGHTS && flags->followed & KOKSMA__LOBE_DIFFUSE;
-    if (flags->replace_scene) { /* uses the lights of the scene that the integrator made */
+    if (flags->replace_scene) { /* the integrator renders its own scene, whose lights are black */
         return KOKSMA_LIGHTS_ALL;
     }
     return options->lights != KOKSMA_LIGHTS_AUTO ? options->lights : many ? KOKSMA_LIGHTS_ONE : KOKSMA_LIGHTS_ALL;

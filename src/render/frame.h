@@ -89,7 +89,7 @@ typedef struct koksma__pipeline {
        three channels, [1] and [2], and no samples need to be drawn or traced. NULL: the pipeline has no such test. */
     bool (*is_empty)(const koksma__frame *frame, void *scratch, const koksma__group *group, koksma__values *values);
     /* Traces the samples at the film positions values->film, and writes their values to the other arrays of `values`;
-       film and weights are set before. Errors: the sampler's, MEMORY. */
+       the caller has set values->film and values->weights. Errors: the sampler's, MEMORY. */
     koksma_status (*trace)(const koksma__frame *frame, void *scratch, const koksma__group *group,
                            koksma__values *values);
 } koksma__pipeline;
@@ -100,8 +100,8 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
                                  const koksma_run *run, koksma__frame *out);
 void koksma__frame_close(koksma__frame *frame);
 
-/* Which lights get shadow rays: AUTO becomes one light if paths are followed among more than KOKSMA__FEW_LIGHTS
-   lights, otherwise all. */
+/* Returns the option that selects which lights get shadow rays, with AUTO replaced: by one light if the scene has
+   more than KOKSMA__FEW_LIGHTS lights and paths continue from diffuse surfaces, otherwise by all lights. */
 enum { KOKSMA__FEW_LIGHTS = 8 };
 koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options);
 

@@ -4,18 +4,19 @@
  * goes along d = base + x step_x + y step_y. A flat shape has the centre c, the normal n, the axes u and v, and the
  * half side h along u; any other shape lies in the sphere of centre c and radius r. Then
  *
- *   flat shape:  with e = o - c, s = -sign(n.e), N = s n.d: it is met in front of the eye where N > 0, at
- *                u = (e.u + |n.e| d.u / N); u > h there if and only if (e.u - h) N + |n.e| d.u > 0, and likewise for
- *                -u and v. N and these four expressions are linear in (x, y): a
- *                rectangle of the film cannot see the shape if N <= 0, or one of the four is > 0, in all of it.
+ *   flat shape:  with e = o - c, s = -sign(n.e), N = s n.d: the ray meets the shape's plane in front of the eye where
+ *                N > 0, at u = e.u + |n.e| d.u / N; u > h there if and only if (e.u - h) N + |n.e| d.u > 0, and
+ *                likewise for -u, v and -v. N and these four expressions are linear in (x, y). No ray through a
+ *                rectangle of the film hits the shape if N <= 0 in the whole rectangle, or if one of the four
+ *                expressions is > 0 in the whole rectangle.
  *   other shapes: the line through the eye misses the sphere around the shape if and only if
  *                |e x d|^2 - r^2 d.d > 0, a quadratic form in (x, y), bounded from below by its value, slopes and
  *                curvatures at the middle.
  *
  * Bounds are in double precision, but batch_shapes.c computes hits in floats. Shapes are therefore enlarged by more
- * than the rounding errors there: a position at distance R from the eye has an error of about 10 units in the last
- * place of R across the ray, and along a flat shape that error divided by the sine |n.e| / R. The film's rectangle is
- * enlarged by the effect of rounding d.
+ * than the rounding errors of these hits: a position at distance R from the eye has an error of about 10 units in the
+ * last place of R across the ray, and along a flat shape that error divided by the sine |n.e| / R. The film's
+ * rectangle is enlarged by the effect of rounding d.
  */
 #include "render/frustum_cull.h"
 
@@ -27,7 +28,7 @@
 #include "render/description.h"
 
 #define UNIT 0x1p-24 /* relative rounding error of a float */
-#define SPARE 64     /* number of such errors that the margins allow for */
+#define SPARE 64     /* number of rounding errors of size UNIT that the margins allow for */
 /* smallest sine of the angle between a plane and the rays for which a footprint on the plane is computed */
 #define GRAZING 0x1p-7
 
@@ -38,9 +39,9 @@ typedef struct linear {
 
 typedef struct bound {
     bool is_sphere, sees_all; /* sees_all: no bound is known, so that the shape is never culled */
-    size_t n;                 /* number of entries in `out`; the shape is outside where one of them is > 0 */
+    size_t n;                 /* number of entries in `out`; a ray misses the shape where one of them is > 0 */
     linear out[5];
-    double a, b, c, aa, ab, bb; /* for a sphere: a + b x + c y + aa x^2 + ab x y + bb y^2 */
+    double a, b, c, aa, ab, bb; /* for a sphere: rays miss it where a + b x + c y + aa x^2 + ab x y + bb y^2 > 0 */
     /* for a flat shape: N as defined at the top of this file, and the distance of the eye from the shape's plane */
     linear towards;
     double height;

@@ -5,8 +5,8 @@
 
 #include "render/frame.h"
 
-/* Makes a group of the pixels from `first` on and below `end`: one pixel, and further ones as long as all together
-   have at most frame->together samples. */
+/* Makes a group of the pixels from `first` on and below `end`: at least one pixel, and as many as have at most
+   frame->together samples in all. */
 void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);
 
 /* Draws the sample pairs of one use for all samples of a group, one pixel after the other; with on_film each pixel's

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The lens: a disk, to which the camera's warp maps the unit square, or a regular polygon, the shape of an iris with
- * straight blades, to which a second map takes that disk. Let V_k be the polygon's n corners on the rim of the disk.
- * The point at distance r from the centre and (k + t) / n of a turn beyond the angle pi / 4 is mapped to
+ * The lens is a disk or, for an iris with straight blades, a regular polygon. The camera's warp maps the unit square
+ * to the disk; for a polygon a second map takes the disk to the polygon. Let V_k be the polygon's n corners on the
+ * rim of the disk. The point at distance r from the centre and (k + t) / n of a turn beyond the angle pi / 4 is
+ * mapped to
  *
  *     (r, k, t)  ->  r ((1 - t) V_k + t V_(k+1))
  *
@@ -16,7 +17,7 @@
 
 #include <math.h>
 
-/* The camera's y is downwards, and angles go upwards. */
+/* The camera's y axis points down, but blade_angle_rad is measured towards up; hence the minus sign of y. */
 static void disk_to_polygon(const koksma__camera *camera, int n, float *x, float *y)
 {
     const double corner = 2 * M_PI / camera->blades;

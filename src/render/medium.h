@@ -17,13 +17,14 @@ koksma_status koksma__medium_check(const koksma_scene *scene);
 void koksma__medium_transmittance(const koksma__medium *medium, const float o[3], const float d[3], double end,
                                   float out[3]);
 
-/* For a path with the weights beta, samples by u where the light along the ray o + t d, 0 < t < end, comes from.
-   Returns true if it comes from the medium at *t, and false if it comes from the end of the ray. Sets the weight of
-   that light. */
+/* For a path with the weights beta, samples by the random number u where the light along the ray o + t d, 0 < t <
+   end, comes from. Returns true if it comes from the medium at *t, and false if it comes from the end of the ray.
+   Sets the weight of that light. */
 bool koksma__medium_sample(const koksma__medium *medium, const float o[3], const float d[3], double end, float u,
                            const float beta[3], float *t, float weight[3]);
 
-/* The phase function of Henyey & Greenstein as a material without a normal; parameter 0 is g. No scene file names it. */
+/* The phase function of Henyey & Greenstein as a material without a normal; parameter 0 is g. Scene files cannot name
+   this material. */
 extern const koksma__bsdf koksma__phase_function;
 
 #endif

@@ -68,8 +68,9 @@ static koksma_status look(job *j)
     return atomic_load(&j->stop) ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-/* The keep_going that patterns call while they make a set, which may take seconds, and koksma__parallel between
-   tasks: once the caller has ended the run, it stops all threads, even within their tasks. */
+/* The keep_going callback for patterns, which call it while they make a set, which may take seconds, and for
+   koksma__parallel, which calls it between tasks. It returns false once the caller has ended the run, so that all
+   threads stop, even within their tasks. */
 static bool goes_on(void *context, double fraction)
 {
     (void)fraction;

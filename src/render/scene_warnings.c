@@ -11,7 +11,7 @@
 #include "core/status.h"
 #include "render/materials/materials.h"
 
-/* The warning that the caller requests: `left` warnings are still to be skipped before it. */
+/* The warning that the caller requests: `left` is the number of warnings that are to be skipped before it. */
 typedef struct asked {
     size_t left;
     char *text;
@@ -202,7 +202,7 @@ static bool of_unknown(const koksma_scene *scene, asked *a)
     return false;
 }
 
-/* Warns about material names in OBJ files. */
+/* Warns about missing material files of an OBJ file, and about materials that no material file defines. */
 static bool of_names(const koksma__unread *u, asked *a)
 {
     const struct {

@@ -10,8 +10,8 @@
  *
  * batch_shapes.c computes in floats, so r is increased by 2^-9 R, where R is the largest coordinate. The test of a
  * sphere compares squares that are off by about 10 units in the last place, 10 2^-24 R^2; the margin changes them by
- * more than 2^-18 R^2. Hits are off by 10 2^-24 R divided by the sine between ray and surface, which frustum_cull.c
- * bounds.
+ * more than 2^-18 R^2. A hit position has an error of 10 2^-24 R divided by the sine of the angle between ray and
+ * surface, which frustum_cull.c bounds.
  */
 #include "render/shadow_cull.h"
 

@@ -12,8 +12,8 @@ typedef struct koksma__footprint {
     double at[4][3], radius;
 } koksma__footprint;
 
-/* Whether the kernel `occlude` can find no ray from this part of a surface to the light that `shape` blocks; the
-   shape must not move. */
+/* Whether `shape`, which must not move, blocks no ray from this part of a surface to the light, as the kernel
+   `occlude` computes it. */
 bool koksma__shadow_cull_clear(const koksma__footprint *part, const koksma__batch_light *light,
                                const koksma__batch_shape *shape);
 

@@ -3,8 +3,8 @@
  * Functions that the readers of other renderers' scenes share: paths, warnings about unsupported features,
  * materials, lights and the camera; import_shapes.c has the shapes. Every material becomes the nearest kind that
  * Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
- * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other loss is reported with file
- * and line.
+ * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is reported in a
+ * warning with file and line.
  */
 #include "scene/import.h"
 
@@ -120,7 +120,7 @@ static bool is_below(const char *scene, const char *full)
     return below;
 }
 
-/* Reads a text, which gzip has packed if its name ends in .gz. */
+/* Reads a text file, which is compressed by gzip if its name ends in .gz. */
 static koksma_status read_text(const char *path, unsigned char **bytes, size_t *size)
 {
     const char *dot = strrchr(path, '.');
@@ -197,7 +197,8 @@ void koksma__import_black_body(double kelvin, double rgb[3])
 
 bool koksma__import_metal(const char *name, double rgb[3])
 {
-    /* linear sRGB of the reflectance along the normal in daylight, by tools/metals.py from published constants */
+    /* reflectance along the normal in daylight, as linear sRGB, which tools/metals.py computes from published optical
+       constants */
     static const struct {
         const char *name;
         double rgb[3];

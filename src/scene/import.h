@@ -22,7 +22,7 @@ typedef struct koksma__import {
     bool rows_down;                    /* images lie upside down: texture coordinate 0 is their upper edge */
     bool smooths;                      /* meshes from files without normals get smooth normals */
     size_t n_files;                    /* number of texts that were read */
-    char folders[8][KOKSMA__MAX_PATH]; /* where files are sought that are not beside the scene */
+    char folders[8][KOKSMA__MAX_PATH]; /* folders to search for files that are not beside the scene */
     size_t n_folders;
     struct koksma__known_mesh *known;
     int *twins; /* for each mesh: the mesh with the same triangles turned inside out, or -1 */
@@ -66,7 +66,8 @@ typedef enum koksma__form {
     KOKSMA__FORM_CYLINDER
 } koksma__form;
 
-/* A motion by two poses, of the shape `before` (meshes/mesh.h): its matrix at time t is the pose's times `before`. */
+/* A motion given by two poses (meshes/mesh.h): the shape's matrix at time t is the matrix of the interpolated pose
+   times `before`. */
 typedef struct koksma__import_motion {
     bool moves;
     koksma__pose poses[2];
@@ -100,12 +101,12 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
 koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
                                   size_t *size);
 
-/* Adds a folder, relative to the scene's own, in which files are sought that are not beside the scene. Error:
-   MALFORMED (too many, or the path is too long). */
+/* Adds a folder, relative to the scene's own, to search for files that are not beside the scene. Error: MALFORMED
+   (too many, or the path is too long). */
 koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place, const char *name);
 
-/* Writes the path of a file that the scene names to `out`: the file beside the scene, or else in the first of the
-   folders that has such a file. */
+/* Writes to `out` the path of a file that the scene names: the file beside the scene or, if there is none, the file
+   in the first of the folders that has one. */
 koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH]);
 
@@ -137,9 +138,9 @@ koksma_status koksma__import_spot(koksma__text_place place, const double directi
 koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, bool octahedral,
                                  const double scale[3], const double matrix[12]);
 
-/* Sets the camera. The columns of its matrix are the direction to the right (times `right`, 1 or -1), the
-   direction up (whose length scales an orthographic camera's height), the direction ahead and the position; `lens`
-   gives the angle or height and the lens. */
+/* Sets the camera. The columns of the matrix are the direction to the right (times `right`, 1 or -1), the direction
+   up (whose length scales an orthographic camera's height), the direction ahead and the position; `lens` gives the
+   angle or height and the lens. */
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
                                     double right, const koksma__camera *lens);
 

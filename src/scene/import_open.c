@@ -15,7 +15,7 @@
 #include "scene/pbrt.h"
 
 /* A number in the hash by which stored studies find a scene; it is raised when a change of the code makes another
-   scene of the same files. */
+   scene from the same files. */
 enum { READER_REVISION = 2 };
 
 static bool is_pbrt(const char *path)

@@ -80,7 +80,7 @@ static koksma_status remember(koksma__import *im, const struct koksma__known_mes
     return KOKSMA_OK;
 }
 
-/* Inverts the second texture coordinate. */
+/* Replaces the second texture coordinate v of each vertex by 1 - v. */
 static void turn_rows(koksma__mesh *mesh)
 {
     for (size_t i = 0; mesh->uvs && i < mesh->n_vertices; i++) {
@@ -88,8 +88,8 @@ static void turn_rows(koksma__mesh *mesh)
     }
 }
 
-/* Reads the mesh and adapts it to the other renderer: Mitsuba turns the texture coordinates of OBJ files upside down,
-   and gives smooth normals to meshes that have none. */
+/* Reads the mesh and adapts it to the conventions of the other renderer: Mitsuba turns the texture coordinates of OBJ
+   files upside down, and gives smooth normals to meshes that have none. */
 static koksma_status read_mesh(const koksma__import *im, const struct koksma__known_mesh *which, koksma__mesh *mesh)
 {
     KOKSMA__TRY(koksma__mesh_read_part(which->path, KOKSMA__BY_FILE, which->part, mesh));
@@ -168,7 +168,7 @@ static koksma_status find_twin(koksma__import *im, koksma__text_place place, int
 
 /* ---- Meshes of basic shapes -------------------------------------------------------------------------------- */
 
-/* The point and the normal of a basic shape at (u, v), both from 0 to 1. */
+/* The point and the normal of a basic shape at (u, v) in [0, 1]^2. */
 static void form_point(koksma__form form, double u, double v, double p[3], double n[3])
 {
     const double phi = TURN * u, theta = M_PI * (1 - v);
@@ -287,7 +287,7 @@ static koksma_status plain(koksma__import *im, koksma__text_place place, int *ma
                                   "a texture on a mesh without texture coordinates is replaced by its mean colour");
 }
 
-/* The matrices of a shape: at time 0, and, if it moves, those of its placement. */
+/* The matrix of a shape at time 0 and, if the shape moves, the poses and matrices of its koksma__placement. */
 typedef struct placed {
     double matrix[12];
     bool moves;
@@ -295,7 +295,8 @@ typedef struct placed {
     double before[12], after[12];
 } placed;
 
-/* Sets the motion of a placement. Its box at time 1 is checked by the caller's bounds. */
+/* Sets the motion of a placement; fails if its box at time 1 is beyond the bounds that the caller has checked at time
+   0. */
 static koksma_status set_mesh_motion(koksma_scene *scene, const koksma__import_item *item, const placed *at,
                                      koksma__placement *p)
 {
@@ -386,8 +387,8 @@ static const koksma__shape_type *shape_type(const char *name)
     return koksma__shape_types[i];
 }
 
-/* Whether a motion is one that Koksma's own shapes have: a shift, a rotation about one axis, a growth that is the same in
-   all directions. */
+/* Whether a motion is one that Koksma's own shapes can have: a shift, a rotation about one axis, a growth that is the
+   same in all directions. */
 static bool turns_evenly(const placed *at)
 {
     const double *a = at->poses[0].stretch, *b = at->poses[1].stretch;
@@ -527,7 +528,8 @@ static bool is_black(const koksma__material *m)
            m->albedo[0][0] + m->albedo[0][1] + m->albedo[0][2] <= 0 && !m->checker;
 }
 
-/* Finds the matrices of an item within another transformation, and its motion or the other's. */
+/* Finds the matrices of an item that is placed by the further matrix `outer`, and its motion: by `poses` if they are
+   given, otherwise the item's own motion. */
 static koksma_status place(koksma__import *im, const koksma__import_item *item, const double outer[12],
                            const koksma__pose poses[2], placed *at)
 {

@@ -12,8 +12,8 @@ koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, 
 koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
                                        bool with_normals, int *out);
 
-/* Adds a shape to the scene; `outer`, which may be NULL, is a further transformation after the shape's own matrix, and
-   `poses`, which may be NULL, its poses at the times 0 and 1. */
+/* Adds a shape to the scene; `outer`, which may be NULL, is a transformation that is applied after the shape's own
+   matrix. If that transformation moves, `poses` has its poses at the times 0 and 1; otherwise `poses` is NULL. */
 koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12],
                                  const koksma__pose poses[2]);
 

@@ -4,8 +4,8 @@
  * times the colour-matching functions of the CIE 1931 observer. These functions are the fit of Wyman, Sloan & Shirley
  * (2013): for spectra like those of the Cornell box, each channel differs from the result of the CIE's tables by at
  * most 1.2 % of the largest channel. D65 is interpolated linearly in a table with steps of 20 nm. Linear sRGB follows
- * by the matrix of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances in
- * daylight, emission as it is, so that an even emission is reddish.
+ * by the matrix of IEC 61966-2-1. Mitsuba converts spectra in the same way for its RGB variants: reflectances are
+ * multiplied by daylight (D65) and emission is not, so that an emission that is equal at all wavelengths is reddish.
  */
 #include "scene/import_spectrum.h"
 
@@ -58,7 +58,7 @@ bool koksma__sampled_spectrum_add(koksma__sampled_spectrum *s, double wavelength
         return false;
     }
     int w = (int)ceil(fmin(fmax(from, FIRST), LAST + 1));
-    w += s->n && w == from; /* the previous sample has been added already */
+    w += s->n && w == from; /* the wavelength of the previous sample has been added already */
     for (; w <= LAST && w <= wavelength; w++) {
         const double part = wavelength > from ? (w - from) / (wavelength - from) : 1;
         add(s, w, before + part * (value - before));

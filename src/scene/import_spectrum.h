@@ -18,7 +18,8 @@ typedef struct koksma__sampled_spectrum {
    the wavelength, in nm, is not above the one before. */
 bool koksma__sampled_spectrum_add(koksma__sampled_spectrum *s, double wavelength, double value);
 
-/* The colour of a reflectance: that of daylight which it reflects, with 1 for white, cut to [0, 1]. */
+/* The colour of a reflectance in daylight, where a reflectance of 1 at all wavelengths is white; clamped to [0,
+   1]. */
 void koksma__sampled_spectrum_reflectance(const koksma__sampled_spectrum *s, double rgb[3]);
 
 /* The colour of an emission, such that an emission of 1 at all wavelengths has luminance 1; negative channels are 0. */

@@ -31,11 +31,13 @@ typedef koksma__xml_node node;
 typedef struct reader {
     koksma__import *im;
     koksma__xml xml;
-    int *materials;    /* index of the material of each node; -2: not converted yet, -1: light passes through */
-    bool *used, *read; /* of each node: its parent's reader has asked for it; its children describe what is shown */
+    int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
+    /* for each node: used: the function that converts its parent has looked it up; read: it is converted as the file
+       describes it, so that each of its properties that nothing looks up gives a warning */
+    bool *used, *read;
     bool has_sensor;
     const node *medium, *box; /* the only medium that is read, and the cube that bounds it; or NULL */
-    double low[3], high[3];   /* the bounds, if `box` */
+    double low[3], high[3];   /* the bounds of `box`, if it is not NULL */
 } reader;
 
 /* ---- Properties -------------------------------------------------------------------------------------------- */
@@ -74,7 +76,8 @@ static const node *property(const reader *r, const node *n, const char *name)
     return NULL;
 }
 
-/* Notes that a node is shown as the file describes it, so that all its properties count. */
+/* Marks a node as converted as the file describes it: name_unused() warns about its properties that nothing looks
+   up. */
 static void set_read(const reader *r, const node *n)
 {
     r->read[n - r->xml.nodes] = true;
@@ -284,7 +287,7 @@ static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
                             int depth);
 
-/* Reads how an image is mapped. Of the transform the third row and column count for nothing. */
+/* Reads how an image is mapped. The third row and column of its transform have no effect. */
 static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
 {
     static const struct {
@@ -592,7 +595,8 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
 
 /* ---- Media -------------------------------------------------------------------------------------------------- */
 
-/* The medium of a sensor or shape: the child whose name is `name`, or any if that is NULL; NULL if there is none. */
+/* The medium of a sensor or shape: the child whose name is `name`, or, if `name` is NULL, the first child that is a
+   medium; NULL if there is none. */
 static const node *medium_of(const reader *r, const node *n, const char *name)
 {
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
@@ -619,8 +623,9 @@ static bool find_bounds(const double m[12], double low[3], double high[3])
     return true;
 }
 
-/* Finds the medium to read: that of the first sensor, everywhere or in the first cube that holds it; or that of the first
-   cube that has one. */
+/* Finds the only medium to read. If the first sensor has a medium, it is that one, bounded by the first cube along
+   the axes whose interior it fills, or without bounds if there is no such cube. Otherwise it is the first homogeneous
+   medium in a cube along the axes. */
 static koksma_status find_medium(reader *r, const node *root)
 {
     const node *sensor = first_of(r, root);
@@ -643,7 +648,7 @@ static koksma_status find_medium(reader *r, const node *root)
     return KOKSMA_OK;
 }
 
-/* Names the media of a shape that are not read. */
+/* Warns about the media of a shape that are not read. */
 static koksma_status name_media(reader *r, const node *n, int material)
 {
     const node *inside = medium_of(r, n, "interior"), *outside = medium_of(r, n, "exterior");
@@ -665,7 +670,7 @@ static koksma_status name_media(reader *r, const node *n, int material)
                : KOKSMA_OK;
 }
 
-/* Reads a colour of a medium, which may stand in a constant volume. */
+/* Reads a colour of a medium, which is given directly or by a constant volume. */
 static koksma_status medium_colour(reader *r, const node *n, const char *name, double otherwise, double rgb[3])
 {
     const node *found = property(r, n, name);
@@ -699,8 +704,9 @@ static koksma_status phase_of(reader *r, const node *n, double *g)
     return KOKSMA_OK;
 }
 
-/* Sets the scene's medium. Its coefficients are those of extinction times the albedo and the rest, or, as before Mitsuba 2,
-   of scattering and absorption; all times a scale. */
+/* Sets the scene's medium. Mitsuba gives the extinction and the albedo: their product is the scattering, and the rest
+   of the extinction is the absorption. Versions before Mitsuba 2 give scattering and absorption. A scale multiplies
+   all coefficients. */
 static koksma_status set_medium(reader *r)
 {
     const node *n = r->medium;
@@ -910,7 +916,7 @@ static koksma_status sensor(reader *r, const node *n)
 
 /* ---- The whole scene ---------------------------------------------------------------------------------------- */
 
-/* Whether a property changes no picture here. */
+/* Whether a property has no effect on the pictures that Koksma makes, so that no warning is needed. */
 static bool is_harmless(const node *n, const char *name)
 {
     static const struct {
@@ -928,7 +934,8 @@ static bool is_harmless(const node *n, const char *name)
     return false;
 }
 
-/* Whether its parent's reader finds it by what it is, whatever its name; Mitsuba's own writer names all. */
+/* Whether the function that converts a node's parent finds the node by its tag, whatever its name is; Mitsuba's own
+   writer gives names to all nodes. */
 static bool is_found_by_kind(const node *n)
 {
     static const char *const tags[] = {"bsdf", "emitter", "medium", "film", "sampler", "rfilter", "shape"};
@@ -940,7 +947,7 @@ static bool is_found_by_kind(const node *n)
     return false;
 }
 
-/* Names the properties that nothing has asked for of the nodes that are shown as the file describes them. */
+/* Warns about the properties that nothing has looked up, in the nodes that set_read() has marked. */
 static koksma_status name_unused(reader *r)
 {
     for (size_t i = 0; i < r->xml.n; i++) {

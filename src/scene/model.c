@@ -2,7 +2,8 @@
 /*
  * Completes a scene that consists of nothing but a mesh file. The scene gets an image size; a camera if the file has
  * none; and, if no mesh emits light and the file has no other lights, a studio: a key light, a dim sky and, if the
- * camera was added, a ground. Also replaces the sky of any scene by the user's.
+ * camera was added, a ground. This file also replaces the sky of a scene by one that the user chooses
+ * (koksma_scene_set_sky).
  */
 #include "scene/model.h"
 #include "image/image.h"

@@ -40,9 +40,9 @@ static double clamp01(float x)
     return x > 0 ? fmin((double)x, 1) : 0;
 }
 
-/* Reads one part of an image, which is embedded in the model file (glb) or is a file beside it. Errors: MALFORMED
-   (there is no such file, or it is not an image that Koksma reads), MISSING (the file exists and can't be
-   opened), MEMORY. */
+/* Reads one part (such as colours or alpha) of an image that is embedded in the model file (glb) or is a file beside
+   it. Errors: MALFORMED (there is no such file, or it is not an image that Koksma reads), MISSING (the file exists
+   and can't be opened), MEMORY. */
 static koksma_status read_texture(const builder *build, const koksma__file_texture *from, koksma__image_part part,
                                   koksma_image *image)
 {
@@ -107,8 +107,8 @@ static koksma_status tint(koksma_image *image, const double colour[3])
     return KOKSMA_OK;
 }
 
-/* Reads a part of a texture into *out. *out stays NULL if the texture has no such part or can't be read; `text` then
-   has the reason. */
+/* Reads a part of a texture into *out. *out stays NULL if the texture has no such part or can't be read; if it can't
+   be read, `text` has the reason. */
 static void take_map(builder *build, const koksma__file_texture *from, koksma__image_part part, koksma_image **out,
                      koksma__mapping *mapping, char text[256])
 {

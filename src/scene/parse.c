@@ -229,7 +229,7 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
 {
     field list, item;
     size_t n = 0;
-    /* allocated in full, because meshes may add lights */
+    /* allocated at the maximum size, because meshes may add lights */
     scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
     KOKSMA__REQUIRE_MEMORY(scene->lights, KOKSMA__MAX_LIGHTS * sizeof *scene->lights);
     koksma_status status =
@@ -259,7 +259,8 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
 /* A number in the hash of scenes with a medium; it is raised when a change of the code alters their images. */
 enum { MEDIUM_REVISION = 1 };
 
-/* Reads the medium, after the lights, because not every light passes a medium without bounds. */
+/* Reads the medium. The lights are read before it, because a medium without bounds is an error together with lights
+   that are infinitely far away. */
 static koksma_status parse_medium(const field *root, koksma_scene *scene)
 {
     field f;

@@ -6,7 +6,8 @@
 #include "render/description.h"
 #include "render/fields.h"
 
-/* Reads a material. `name` is the path of the scene's file; files that the material names are searched beside it. */
+/* Reads a material. `name` is the path of the scene's file; files that the material names are looked for in its
+   folder. */
 koksma_status koksma__parse_material(const char *name, const field *f, koksma_scene *scene);
 
 #endif

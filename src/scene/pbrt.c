@@ -3,10 +3,10 @@
  * Reads scenes of pbrt-v4 (Pharr, Jakob & Humphreys 2023; pbrt.org/fileformat-v4). A scene is a list of
  * directives, each with a text and parameters, that change a graphics state or use it to add a shape or light.
  * pbrt_values.c converts parameters to colours, materials and meshes. There are two current matrices, for the start and
- * for the end of the motion; where they differ, a shape moves, or the camera, which can't turn here. Curves are not read;
- * the only medium read is a homogeneous one that contains the camera. Directives that do not describe the scene
- * (Sampler, Integrator, ...) are ignored, because the program's own options choose them. The file is long because all of
- * pbrt's directives are in one place.
+ * for the end of the motion; where they differ, a shape or the camera moves; a camera that turns is not supported.
+ * Curves are not read; the only medium read is a homogeneous one that contains the camera. Directives that do not
+ * describe the scene (Sampler, Integrator, ...) are ignored, because the program's own options choose them. The file
+ * is long because all of pbrt's directives are in one place.
  */
 #include "scene/pbrt.h"
 
@@ -30,7 +30,7 @@ enum { START = 1, END = 2 };
 
 typedef struct graphics {
     double matrix[2][12]; /* at the start and at the end of the motion */
-    unsigned active;      /* which of the two the directives change: START, END or both */
+    unsigned active;      /* which of the two matrices the directives change: START, END or both */
     koksma__import_surface surface;
     char outside[256]; /* name of the medium outside the shapes that follow */
 } graphics;
@@ -72,7 +72,8 @@ typedef struct reader {
     double camera[2][12], fov_deg, lens_radius, focus_distance, shutter[2];
     bool orthographic, has_window;
     double window[4]; /* the screen window: x from [0] to [1], y from [2] to [3] */
-    double frame;     /* width / height of the screen window if the file has no `window`; 0: the image's */
+    /* aspect ratio (width / height) of the screen window if the file has no `window`; 0: that of the image */
+    double frame;
     int depth;
 } reader;
 
@@ -256,8 +257,8 @@ static koksma_status push(reader *r, source *s)
     return KOKSMA_OK;
 }
 
-/* Restores the state or matrices on top of the stack. The stack keeps its memory, because koksma__add_one() computes
-   the capacity from nothing but the number of items. */
+/* Takes the top entry from the stack, and restores the graphics state or the matrices from it. The stack keeps its
+   memory, because koksma__add_one() computes the capacity from nothing but the number of items. */
 static koksma_status pop(reader *r, source *s, bool matrix_alone)
 {
     if (!r->n_stack) {
@@ -570,7 +571,7 @@ static koksma_status take_medium(reader *r, source *s)
     return KOKSMA_OK;
 }
 
-/* Reads the media inside and outside the shapes that follow; a single name is that of both. */
+/* Reads the media inside and outside the shapes that follow; a single name is for both. */
 static koksma_status take_interface(reader *r, source *s)
 {
     char inside[256], outside[256];
@@ -607,7 +608,8 @@ static koksma_status take_include(reader *r, source *s)
     KOKSMA__TRY(koksma__import_text(r->im, s->place, path, &bytes, &size));
     char **kept = koksma__add_one(&r->values.texts, &r->values.n_texts, sizeof *kept);
     char *name = kept ? strdup(path) : NULL;
-    if (!name) { /* places in messages point to the name, which must therefore be kept after the file is closed */
+    /* messages about places in the file point to the name, which must therefore be kept after the file is closed */
+    if (!name) {
         free(bytes);
         return kept ? koksma__fail_memory(sizeof path) : KOKSMA_MEMORY;
     }
@@ -623,7 +625,7 @@ static koksma_status take_include(reader *r, source *s)
 static const struct {
     const char *name;
     koksma_status (*take)(reader *r, source *s);
-    bool describes; /* its parameters describe the scene: those that are not used are named */
+    bool describes; /* the parameters describe the scene, so that each unused one gives a warning */
 } directives[] = {{"ActiveTransform", take_active, false},
                   {"AreaLightSource", take_area_light, true},
                   {"Accelerator", take_options, false},
@@ -665,7 +667,7 @@ static const struct {
                   {"Translate", take_translate, false},
                   {"WorldBegin", take_world, false}};
 
-/* The number of places of all warnings so far. */
+/* The number of warnings so far; a warning that occurs at several places counts once for each place. */
 static size_t count_unknown(const reader *r)
 {
     size_t n = 0;
@@ -675,7 +677,8 @@ static size_t count_unknown(const reader *r)
     return n;
 }
 
-/* Names the parameters of a directive that nothing has asked for, except those that change no picture here. */
+/* Warns about the parameters of a directive that nothing has looked up, except those that have no effect on the
+   pictures that Koksma makes. */
 static koksma_status name_unused(reader *r, const char *directive)
 {
     static const struct {
@@ -717,7 +720,8 @@ static koksma_status read_source(reader *r, source *s)
         const size_t before = directives[i].describes ? count_unknown(r) : 0;
         memset(r->used, 0, sizeof r->used);
         koksma_status status = directives[i].take(r, s);
-        if (!status && directives[i].describes && before == count_unknown(r)) { /* else it was replaced already */
+        /* otherwise a warning names the replacement of the whole directive */
+        if (!status && directives[i].describes && before == count_unknown(r)) {
             status = name_unused(r, directives[i].name);
         }
         koksma__pbrt_parameters_fini(r->parameters);
@@ -725,7 +729,8 @@ static koksma_status read_source(reader *r, source *s)
     }
 }
 
-/* Sets the screen window of a file that has none: -1 to 1 along the shorter side of the image, or of the frame. */
+/* Sets the screen window of a file that has none: -1 to 1 along the shorter side of the image, or of the frame if the
+   parameter frameaspectratio is given. */
 static void default_window(reader *r, double aspect)
 {
     const double frame = r->frame > 0 ? r->frame : aspect, x = fmax(frame, 1), y = fmax(1 / frame, 1);
@@ -733,7 +738,7 @@ static void default_window(reader *r, double aspect)
     memcpy(r->window, window, sizeof window);
 }
 
-/* Checks the shape of the screen window. It lies in the plane at distance 1 of an angle of view of 90 degrees. */
+/* Checks the shape of the screen window. Its coordinates -1 and 1 are at the edges of the angle of view. */
 static koksma_status check_window(reader *r, double aspect)
 {
     const double *w = r->window, x = fabs(w[0] + w[1]), y = fabs(w[2] + w[3]), height = w[3] - w[2];
@@ -799,7 +804,8 @@ static koksma_status set_camera(reader *r)
     return koksma__import_camera(r->im, r->camera_place, r->camera[0], 1, &camera);
 }
 
-/* Sets the times at which the shutter opens and closes, as fractions of the motion's. */
+/* Sets the times at which the shutter opens and closes, as fractions of the interval of the motion
+   (TransformTimes). */
 static koksma_status set_shutter(reader *r)
 {
     koksma_scene *scene = r->im->scene;

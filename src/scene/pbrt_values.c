@@ -44,7 +44,7 @@ static void grey(double value, double rgb[3])
     rgb[0] = rgb[1] = rgb[2] = value;
 }
 
-/* Converts pairs of wavelength and value. pbrt divides an emission by its luminance. */
+/* Converts pairs of wavelength and value to a colour; an emission is divided by its luminance, as in pbrt. */
 static koksma_status sampled(koksma__text_place place, const double *pairs, size_t n, bool emits, double rgb[3])
 {
     koksma__sampled_spectrum s = {0};
@@ -157,7 +157,8 @@ static void mean_of(const koksma__import_colour *a, const koksma__import_colour 
     }
 }
 
-/* Reads how an image is mapped: (u, v) are scaled, then moved. The wrap mode "black" is named as unused. */
+/* Reads how an image is mapped: (u, v) are scaled, then moved. The wrap mode "black" is not supported; a warning
+   names it as an unused parameter. */
 static void set_mapping(const koksma__pbrt_parameters *p, koksma__mapping *to)
 {
     const double scale[2] = {koksma__pbrt_number(p, "uscale", 1), koksma__pbrt_number(p, "vscale", 1)};
@@ -252,7 +253,8 @@ static koksma_status metal(koksma__pbrt_scene *scene, const koksma__pbrt_paramet
     snprintf(eta_name, sizeof eta_name, "%seta", prefix);
     snprintf(k_name, sizeof k_name, "%sk", prefix);
     const koksma__pbrt_parameter *eta = koksma__pbrt_find(p, eta_name);
-    koksma__pbrt_find(p, k_name); /* a metal by its name has its reflectance from the name of eta */
+    /* marks k as used: if eta names a metal, the reflectance follows from that name alone */
+    koksma__pbrt_find(p, k_name);
     m->kind = KOKSMA__METAL;
     if (koksma__pbrt_find(p, "reflectance")) {
         return find_colour(scene, p, "reflectance", 1, &m->colour);
@@ -280,7 +282,7 @@ static koksma_status set_alpha(koksma__pbrt_scene *scene, const koksma__pbrt_par
     const double both = koksma__pbrt_number(p, name, 0);
     const double u = koksma__pbrt_number(p, u_name, both), v = koksma__pbrt_number(p, v_name, both);
     m->alpha = koksma__pbrt_flag(p, "remaproughness", true) ? sqrt(fmax(u * v, 0)) : fmax(u * v, 0);
-    m->alpha = sqrt(m->alpha); /* the geometric mean for u and v */
+    m->alpha = sqrt(m->alpha); /* the geometric mean of the widths along u and v */
     return u != v ? koksma__import_unknown(scene->im, p->place, "anisotropic roughness is replaced by its mean")
                   : KOKSMA_OK;
 }
@@ -290,7 +292,7 @@ typedef struct material_kind {
     const char *name;
     int kind;            /* kind of the replacement; -1: light passes through */
     const char *colour;  /* name of the parameter for the diffuse albedo */
-    const char *prefix;  /* prefix of the names of a metal's parameters and roughness */
+    const char *prefix;  /* prefix of the names of the parameters of a metal and of the roughness */
     const char *instead; /* the replacement's name in a warning, or NULL for no warning */
 } material_kind;
 
@@ -426,7 +428,7 @@ static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parame
     const size_t left = scene->n_divided < MOST_DIVIDED ? MOST_DIVIDED - scene->n_divided : 0;
     int levels = 0;
     if (koksma__mesh_check(mesh)) {
-        return KOKSMA_OK; /* it is left out later, with a warning */
+        return KOKSMA_OK; /* koksma__import_mesh() leaves the mesh out, with a warning */
     }
     while (levels < asked && mesh->n_triangles << 2 * (levels + 1) <= left) {
         levels++;

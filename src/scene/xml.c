@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Parses XML with expat. Elements become nodes in the order of the text. <default name value> sets $name unless
- * it was set before; <include filename> is replaced by the children of that file's root; <path value> names a folder in
- * which files are sought. Nothing else is loaded
- * or expanded: a document type declaration stops the parser before any entity is declared.
+ * it was set before; <include filename> is replaced by the children of that file's root; <path value> names a folder
+ * to search for files. Nothing else is loaded or expanded: a document type declaration stops the parser before any
+ * entity is declared.
  */
 #include "scene/xml.h"
 

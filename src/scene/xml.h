@@ -14,7 +14,7 @@ typedef struct koksma__xml_node {
 
 typedef struct koksma__xml {
     koksma__xml_node *nodes; /* the first node is the root */
-    char **files;            /* names of the included files, to which places in messages point */
+    char **files;            /* names of the included files, to which the nodes' `place` points */
     struct koksma__xml_default *defaults;
     size_t n, n_files, n_defaults;
 } koksma__xml;

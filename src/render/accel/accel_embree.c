@@ -36,21 +36,21 @@
 
 /* ---- Triangles of placed meshes ----------------------------------------------------------------------------- */
 
-/* A placement, prepared for tracing. Its vertices are in world coordinates; those of an instance are in the mesh's
-   coordinates. */
+/* A placement, prepared for tracing. The vertices that Embree gets are in world coordinates or, for an instance, in
+   the mesh's coordinates. */
 typedef struct part {
     const koksma__mesh *mesh;
     float *placed; /* owned by Embree; NULL: the mesh's own vertices are used */
     bool is_instance, smooth, moves;
     float matrix[12], normal_matrix[9], motion[3];
-    int steps;         /* number of steps of time between keys, or 0 */
+    int steps;         /* if `keys` is set: number of intervals between the times of its matrices; otherwise 0 */
     float (*keys)[12]; /* the matrices of an instance at the times i / steps; they are linear between these times */
     int32_t material, light;
     int32_t first; /* index of its first triangle among all primitives */
     /* its material, if some rays may pass through its triangles; otherwise NULL */
     const koksma__material *see_through;
-    /* 0: both sides are seen; otherwise rays from the camera pass through the back: this number times the dot product of
-       the ray's direction and the triangle's normal, in the coordinates of Embree's triangles, is positive there */
+    /* 0: both sides are seen; otherwise rays from the camera pass through the back, which is where front *
+       dot(direction of the ray, normal of the triangle) > 0, in the coordinates of Embree's triangles */
     float front;
 } part;
 
@@ -62,7 +62,7 @@ static void place(const float matrix[12], const float v[3], float out[3])
     }
 }
 
-/* The matrix of a part at this time: the stored one, or one that is computed in `room`. */
+/* The matrix of a part at this time: the stored one, or one that is interpolated into `room`. */
 static const float *matrix_at(const part *p, float time, float room[12])
 {
     if (!p->steps) {
@@ -78,7 +78,7 @@ static const float *matrix_at(const part *p, float time, float room[12])
 }
 
 /* Prefetches a triangle's indices. Rays hit the triangles of a large mesh in an order that the processor cannot
-   predict, so that the data for a block of rays are requested together before the first are used. */
+   predict; therefore the data for a whole block of rays are prefetched before any of them are used. */
 static void fetch_triangle(const part *p, uint32_t triangle)
 {
     __builtin_prefetch(p->mesh->indices + 3 * (size_t)triangle);
@@ -150,8 +150,8 @@ static const float *normals_at(const part *p, float time, float out[9])
 
 /* Interpolates the normals of the vertices; the result is on the same side as the triangle's normal. Returns false if
    the vertices have no normals, or if the result points away from the eye although the triangle faces the eye. A ray
-   that a mirror or glass reflects or refracts by an interpolated normal may hit the triangle's own mesh, so that its
-   light is lost: a white octahedron loses .014 of the light as a mirror and .021 as glass (docs/scenes.md). */
+   that a mirror or glass reflects or refracts by an interpolated normal may hit the mesh from which it starts; light
+   is lost by such hits: a white octahedron loses .014 of the light as a mirror and .021 as glass (docs/scenes.md). */
 static bool smooth_normal(const part *p, const uint32_t *index, float time, const float w[3],
                           const float geometric[3], const float d[3], float out[3])
 {
@@ -287,9 +287,9 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
 #endif
 
 /* Defines intersect_8, shade_8, intersect_16 and shade_16, for packets of 8 and of 16 rays. intersect_N traces rays
-   start .. start + N - 1 of the block: it writes the parts (as primitives) and the triangles of hits that are closer
-   than those in `hits` to `on`, and returns their number. shade_N sets the light of the shadow rays that are blocked
-   to 0. */
+   start .. start + N - 1 of the block: for each ray with a hit closer than that in `hits`, it writes the part (in
+   place of the primitive) and the triangle to `on`; it returns the number of these rays. shade_N sets the light of
+   the shadow rays that are blocked to 0. */
 #define PACKETS(WIDTH)                                                                                               \
     static int intersect_##WIDTH(const embree *e, const starts *s, const koksma__rays *rays, int start,              \
                                  bool from_camera, const koksma__hits *hits, koksma__landings *on)                   \
@@ -538,7 +538,7 @@ static bool is_hidden(const part *p, const float *ray, const float *normal, unsi
 
 /* The filter function that Embree calls. Embree stores n rays as arrays of n numbers: the origin (three arrays), tnear,
    the direction, the time, tfar, the mask, the id and the flags; and their hits likewise: the normal, u, v, the triangle,
-   and others. Its C interface has no names for the arrays. */
+   and others. Embree's C interface has no names for these arrays. */
 static void pass_by(const struct RTCFilterFunctionNArguments *a)
 {
     const part *p = a->geometryUserPtr;
@@ -627,7 +627,7 @@ static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGe
         rtcSetGeometryUserData(g, p);
         rtcSetGeometryIntersectFilterFunction(g, pass_by);
     }
-    if (p->see_through) { /* backs block shadow rays */
+    if (p->see_through) { /* only alpha lets shadow rays pass, backs block them */
         rtcSetGeometryOccludedFilterFunction(g, pass_by);
     }
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, m->indices, 0, 3 * sizeof *m->indices,

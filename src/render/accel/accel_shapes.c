@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The geometry of scenes with only analytic shapes, without a tree: every shape is intersected with every block of
- * rays. A flat shape casts no shadow if all other shapes and all lights lie on one side of it, because that side is
- * convex; shadow rays therefore skip, for example, a floor. In a medium they may start on the other side.
+ * rays. A flat shape casts no shadow if all other shapes and all lights lie on one side of its plane, because no
+ * segment between two points on that side crosses the plane; shadow rays therefore skip, for example, a floor. In a
+ * scene with a medium no shape is skipped, because shadow rays may start at any point of the medium.
  */
 #include "render/accel/accel_shapes.h"
 

@@ -20,7 +20,7 @@ typedef struct koksma__triangle {
 
 typedef struct koksma__geometry {
     void *made;
-    /* if the scene has no meshes: the analytic shapes, and those among them that can block shadow rays; otherwise
+    /* if the scene has no meshes: all analytic shapes, and the analytic shapes that can block shadow rays; otherwise
        NULL */
     const koksma__batch_shapes *shapes, *occluders;
     /* Finds the closest hits of n rays and returns the number of lanes with a hit. from: the primitive on which each
@@ -30,7 +30,7 @@ typedef struct koksma__geometry {
     /* Sets the light of shadow rays that are blocked to 0; hits->time is the time of each ray. */
     void (*occlude)(const struct koksma__geometry *geometry, const koksma__hits *hits, int n,
                     koksma__shadows *shadows);
-    /* The index of the light whose surface the primitive is, or -1. */
+    /* If the primitive is part of a light's surface, the index of that light; otherwise -1. */
     int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
     /* The index of the shape, or of the placement after all shapes, to which the primitive belongs. */
     int (*object)(const struct koksma__geometry *geometry, int32_t primitive);

@@ -32,8 +32,7 @@ struct koksma__filter_table {
     float weights[CELLS];       /* the weight of a position in the cell when positions are drawn from |f| */
 };
 
-/* Makes the sums over the cells before each cell a cumulative distribution: divides them by the sum over all
-   cells. */
+/* Normalises a table of cumulative sums, one for each cell's left edge: divides it by the sum over all cells. */
 static void normalise(double *cdf, double sum)
 {
     for (int i = 0; i < CELLS; i++) {

@@ -25,7 +25,7 @@ float koksma__filter_sample(const koksma__filter_table *table, float u, float *w
 float koksma__filter_sample_positive(const koksma__filter_table *table, float u);
 
 /* Balances the weights of the n samples of a pixel, so that weights of both signs preserve a constant image: w[i]
-   becomes 1 + (w[i] - mean) n / (n - 1), so that the mean weight is 1. Weights that are all 1 do not change. */
+   becomes 1 + (w[i] - mean) n / (n - 1), and their mean becomes 1. Weights that are all 1 do not change. */
 void koksma__filter_balance(float *w, size_t n);
 
 /* Returns the filter's value f(x), scaled so that f integrates to 1. The result is 0 unless -radius <= x < radius, so

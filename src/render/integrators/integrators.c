@@ -29,9 +29,9 @@ static const koksma__integrator_flags utah = {.ambient = true};
 /*
  * The integrator `whitted` is recursive ray tracing. Each vertex sends a shadow ray to the centre of each light;
  * mirrors reflect rays, and glass both reflects and refracts them, so that the rays of a sample form a tree. A branch
- * whose weight is below 1/1000 is cut (Hall's depth control), which loses its light. Many branches may be cut: a
- * glass slab in a white furnace should reflect 2 R / (1 + R) in all, and loses .08 % of that at 0.5 degrees, .25 % at
- * 56 and .52 % at 89 (depth 40); the integrator `path` cuts no branch.
+ * whose weight is below 1/1000 is cut (Hall's depth control), and its light is lost. Many branches may be cut: a
+ * glass slab in a white furnace should reflect 2 R / (1 + R) in all, and loses .08 % of that at an angle of incidence
+ * of 0.5 degrees, .25 % at 56 and .52 % at 89 (depth 40); the integrator `path` cuts no branch.
  *
  *     L(x, out) = local light as in utah, with V   +   R L(y, mirrored)   +   (1 - R) L(z, refracted)
  *
@@ -58,7 +58,8 @@ static const koksma__integrator_flags distribution = {
 /*
  * The integrator `direct` computes direct illumination with sampled positions on lights; paths continue through
  * mirrors and glass. It differs from `distribution` in two points: there is no ambient light, and glossy surfaces
- * reflect only lights. For each light this is the two-dimensional integral of soft-shadow studies.
+ * reflect only lights. The direct illumination by one light is the two-dimensional integral that studies of soft
+ * shadows use.
  *
  *     L(x, out) = E(x, out) + sum over lights of f E_l cos cos' V A / d^2 + weight L(y, w), w mirrored or refracted
  *
@@ -95,10 +96,10 @@ static const koksma__integrator_flags path = {PATH};
 
 /*
  * The integrators `path-balance`, `path-light` and `path-bsdf` are `path` with other weights, to study the sampling
- * strategies (Veach 1997, section 9.2). The integrator `path-balance` uses the balance heuristic p / (p + q). The
- * integrator `path-light` finds lights that rays can hit only by light sampling, except in mirrors and glass;
- * `path-bsdf` finds them only by reflected rays. All three integrators sample lights that rays cannot hit. All three
- * have the same mean as `path` at any depth.
+ * strategies (Veach 1997, section 9.2). The integrator `path-balance` uses the balance heuristic p / (p + q). For
+ * lights that rays can hit, `path-light` uses only light sampling, except in mirrors and glass, and `path-bsdf` uses
+ * only reflected rays. Lights that rays cannot hit are sampled by all three integrators. All three have the same mean
+ * as `path` at any depth.
  */
 static const koksma__integrator_flags path_balance = {PATH, .weight = KOKSMA__WEIGHT_BALANCE};
 static const koksma__integrator_flags path_light = {PATH, .weight = KOKSMA__WEIGHT_ONE};

@@ -2,18 +2,18 @@
 /*
  * The integrator `irradiance-cache` is distribution ray tracing that interpolates the light between diffuse surfaces
  * from cached positions (Ward, Rubinstein & Clear 1988) instead of using the scene's ambient light. A record has a
- * position p_i, the irradiance E there, computed from RAYS paths over the hemisphere, and R_i, the harmonic mean of
- * the lengths of the paths' first rays. A record may be used at p with normal n if 1/w = |p - p_i| / R_i + sqrt(1 -
- * n.n_i) < ACCURACY, and E(p) is the mean of these records weighted by w. R_i is clamped so that the record can be
- * used up to a distance of LEAST to MOST pixels.
+ * position p_i, the surface's normal n_i there, the irradiance E, computed from RAYS paths over the hemisphere, and
+ * R_i, the harmonic mean of the lengths of the paths' first rays. A record may be used at p with normal n if 1/w = |p
+ * - p_i| / R_i + sqrt(1 - n.n_i) < ACCURACY, and E(p) is the mean of these records weighted by w. R_i is clamped so
+ * that the largest such distance, ACCURACY R_i, is between LEAST and MOST pixels.
  *
- * Records are made before the image, on successively finer grids of pixels. All threads compute the positions of a
- * grid that no record covers; the new records are then inserted one after the other, so that the result does not
- * depend on the threads. While the image is rendered, a position that no record covers (for example one seen in a
- * mirror) gets a temporary record. The interpolation is biased: in open scenes at 192 x 144 pixels by up to a third
- * of the indirect light. Light that mirrors or glass cast from a light on a diffuse surface is left out: only few
- * rays of a record find that light, so that some records would be far too bright and the others too dark. At depth 0
- * there are no records, because there is no light between surfaces.
+ * Records are made before the image, on successively finer grids of pixels. For the positions of a grid that no
+ * record covers, the threads compute new records in parallel; these are then inserted one after the other, so that
+ * the result does not depend on the number of threads. While the image is rendered, a position that no record covers
+ * (for example one seen in a mirror) gets a temporary record. The interpolation is biased: in open scenes at 192 x
+ * 144 pixels by up to a third of the indirect light. Light that mirrors or glass cast from a light on a diffuse
+ * surface is left out: only few rays of a record find that light, so that some records would be far too bright and
+ * the others too dark. At depth 0 there are no records, because there is no light between surfaces.
  */
 #include "render/integrators/irradiance_cache.h"
 
@@ -268,8 +268,8 @@ koksma_status koksma__irradiance_cache_indirect(const koksma__frame *frame, cons
 typedef struct grid {
     cache *cache;
     int step, columns, rows;
-    /* one record for each position of the grid, whose rows are parallel tasks; reach 0 means that no new record is
-       needed */
+    /* one record for each position of the grid, computed in one parallel task per row; reach 0: the position needs no
+       new record */
     record *found;
     float time;
 } grid;

@@ -3,9 +3,9 @@
  * environment: light from far away, constant or given by an image in latitude and longitude. Row 0 is straight up;
  * the columns run from the direction +z through -x to -z in the middle of the image, then through +x back to +z, so
  * that a viewer who looks along -z sees the image unmirrored. Directions are chosen with a density that is constant
- * on each pixel and in proportion to its luminance times the sine of its row (Pharr, Jakob & Humphreys 2016, section
- * 14.2.4), by two binary searches; 1 % of the samples are uniform over the sphere, so that rounding cannot give any
- * light the density 0.
+ * on each pixel and in proportion to its luminance times the sine of its row's angle from the vertical (Pharr, Jakob
+ * & Humphreys 2016, section 14.2.4), by two binary searches; 1 % of the samples are uniform over the sphere, so that
+ * rounding cannot give any light the density 0.
  */
 #include "render/lights/light_environment.h"
 

@@ -19,8 +19,8 @@ typedef struct koksma__environment {
     float turn; /* rotation, as a fraction of a full turn */
     float mean;
     /* Cumulative tables, of `height` entries over the rows and of `width` over the columns of each row; row r's table
-       begins at column_cdf + r stride. Each table is padded with values above 1 to a multiple of 16, and by another
-       16. row_coarse and column_coarse hold every 16th entry and are searched first. */
+       begins at column_cdf + r stride. Each table is padded with values above 1 to a multiple of 16 numbers, and then
+       by 16 more. row_coarse and column_coarse hold every 16th entry and are searched first. */
     float *row_cdf, *column_cdf, *row_coarse, *column_coarse;
     size_t stride;
 } koksma__environment;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mesh: a placed mesh that is a Lambert emitter; the field "emission" of a shape makes it one. A triangle is chosen
- * in proportion to its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that
+ * mesh: a placed mesh that is a Lambert emitter, because its shape has the field "emission". A triangle is chosen in
+ * proportion to its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that
  * positions are uniform over the whole area. With an image of the emission, the weight of a triangle is its emission,
  * estimated at 16 positions, plus a twentieth of the mean emission, so that every emitting triangle can be chosen;
  * the image is looked up at the position chosen. A two-sided mesh emits the same from both sides. A shadow ray ends
@@ -118,7 +118,7 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
     light->two_sided = from->two_sided;
     koksma__emitter_open(light, area, light->half[0]);
     light->power *= (float)mean * (light->two_sided ? 2 : 1);
-    return light->area > 0 ? KOKSMA_OK : koksma__fail(KOKSMA_MALFORMED, "a luminous mesh without area");
+    return light->area > 0 ? KOKSMA_OK : koksma__fail(KOKSMA_MALFORMED, "a mesh that emits light has no area");
 }
 
 static void close_light(void *data)
@@ -197,7 +197,7 @@ static bool centre(const koksma__shading_light *light, const float p[3], koksma_
     if (!koksma__point_beam(light, p, light->area / (light->two_sided ? 2 : 4), out)) {
         return false;
     }
-    for (int k = 0; k < 3; k++) { /* the ray ends before it reaches the mesh */
+    for (int k = 0; k < 3; k++) { /* end the shadow ray outside of the sphere around the mesh */
         const float rest = out->d[k] - light->half[0] * out->w[k];
         out->d[k] = rest * out->w[k] > 0 ? rest : 1e-3f * out->d[k];
     }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * sphere: a Lambert emitter that shines outwards. Directions are uniform over the cone that the sphere subtends
- * (Shirley, Wang & Zimmerman 1996): with sin = r / d, the density is 1 / (2 pi (1 - cos)). 1 - cos is computed as
- * sin^2 / (1 + cos), which avoids cancellation for a small sphere far away. A point inside the sphere gets no light.
+ * (Shirley, Wang & Zimmerman 1996): with sin and cos of the cone's half-angle, where sin is the sphere's radius
+ * divided by the distance of its centre, the density is 1 / (2 pi (1 - cos)). 1 - cos is computed as sin^2 / (1 +
+ * cos), which avoids cancellation for a small sphere far away. A point inside the sphere gets no light.
  */
 #include "render/lights/surface_lights.h"
 

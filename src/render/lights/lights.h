@@ -28,7 +28,7 @@ typedef struct koksma__shading_light {
        pi */
     float power;
     int shape;  /* index of the light's own surface, or -1 */
-    void *data; /* the kind's data, released by its close() */
+    void *data; /* the kind's data, released by the kind's close() */
 } koksma__shading_light;
 
 /* How a spot's intensity falls off at the edge of its cone (light_spot.c): the value of its field `falloff`. */
@@ -44,7 +44,7 @@ typedef struct koksma__beam {
 
 /* How the estimate of a light's contribution at a point (koksma__batch_lights) depends on the point. */
 typedef enum koksma__light_distance {
-    KOKSMA__LIGHT_NEAR,     /* the light falls with the distance from its centre */
+    KOKSMA__LIGHT_NEAR,     /* the light decreases with the distance from its centre */
     KOKSMA__LIGHT_PARALLEL, /* the light comes from one direction, -normal */
     KOKSMA__LIGHT_AROUND    /* the light comes from all directions in which rays hit nothing */
 } koksma__light_distance;
@@ -67,12 +67,12 @@ typedef struct koksma__light_kind {
     koksma__beam_form form;
     /* the light shines only on the side of its normal, and extends along its axes u and v as far as `half` */
     bool is_flat;
-    /* NULL, or reads the fields that are not parameters; name is the scene file's. */
+    /* NULL, or reads the fields that are not parameters; `name` is the name of the scene file. */
     koksma_status (*parse)(const char *name, const field *f, koksma_scene *scene, koksma__light *light);
     /* Sets area, reach, power and data. Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
     koksma_status (*open)(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light);
     void (*close)(void *data); /* NULL if data is not used */
-    /* Samples by u the light that arrives at p; returns false if no light arrives. */
+    /* Samples the light that arrives at p, by the random numbers u; returns false if no light arrives. */
     bool (*sample)(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out);
     /* Treats the light as a point at its centre (as in Whitted's integrator), with pdf 0. For a light without a
        centre the pointer is NULL, or the function returns false. */
@@ -85,7 +85,7 @@ typedef struct koksma__light_kind {
     float (*met)(const koksma__shading_light *light, uint32_t triangle, const float uv[2], float radiance[3]);
     /* NULL, or, for an environment, computes its radiance along w. */
     void (*radiance)(const koksma__shading_light *light, const float w[3], float out[3]);
-    /* NULL, or converts a light that rays do not see for lambert_lanes.c. */
+    /* NULL, or converts a light that rays do not see to the form that lambert_lanes.c reads. */
     void (*lanes)(const koksma__light *from, koksma__batch_light *out);
 } koksma__light_kind;
 
@@ -100,7 +100,7 @@ typedef struct koksma__lights {
     size_t n;
     koksma__shading_light *lights;
     float *cdf;                      /* cumulative powers, n + 1 numbers */
-    koksma__batch_lights *estimates; /* data for choosing lights by position */
+    koksma__batch_lights *estimates; /* data from which each light's contribution at a point is estimated */
     koksma__batch_light *rectangles; /* for lambert_lanes.c; set only if the kinds of all lights have lanes() */
     size_t first_around;             /* index of the first environment, or n */
 } koksma__lights;

@@ -34,8 +34,8 @@ bool koksma__flat_light_centre(const koksma__shading_light *light, const float p
 float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
                        const float n[3]);
 
-/* For a sample at vector d on a surface that is sampled by area: sets *w to the direction, of length 1, and returns
-   the density over solid angle, which is 0 behind the surface. */
+/* For a sampled position at the vector d from the point, on a surface that is sampled by area: sets *w to the
+   direction, of length 1, and returns the density over solid angle, which is 0 behind the surface. */
 KOKSMA__INLINE float koksma__flat_beam(koksma__v3 d, koksma__v3 normal, float area, koksma__v3 *w)
 {
     const float square = koksma__v3_dot(d, d), length = sqrtf(square), at_light = -koksma__v3_dot(normal, d);
@@ -44,8 +44,9 @@ KOKSMA__INLINE float koksma__flat_beam(koksma__v3 d, koksma__v3 normal, float ar
     return at_light > 0 ? pdf : 0;
 }
 
-/* Samples the cone that a sphere subtends (light_sphere.c); `axis` is the vector to its centre. Sets the vector d to
-   the sphere and its direction w; returns the density, which is 0 inside the sphere. */
+/* Samples the cone that a sphere subtends (light_sphere.c); `axis` is the vector to its centre. Sets *d to the vector
+   to the sampled position on the sphere, and *w to its direction; returns the density, which is 0 if the point is
+   inside the sphere. */
 KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, float v, koksma__v3 *d, koksma__v3 *w)
 {
     const float square = koksma__v3_dot(axis, axis), distance = sqrtf(square), part = radius * radius / square;
@@ -61,8 +62,8 @@ KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, f
     return outside ? pdf : 0;
 }
 
-/* Treats the light as a point at its centre: the intensity is `strength` times the radiance, and the light falls with
-   the squared distance. */
+/* Treats the light as a point at its centre: the intensity is `strength` times the radiance, and the light decreases
+   with the squared distance. */
 bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 
 /* value = scale times the light's radiance */

@@ -21,8 +21,8 @@ enum { KOKSMA__LOBE_DIFFUSE = 1, KOKSMA__LOBE_GLOSSY = 2, KOKSMA__LOBE_SPECULAR 
    {"image": FILE}. */
 enum { KOKSMA__ALBEDO = 1, KOKSMA__CHECKER = 2, KOKSMA__IMAGE = 4 };
 
-/* The formula of batch_materials.c that shades blocks of points of a material. Parameters 0 to 3 are the reflectance
-   and the exponent of the lobes, or the roughness of the facets. */
+/* The formula of batch_materials.c that shades blocks of points of a material. Parameters 0 to 2 are the reflectance;
+   parameter 3 is the exponent of the lobe or the roughness of the facets. */
 typedef enum koksma__material_form {
     KOKSMA__FORM_RAYS,    /* no formula: value() and sample() are called for each ray */
     KOKSMA__FORM_LAMBERT, /* albedo */
@@ -48,7 +48,7 @@ static inline bool koksma__is_textured(const koksma__shading_material *m)
            m->from->maps[KOKSMA__MAP_NORMAL].image;
 }
 
-/* how many numbers of a material images can change at most; the kind's texture() computes them */
+/* largest number of a material's values that images can change; the kind's texture() computes these values */
 enum { KOKSMA__LOCAL = 4 };
 
 /* A point on a surface, seen from `out`. */
@@ -87,8 +87,8 @@ typedef struct koksma__bsdf {
     /* Adds to `value` the BSDF times the cosine for light from w, over the requested lobes; returns the density with
        which sample() chooses w among these lobes. */
     float (*value)(const koksma__surface *s, const float w[3], unsigned lobes, float value[3]);
-    /* Samples a direction from the requested lobes: u selects the direction, `choice` the lobe. Returns false if the
-       light is lost. */
+    /* Samples a direction from the requested lobes: u selects the direction, `choice` the lobe. Returns false if no
+       light arrives along the sampled direction, for example because it is below the surface. */
     bool (*sample)(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out);
     /* NULL, or computes local[0] to [KOKSMA__LOCAL - 1] at a point from the albedo there and from an image's factors
        of roughness and metallic value, and sets albedo to that of the diffuse part. */

@@ -89,8 +89,8 @@ typedef struct koksma__batch_camera {
 
 /* An analytic shape. half_u and half_v are as in koksma__shape; radius2 is the squared radius of a sphere about the
    centre that contains the shape, if it is not flat. moves: the shape's own loops add time * motion. turns: rays are
-   moved into the frame in which it rests, with the members of koksma__shape.turn; here their angle is a fraction of a
-   full turn. */
+   transformed to the frame in which the shape rests, by the members of koksma__shape.turn, but with the angle as a
+   fraction of a full turn. */
 typedef struct koksma__batch_shape {
     int kind; /* index in koksma__shape_types */
     bool is_flat, moves, turns;
@@ -133,7 +133,8 @@ typedef struct koksma__batch_light {
 
 enum { KOKSMA__MAX_BATCH_LIGHTS = 256 };
 
-/* The lights in lanes, from which one is chosen by its estimate. The estimate at p with normal n is
+/* The lights, one in each lane, for choosing a light with a probability proportional to its estimate. The estimate at
+   p with normal n is
      fixed + power max(least, n.d / r) max(least, cosine at the light) / r^2,
    or 0 if no part of the light can be seen from p; d is the vector from p to the centre of the light, r = max(|d|,
    reach), and least is 0.05 (batch_lights.c). Distant lights have their direction in (nx, ny, nz) and power 0. */

@@ -2,14 +2,15 @@
 /*
  * Estimates how much light each light may give to a point, by the formula of koksma__batch_lights (batch.h):
  * `estimate` for all lights at one point, `choose` to select one light at each point of a block. An estimate is never
- * 0 for a light that can reach the point: cosines are at least LEAST, because half of a light whose centre is at the
- * horizon is above it. The normal 0 stands for a point in a medium, where no cosine reduces the light.
+ * 0 for a light that can reach the point: cosines are at least LEAST, because half of a light is above the horizon
+ * when its centre is at the horizon. A normal of (0, 0, 0) stands for a point in a medium, where no cosine reduces
+ * the light.
  */
 #include <math.h>
 
 #include "render/pipelines/batch_kernel.h"
 
-#define LEAST 0.05f /* lower bound of the cosine for a light of which some part is above the horizon */
+#define LEAST 0.05f /* lower bound of the cosine for a light that is partly above the horizon */
 
 /* Returns the estimate of light i at a point. */
 INLINE float estimate_at(const koksma__batch_lights *restrict l, int i, float px, float py, float pz, float nx,

@@ -33,7 +33,7 @@ void BATCH_NAME(to_disk)(int n, float *restrict x, float *restrict y)
     }
 }
 
-/* The time of a ray: before and after the motion, which lasts from 0 to 1, all stand as at its start or end. */
+/* The time of a ray, clamped to [0, 1]: before time 0 and after time 1 nothing moves. */
 INLINE float time_of(const struct koksma__lens *lens, float u)
 {
     const float time = lens->open + lens->interval * u, late = time < 1 ? time : 1;

@@ -4,7 +4,7 @@
  * positions in cells, and the points of nets.
  *
  * Up to KOKSMA__SHUFFLED samples are put in order by the Fisher-Yates shuffle, which makes each of the n! orders
- * equally likely. More samples are permuted by a bijection of the k-bit numbers below the next power of two, as by
+ * equally likely. More samples are permuted by a bijection of the k-bit numbers below the next power of two, as in
  * Kensler (2013); numbers that the bijection maps to n or above are mapped again. Each round of the bijection
  * computes
  *
@@ -52,8 +52,9 @@ static void shuffle_few(const uint32_t *words, uint32_t n, uint16_t *out)
     }
 }
 
-/* Applies the bijection to several vectors at once, because the steps of one vector depend on each other. Bits
-   from k on need not be cleared in between: they are only masked off where a right shift would move them down. */
+/* Applies the bijection to several vectors at once, because the steps of one vector depend on each other. The bits
+   above the lowest k need not be cleared after each step: they are masked off only where a right shift would move
+   them down. */
 INLINE void walk(const uint32_t *words, int bits, int vectors, shorts *x)
 {
     const uint16_t turn = (uint16_t)((bits + 1) / 2), back = (uint16_t)(bits - turn),
@@ -196,7 +197,7 @@ void BATCH_NAME(jitter)(const float *corners, const uint32_t *words, const float
     }
 }
 
-/* Permutes the lanes of v: lane l gets the value of the lane whose number is lane[l], which is below 8. */
+/* Permutes the lanes of v: lane l gets the value of lane number lane[l], which must be below 8. */
 INLINE void permute_lanes(const octet *lane, octet *v)
 {
 #if defined(__AVX2__)
@@ -211,9 +212,9 @@ INLINE void permute_lanes(const octet *lane, octet *v)
 #endif
 }
 
-/* Computes a coordinate of eight new points of a level (grow.h). The lane of point 2^level + i holds at first the
-   coordinate of the earlier point i XOR partner, and then the new one, which is random in the other half of the
-   earlier point's stratum. */
+/* Computes a coordinate of eight new points of a level (grow.h). On entry the lane of point 2^level + i holds the
+   coordinate of the earlier point i XOR partner; on return it holds the new coordinate, which is random in the other
+   half of the earlier point's stratum. */
 INLINE void grow_lanes(const octet *words, int level, octet *v)
 {
     const uint32_t low = UINT32_MAX >> level >> 1;
@@ -236,7 +237,8 @@ INLINE void grow_eight(const octet *words, const uint32_t *partners, octet *v)
     }
 }
 
-/* Computes a column of n 32-bit numbers by the algorithm of grow.h; reads and writes whole vectors of eight. */
+/* Computes one coordinate of n points, as 32-bit numbers, by the algorithm of grow.h; reads and writes whole vectors
+   of eight. */
 INLINE void grow(const uint32_t *words, const uint32_t *partners, size_t n, uint32_t *v)
 {
     octet x, w;

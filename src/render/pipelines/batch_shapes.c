@@ -2,8 +2,8 @@
 /*
  * Intersects blocks of rays with analytic shapes, for the closest hits and for shadows: calls the loops of each
  * shape's kind (src/render/shapes) in turn, and completes hits on flat shapes. For a shape that turns, each ray is
- * moved, at the ray's own time, into the frame in which the shape rests; so the loops for shapes at rest also serve
- * shapes that turn.
+ * transformed, at the ray's own time, to the frame in which the shape rests; so the loops for shapes at rest also
+ * serve shapes that turn.
  */
 #include <math.h>
 #include <string.h>
@@ -64,7 +64,7 @@ static void finish_shape(const koksma__batch_shape *s, const koksma__rays *rays,
 
 /* ---- Shapes that turn ----------------------------------------------------------------------------------------- */
 
-/* v rotated about a unit axis by the angle with this sine and cosine (Rodrigues). */
+/* Rotates the vector (x, y, z) about a unit axis by the angle with this sine and cosine (Rodrigues' formula). */
 INLINE void rotate(const float axis[3], float sine, float cosine, float *x, float *y, float *z)
 {
     const float ax = axis[0], ay = axis[1], az = axis[2], vx = *x, vy = *y, vz = *z;
@@ -74,7 +74,7 @@ INLINE void rotate(const float axis[3], float sine, float cosine, float *x, floa
     *z = cosine * vz + sine * (ax * vy - ay * vx) + along * az;
 }
 
-/* Moves lines o + t d, at their times, into the frame in which the shape rests; t stays. */
+/* Transforms lines o + t d, each at its time, to the frame in which the shape rests; t does not change. */
 INLINE void lines_at_rest(const koksma__batch_shape *shape, const float *restrict time, int n,
                           const float *const *restrict from, float *const *restrict to)
 {
@@ -114,7 +114,8 @@ static void hit_turned(const koksma__batch_shape *s, const koksma__rays *r, cons
     types[s->kind]->hit(s, &rest, from, n, h);
 }
 
-/* Finishes the hits at rest, then moves the positions and normals of the lanes that hit the shape back. */
+/* Completes the hits in the frame in which the shape rests, then transforms the positions and normals of the lanes
+   that hit the shape back to the scene. */
 static void finish_turned(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
                           koksma__hits *restrict h)
 {

@@ -22,8 +22,8 @@ typedef struct scratch {
     koksma__sample_scratch draw;
     float *positions; /* sampled positions on lights, one array per light */
     size_t capacity;
-    /* The shapes that pixels first .. end - 1 may see (`shapes`, copied to `list`), their indices (`seen`), and for
-       each light those that may block its rays to these pixels. */
+    /* The shapes that pixels first .. end - 1 may see (`shapes`, copied to `list`), their indices (`seen`), and, for
+       each light, the shapes that may block shadow rays to it from what these pixels see. */
     koksma__batch_shapes shapes, *blockers;
     koksma__batch_shape *list;
     size_t *seen, first, end, mixed; /* `mixed` is the end of the last tile that was found to see several shapes */
@@ -127,7 +127,8 @@ static void look_at(const koksma__frame *f, scratch *r, size_t first, size_t end
     }
 }
 
-/* Finds the shapes that the tile of a group may see, or only those of the group if the tile may see several. */
+/* Finds the shapes that the tile which contains a group may see; if these are several, finds only those that the
+   group may see. */
 static void look(const koksma__frame *f, scratch *r, const koksma__group *group)
 {
     const size_t first = group->first, end = first + group->count, width = (size_t)f->options->width;
@@ -165,7 +166,7 @@ static bool is_empty(const koksma__frame *f, void *opened, const koksma__group *
 
 /* ---- Samples ------------------------------------------------------------------------------------------------ */
 
-/* Draws the samples of all lights; it is called when the first ray of a group hits something. */
+/* Draws the samples of all lights; called when the first ray of a group hits something. */
 static koksma_status draw_lights(const koksma__frame *f, const koksma__group *group, scratch *r)
 {
     koksma_status status = KOKSMA_OK;

@@ -51,7 +51,8 @@ typedef struct koksma__bsdf_values {
     _Alignas(64) koksma__lanes pdf;
 } koksma__bsdf_values;
 
-/* Sampled directions: koksma__scatter in lanes. If `kept` is 0, the path ends. */
+/* Sampled directions: the members of koksma__scatter, each as an array over the lanes. If `kept` is 0, the path
+   ends. */
 typedef struct koksma__directions {
     _Alignas(64) koksma__lanes w[3];
     _Alignas(64) koksma__lanes weight[3];
@@ -69,7 +70,8 @@ typedef struct koksma__light_lanes {
     _Alignas(64) koksma__lanes probability;
 } koksma__light_lanes;
 
-/* Sampled light: koksma__beam in lanes. If `lit` is 0, no light arrives. */
+/* Samples of lights: the members of koksma__beam, each as an array over the lanes. If `lit` is 0, no light
+   arrives. */
 typedef struct koksma__beams {
     _Alignas(64) koksma__lanes d[3];
     _Alignas(64) koksma__lanes w[3];

@@ -24,10 +24,10 @@
  * Light that both strategies can find, by sampling the light and by a reflected ray that hits it, is weighted by the
  * power heuristic (Veach 1997, section 9.2): m = p^2 / (p^2 + q^2), where p is the density of the strategy that found
  * the light and q that of the other strategy; the two weights m of one direction add up to 1. For this a path carries
- * the density of its last direction (0 after a mirror, because no light sampling finds its light: m = 1). Integrators
- * may use other weights: the balance heuristic, 1 or 0. If only rays along lobes may find lights, each path traces
- * one ray past the depth limit; it replaces the light samples of the last vertex, so that the images of all
- * weightings have the same mean at any depth.
+ * the density of its last direction (0 after a mirror, because light sampling finds no light in a mirror: m = 1).
+ * Integrators may use other weights: the balance heuristic, 1 or 0. If only rays along lobes may find lights, each
+ * path traces one ray past the depth limit; it replaces the light samples of the last vertex, so that the images of
+ * all weightings have the same mean at any depth.
  *
  * All random numbers come from the uses, the purposes of sample dimensions (samples/uses.def). The uses lobe, lobe
  * choice, light and roulette have different keys at each vertex b, so that the pattern under study, not the tracer,
@@ -212,8 +212,9 @@ static void add_glow(const koksma__frame *frame, koksma__vertices *v, int i)
     add_scaled(v, i, radiance, met_weight(frame, v->paths, i, (size_t)light, pdf));
 }
 
-/* Replaces the normal of a hit by that of a normal map: x along u, y across, z outwards. The surface's normal is kept
-   where the ray would see the back of the new normal. */
+/* Replaces the normal of a hit by that of a normal map, whose x is along u, whose y is perpendicular to u on the
+   surface, and whose z points outwards. The surface's normal is kept where the ray would see the back of the new
+   normal. */
 static void bend(const koksma__map *map, const koksma__triangle *triangle, koksma__vertices *v, int i)
 {
     koksma__hits *h = &v->hits;
@@ -322,8 +323,8 @@ static koksma_status branch(const koksma__trace *trace, const koksma__vertices *
     return status;
 }
 
-/* Returns the lobes whose directions continue from this vertex. The ray past the depth limit replaces light
-   samples, which specular lobes do not reflect. */
+/* Returns the lobes along which paths continue from this vertex. Specular lobes have no ray past the depth limit,
+   because that ray replaces light samples, which specular lobes do not reflect. */
 static unsigned followed_at(const koksma__trace *trace)
 {
     const koksma__frame *frame = trace->frame;

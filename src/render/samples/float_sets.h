@@ -29,8 +29,8 @@ struct koksma__float_set {
     int dim;
     bool in_random_order; /* whether `draw` needs an order even where the pairing does not shuffle the points */
     bool has_order;       /* whether the first words are for a random order, which `draw` finds in scratch->order */
-    float *corners; /* n pairs: the two coordinates of a cell's corner, or the start of a stratum in both places */
-    float scale[2]; /* factor from a 24-bit word to an offset within a cell */
+    float *corners;       /* n pairs: the two coordinates of a cell's corner, or twice the start of a stratum */
+    float scale[2];       /* factor from a 24-bit word to an offset within a cell */
     size_t columns, rows;
     uint32_t partners[2][32];
 };

@@ -47,7 +47,7 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
         from++;
     }
     KOKSMA__FAIL_IF(from == end, KOKSMA_ARGUMENT,
-                    "the point sets of the image were drawn without those of use number %u", (unsigned)use);
+                    "the point sets of the image were drawn without a set for use number %u", (unsigned)use);
     const float width = (float)s->options->width, height = (float)s->options->height;
     for (uint32_t i = s->first[pixel]; i < s->first[pixel + 1]; i++) {
         const float *pair = from->pairs + 2 * (size_t)s->order[i];

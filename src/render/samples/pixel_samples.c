@@ -67,7 +67,7 @@ static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, 
 enum { SETS_A_LOOK = 16 };
 
 /* Calls generate() for the set of a pixel and, before every SETS_A_LOOK-th set, keep_going: a slow pattern takes ten
-   milliseconds a set and does not call keep_going itself, and the sets of all pixels that are drawn together take
+   milliseconds per set and does not call keep_going itself, and the sets of all pixels that are drawn together take
    minutes. */
 static koksma_status generate_next(const koksma_spec *spec, uint64_t seed, size_t n, int dim,
                                    koksma__sample_scratch *room, double *xs)
@@ -78,7 +78,7 @@ static koksma_status generate_next(const koksma_spec *spec, uint64_t seed, size_
     return generate(spec, seed, n, dim, room->run, xs);
 }
 
-/* Expands numbers to pairs (x, 0) in place, from the last one on. */
+/* Expands numbers to pairs (x, 0) in place, beginning with the last number. */
 static void widen(double *xs, size_t n)
 {
     for (size_t i = n; i-- > 0;) {
@@ -176,7 +176,7 @@ static demand demand_of(const pixel_samples *samples, uint32_t use)
     return d;
 }
 
-/* Returns where the scratch holds the orders that float sets need for themselves, one for each pixel. */
+/* Returns the part of the scratch that holds the orders which the float forms themselves need, one for each pixel. */
 static uint16_t *own_orders(const koksma__sample_scratch *room, size_t n)
 {
     return room->order + room->room_for * n + 64;
@@ -433,7 +433,7 @@ static koksma_status try_group(pixel_samples *samples, int g)
     return status;
 }
 
-/* Checks each group of which the image needs at least one use. */
+/* Checks each group that has a use which the image needs. */
 static koksma_status try_groups(koksma__sampler *sampler, pixel_samples *samples)
 {
     const koksma_use_group *groups = samples->options->groups;

@@ -22,7 +22,7 @@ typedef struct koksma__sample_scratch {
     size_t room_for, first, count; /* `prepare` filled the buffers for the pixels first .. first + count - 1 */
     double *kept;
     uint64_t *kept_keys;   /* the key of the set in each slot; 0: none */
-    const koksma_run *run; /* the run of the sampler, or one that is never cancelled */
+    const koksma_run *run; /* the sampler's `run` or, if that is NULL, a run that is never cancelled */
     size_t sets;           /* number of sets that koksma_generate made; keep_going is called at every 16th */
 } koksma__sample_scratch;
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Parses, checks and prints the text that assigns patterns to uses: "random;lens=sobol;pixel+time=scan-time" has a
- * common pattern, a pattern for one use and a pattern for a group of uses. A part begins with the names of its uses
- * and '=', if any. A ';' ends a part only where the next part names uses, so that a path may contain a ';'. The
- * canonical text prints each pattern in canonical form.
+ * common pattern, a pattern for one use and a pattern for a group of uses. The text consists of parts; a part that is
+ * not for all uses begins with the names of its uses and '='. A ';' ends a part only where the next part names uses,
+ * so that a path may contain a ';'. The canonical text prints each pattern in canonical form.
  */
 #include "render/samples/use_patterns.h"
 

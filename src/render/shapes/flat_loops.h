@@ -99,7 +99,7 @@ INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__h
     }
 }
 
-/* Defines the loops hit, only and shade of a kind whose bounds are `within`. */
+/* Defines the loops `hit`, `only` and `shade` of a kind of shape; the function `within` tests its bounds. */
 #define KOKSMA__FLAT_LOOPS(within)                                                                                   \
     static void hit(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,              \
                     koksma__hits *hits)                                                                              \

@@ -32,7 +32,7 @@ INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *res
         const float reach = sqrtf((rest > 0 ? rest : 0) * inverse);
         const float near = middle - reach, far = middle + reach;
         const int away = from[i] != id;
-        /* a ray that starts on the sphere has its roots at exactly 0 and 2 middle */
+        /* a ray that starts on the sphere has its roots at exactly 0 and 2 * middle */
         const float t = !away ? 2 * middle : near > 0 ? near : far;
         const int hit = (away ? rest > 0 : 1) & (t > 0) & (t < h->t[i]);
         h->t[i] = hit ? t : h->t[i];

@@ -4,10 +4,10 @@
  * name and parameters in scene files, its definition, its bounds, and the loops that intersect it with a block of
  * rays. Files that include flat_loops.h or batch_kernel.h are compiled once for each instruction set, and
  * KOKSMA__SHAPE(name) is the entry for the instruction set that is being compiled; in other files it is the entry for
- * `ref`. Those files use its other members only, not the loops.
+ * `ref`, whose loops those files do not use.
  *
  * tests/render/test_every_shape.c checks every line of the table: hits, normals, bounds and shadows against the
- * definition, all instruction sets against each other, and the geometry with Embree against that without.
+ * definition, all instruction sets against each other, and the geometry with Embree against the geometry without it.
  */
 #ifndef KOKSMA_RENDER_SHAPES_SHAPES_H
 #define KOKSMA_RENDER_SHAPES_SHAPES_H
@@ -21,8 +21,8 @@ typedef struct koksma__shape_type {
     bool is_flat;      /* lies in a plane, within half[0] of the centre along axis_u and half[1] along axis_v */
     bool takes_checker, takes_image;
     bool may_emit; /* the field "emission", instead of "material", makes the shape a light */
-    /* NULL, or reads the fields that are not parameters; name is the scene file's. A compound adds its parts to the
-       scene. Errors: those of the fields, of files, and of too many shapes. */
+    /* NULL, or reads the fields that are not parameters; `name` is the name of the scene file. A compound adds its
+       parts to the scene. Errors: those of the fields, of files, and of too many shapes. */
     koksma_status (*parse)(const char *name, const field *f, koksma_scene *scene, koksma__shape *shape);
 
     /* The members below are NULL for a compound. */

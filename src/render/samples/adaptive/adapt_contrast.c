@@ -47,7 +47,7 @@ static const koksma__adaptive_method method = {.open = koksma__sets_open,
 
 const koksma_adaptive koksma__adaptive_contrast = {
     .name = "contrast",
-    .title = "more samples where their contrast is high",
+    .title = "more samples for pixels whose samples have a high contrast",
     .cite = "mitchell1987",
     .params = params,
     .functions = &method,

@@ -3,9 +3,9 @@
  * The method `hierarchical`: strata are split where neighbours differ (Kajiya 1986), in all uses of sample dimensions
  * (pixel, lens, light, ...) together (Shirley 1991, section 5.6). With pairing=aligned, neighbours in the pixel are
  * neighbours in every use. With pairing=shuffled they are not: strata that are neighbours in one use can be far apart
- * in another, and are then split although no neighbours differ there (figure 5.36). Where the values are constant, no
- * stratum is split. The estimate is biased, because the values that decide about splits are also averaged. It is
- * unbiased with reuse=fresh; aligned strata also need phase=shifted or phase=folded.
+ * in another, and are then split although no neighbours differ there (Shirley's figure 5.36). Where the values are
+ * constant, no stratum is split. The estimate is biased, because the values that decide about splits are also
+ * averaged. It is unbiased with reuse=fresh; aligned strata also need phase=shifted or phase=folded.
  */
 #include "render/samples/adaptive/adaptive_place.h"
 #include "render/samples/adaptive/adaptive_show.h"

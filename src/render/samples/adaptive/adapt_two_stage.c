@@ -67,7 +67,8 @@ static void find_errors(const koksma__adaptive *run, double *errors)
     }
 }
 
-/* Returns the number of sets of a pixel for this scale, from 1 to the parameter `most`. */
+/* Returns the number of sets of a pixel, from 1 to the parameter `most`: as many as the threshold requires, but at
+   most `scale` times the relative error of one set. */
 static double sets_for(const koksma__adaptive *run, size_t pixel, double scale)
 {
     const double *errors = run->extra;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Adaptive sampling renders an image in rounds. In each round the samples of the selected pixels are drawn, traced
- * and added. Each selected pixel then demands more samples or is done, judging by its own values. adaptive_choose.c
- * selects the pixels of the next round: all that demand samples or, under a budget, those with the highest scores.
- * The result is a function of pixel and round and does not depend on the threads.
+ * and added. Then each selected pixel either demands more samples or is done, which its method decides from the
+ * values of that pixel alone. adaptive_choose.c selects the pixels of the next round: all that demand samples or,
+ * under a budget, those with the highest scores. The result is a function of pixel and round and does not depend on
+ * the threads.
  */
 #ifndef KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
 #define KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
@@ -15,7 +16,7 @@
 /* The demand of a pixel for more samples. */
 typedef struct koksma__sample_demand {
     uint32_t now;   /* samples in the next round; 0: the pixel is done */
-    uint32_t later; /* number of further samples that a later round must take because of these */
+    uint32_t later; /* number of samples that a later round must take as a result of those of the next round */
     float score;    /* priority of the pixel; under a budget the highest scores are selected first */
     bool selected;  /* whether the next round draws samples of this pixel */
 } koksma__sample_demand;
@@ -32,7 +33,7 @@ typedef struct koksma__sample_values {
 /* An adaptive method. Any thread may call the functions that take a pixel, but only one thread at a time for each
    pixel. */
 typedef struct koksma__adaptive_method {
-    bool fresh; /* whether sets are drawn independently, even from patterns that could be continued */
+    bool fresh; /* whether sets are drawn independently, even if the pattern is a sequence that could be continued */
     bool pilot; /* whether the samples of the first sets only determine the demands and are not averaged */
     /* Allocates the state and sets the demands of the first round, which selects all pixels. */
     koksma_status (*open)(koksma__adaptive *run);
@@ -54,11 +55,11 @@ typedef struct koksma__adaptive_method {
     /* NULL, or a function that is called when no pixel is selected any more and sets demands for one last round */
     void (*last)(koksma__adaptive *run);
     /* NULL, or returns the number of probes for the splits of a selected pixel. Probes are extra samples that test
-       whether a split was needed; in a round of probes, draw and take process them. */
+       whether a split was needed; in a round of probes, draw() and take() process probes in place of samples. */
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
     /* computes the value of a pixel and returns its variance */
     double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]);
-    /* computes the value of a pixel in AOV `a`, whose kind is not ID; only with run->frame->aovs */
+    /* computes the value of a pixel in AOV `a`, whose kind is not ID; called only if run->frame->aovs is set */
     void (*part)(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3]);
     /* NULL, or describes the strata of a pixel for a figure. Errors: MEMORY. */
     koksma_status (*show)(const koksma__adaptive *run, size_t pixel, koksma_strata *out);

@@ -13,7 +13,7 @@
  * With reuse=fresh, the samples of the last stage must be independent of those by which strata were split. The rule k
  * ^ b ^ c would always pair quarter b with quarter c again, which together contain the sample that caused the split.
  * So in the last stage part k gets one of the four quarters with equal probability, by a new random number. The mean
- * over the parts is then unbiased for the stratum, whatever the tree.
+ * over the parts is then an unbiased estimate for the stratum, whatever the tree is.
  */
 #include <math.h>
 #include <string.h>

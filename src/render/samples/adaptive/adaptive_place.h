@@ -11,15 +11,14 @@
  * intervals of a line with shuffled pairing, and the columns of the square with aligned pairing.
  *
  * Aligned pairing samples only a small part of the product of the uses' unit squares: for example, samples in the
- * left of the pixel never see the right of a light. The parameter `phase` can correct this. With phase=fixed the
- * other uses are not moved. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s
- * uniform; the mean of each pixel is then right, but neighbouring strata across the seam differ. With phase=folded
- * the coordinates of all uses but the pixel are mapped by x -> |2 frac(x + s) - 1|, s uniform in [0,1), which has no
- * seam.
+ * left of the pixel never see the right of a light. The parameter `phase` can correct this. With phase=fixed no use
+ * is moved. With phase=shifted the other uses are shifted on the torus, x -> frac(x + s) with s uniform; the mean of
+ * each pixel is then right, but neighbouring strata across the seam differ. With phase=folded the coordinates of all
+ * uses but the pixel are mapped by x -> |2 frac(x + s) - 1|, s uniform in [0,1), which has no seam.
  *
  * The parameter `reuse` decides which samples the parts of a split stratum get. With reuse=kept the old sample stays
  * in the part that contains it, and the other parts get new samples. With reuse=renewed all four parts get new
- * samples, and the old sample is dropped. With reuse=fresh samples are first reused as with reuse=kept; when no
+ * samples, and the old sample is dropped. With reuse=fresh, samples are first reused as with reuse=kept; when no
  * stratum is split any more, every stratum gets a new sample for the estimate (Kirk & Arvo 1991: samples that decide
  * must not be counted), and the parts of split strata are paired again in all uses.
  */
@@ -40,7 +39,7 @@ enum { KOKSMA__STAGE_TREE, KOKSMA__STAGE_LAST, KOKSMA__STAGE_PROBE };
 
 typedef struct koksma__stratum {
     uint32_t number;  /* index of the initial stratum, below m x m */
-    uint16_t digits;  /* the quarter of the base use at each split, the first split in the highest digit */
+    uint16_t digits;  /* the quarter of the base use that each split led to; the first split has the highest digit */
     uint8_t level;    /* number of splits that led to this stratum */
     uint8_t needless; /* bit k is set if split k of those that led to this stratum was needless */
     bool pending;     /* whether the sample of the stratum remains to be drawn */

@@ -21,7 +21,7 @@
 /* The numbers that are stored for each AOV and pixel: the sums of weight x value and of value, three channels each. */
 enum { NUMBERS_OF_AOV = 6 };
 
-enum { LANE_CONTINUED = 1 << 21 }; /* keys of the shuffles, above those of the uses and of the pairings */
+enum { LANE_CONTINUED = 1 << 21 }; /* keys of the shuffles' random numbers, above the keys of uses and pairings */
 
 /* ---- Open and close --------------------------------------------------------------------------------------- */
 
@@ -54,7 +54,8 @@ static koksma_status check_patterns(const koksma__adaptive *run)
 {
     const koksma_render_options *options = run->frame->options;
     koksma_status status = KOKSMA_OK;
-    bool seen = false; /* whether options->pattern, that of all uses without their own, has been checked */
+    /* whether options->pattern, the pattern of all uses that have none of their own, has been checked */
+    bool seen = false;
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const koksma__place_of_use place = koksma__place_of_use_at(options, u);
         const bool own = place.group >= 0 || options->patterns[u].pattern;
@@ -123,7 +124,7 @@ size_t koksma__set_size(const koksma__adaptive *run)
 
 /* ---- Samples ---------------------------------------------------------------------------------------------- */
 
-/* Draws the sets number `first` to first + count - 1 as blocks of one two-dimensional sequence; each block is
+/* Draws the sets `first` to first + count - 1 of a pixel as blocks of one two-dimensional sequence; each block is
    shuffled separately. pairs[2 i] and pairs[2 i + 1] are the two coordinates of point i. */
 static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint32_t use, size_t first, size_t count,
                                  koksma__sample_scratch *room, float *pairs)
@@ -302,8 +303,8 @@ static void weights_of(const koksma__adaptive *run, const koksma__pixel_sets *p,
     *b = has_lobes ? 1 / n - *a * p->moments[1][0] / n : 0;
 }
 
-/* Computes the value and the variance of a pixel as film.c does for a filter with negative lobes: the sums of
-   v^j y^k, of the weights v, follow from those of w^j y^k. */
+/* Computes the value and the variance of a pixel as film.c does for a filter with negative lobes: film.c defines the
+   weights v and w of a sample of luminance y; the sums of v^j y^k follow from those of w^j y^k. */
 static double signed_result(const koksma__adaptive *run, const koksma__pixel_sets *p, double n, double rgb[3])
 {
     const double(*m)[3] = p->moments;

@@ -37,7 +37,7 @@ void koksma__sets_take(koksma__adaptive *run, size_t pixel, const koksma__sample
 double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb[3]);
 void koksma__sets_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3]);
 
-/* Forgets the values of a pixel's sets; the number of sets that were drawn stays. */
+/* Resets the sums over a pixel's sets; the number of sets that were drawn is kept. */
 void koksma__sets_forget(koksma__adaptive *run, size_t pixel);
 
 koksma__pixel_sets *koksma__sets_of(const koksma__adaptive *run, size_t pixel);

@@ -2,8 +2,8 @@
 /*
  * Describes the strata of a pixel in the unit square of each use, for figures such as 5.35 and 5.36 of Shirley 1991,
  * and marks the splits that were needless (adaptive_strata.c has the test). Splits are reconstructed from the strata:
- * each stratum stores a digit for each split that led to it. Of all strata that came from one at depth `level`,
- * exactly one has only zeros as its further digits; it represents the split at that depth.
+ * each stratum stores a digit for each split that led to it. Of all strata that descend from one stratum at depth
+ * `level`, exactly one has only zeros among its digits from that depth on; it represents the split of that stratum.
  */
 #include "render/samples/adaptive/adaptive_show.h"
 
@@ -150,9 +150,9 @@ static koksma_status fill_space(view *v, uint32_t use, size_t n_splits, koksma_s
     return KOKSMA_OK;
 }
 
-/* The first space is that of the base use, in which neighbouring strata are compared; the others follow in the order
-   of koksma__list_spaces. The phase moves the samples of a use but not its strata, so the cells are shown without the
-   phase. */
+/* The first entry of out->spaces is for the base use, in which neighbouring strata are compared; the other uses
+   follow in the order of koksma__list_spaces. The phase moves the samples of a use but not its strata, so the cells
+   are shown without the phase. */
 koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, koksma_strata *out)
 {
     const koksma__strata *s = run->state;

@@ -6,8 +6,8 @@
 #include "render/samples/adaptive/adaptive_place.h"
 #include "render/samples/uses.h"
 
-/* Lists the uses whose strata are shown, and returns their number: of the uses that the scene needs the pixel, the
-   lens and the time, and the first lights and the lobe of the first two vertices. */
+/* Lists the uses whose strata are shown, and returns their number: the pixel, the lens, the time, and the first
+   lights and the lobe of the first two vertices, as far as the scene needs these uses. */
 int koksma__list_spaces(const koksma__use_list *there, uint32_t list[KOKSMA_MAX_SPACES]);
 
 /* Describes the strata of a pixel. Errors: MEMORY. */

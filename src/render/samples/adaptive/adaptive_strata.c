@@ -333,8 +333,8 @@ static double volume_of(const koksma__strata *s, const koksma__stratum *stratum)
     return ldexp(1, -2 * stratum->level) / ((double)s->m * s->m);
 }
 
-/* The weights of the strata of a pixel: those of film.c for samples of weight 1 / n, with the volumes of the strata in
-   place of 1 / n, and 1 / (sum of squared volumes) - 1 in place of n - 1. */
+/* The weights of the strata of a pixel, by the formula of film.c for samples of weight 1 / n, with the volumes of the
+   strata in place of 1 / n, and 1 / (sum of squared volumes) - 1 in place of n - 1. */
 typedef struct strata_weights {
     double mean, scale;
 } strata_weights;
@@ -357,8 +357,9 @@ static double weight_of(const strata_weights *w, const koksma__stratum *stratum)
     return 1 + ((double)stratum->weight - w->mean) * w->scale;
 }
 
-/* Computes the value of AOV `a` like that of the pixel. A half has every second stratum in the order of the tree, in
-   which the parts of a stratum follow each other, and divides by their volume. */
+/* Computes the value of AOV `a` as the value of the pixel is computed. `half:even` and `half:odd` sum over every
+   second stratum in the order of the tree, in which the parts of a stratum follow each other, and divide by the total
+   volume of these strata. */
 void koksma__strata_part(const koksma__adaptive *run, size_t pixel, size_t a, double rgb[3])
 {
     const koksma__strata *s = run->state;
