@@ -67,9 +67,10 @@ static koksma_status check_view(const koksma__gltf *g, const field *f)
         buffer = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, (size_t)number);
         status = bytes(&buffer, "byteLength", true, &room);
     }
-    KOKSMA__JSON_FAIL_IF(!status && (offset + length > room || stride > 252), f,
-                         "%lld bytes from %lld on lie beyond a buffer of %lld, or a stride above 252", length, offset,
-                         room);
+    KOKSMA__JSON_FAIL_IF(!status && offset + length > room, f,
+                         "its %lld bytes, from byte %lld on, go beyond the end of a buffer of %lld bytes", length,
+                         offset, room);
+    KOKSMA__JSON_FAIL_IF(!status && stride > 252, f, "byteStride is %lld; it must be at most 252", stride);
     return status;
 }
 

@@ -214,7 +214,7 @@ static bool of_names(const koksma__unread *u, asked *a)
         if (all[i].n && here(a)) {
             char more[48] = "";
             if (all[i].n > 1) {
-                snprintf(more, sizeof more, " (nor %zu more)", all[i].n - 1);
+                snprintf(more, sizeof more, " (and so with %zu more)", all[i].n - 1);
             }
             snprintf(a->text, a->size, "%s: %s%s", all[i].name, all[i].what, more);
             return true;

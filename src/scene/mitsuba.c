@@ -207,7 +207,8 @@ static koksma_status transform(const reader *r, const node *n, const char *name,
     const node *t = property(r, n, name);
     memcpy(out, koksma__import_identity, sizeof koksma__import_identity);
     if (t && is(t, "animation")) {
-        KOKSMA__TRY(koksma__import_unknown(r->im, t->place, "motion is ignored: all is as at the first time"));
+        KOKSMA__TRY(
+            koksma__import_unknown(r->im, t->place, "motion is ignored: the transform of the first time is taken"));
         t = first_of(r, t);
     }
     for (const node *c = t ? first_of(r, t) : NULL; c; c = next_of(r, c)) {
@@ -653,7 +654,7 @@ static koksma_status name_media(reader *r, const node *n, int material)
 {
     const node *inside = medium_of(r, n, "interior"), *outside = medium_of(r, n, "exterior");
     if (inside && strcmp(type_of(inside), "homogeneous") != 0) {
-        return koksma__import_unknown(r->im, n->place, "media that vary are ignored");
+        return koksma__import_unknown(r->im, n->place, "media that vary in space are ignored");
     }
     if (inside && n != r->box) {
         return koksma__import_unknown(
@@ -716,8 +717,8 @@ static koksma_status set_medium(reader *r)
         return KOKSMA_OK;
     }
     if (strcmp(type_of(n), "homogeneous") != 0 || property(r, n, "material")) {
-        return koksma__import_unknown(r->im, n->place,
-                                      "media that vary, or have the name of a material, are ignored");
+        return koksma__import_unknown(
+            r->im, n->place, "media that vary in space, and media named in place of a material, are ignored");
     }
     set_read(r, n);
     const bool old = property(r, n, "sigma_s") || property(r, n, "sigma_a");

@@ -33,7 +33,7 @@ static koksma_status parse_blades(const field *f, koksma__camera *camera)
     koksma_status status = koksma__json_get_whole(f, "lens_blades", false, 3, MOST_BLADES, &blades);
     status = status ? status : koksma__json_get_number(f, "lens_angle_deg", false, -360, 360, &angle_deg);
     KOKSMA__JSON_FAIL_IF(!status && koksma__json_has(f, "lens_angle_deg") && !blades, f,
-                         "lens_angle_deg turns the corners that 'lens_blades' gives the lens");
+                         "lens_angle_deg turns the corners of the lens, whose number 'lens_blades' gives");
     KOKSMA__JSON_FAIL_IF(!status && blades && !(camera->lens_radius > 0), f, "lens_blades needs a 'lens_radius'");
     camera->blades = (int)blades;
     camera->blade_angle_rad = angle_deg * TURN / 360;

@@ -560,7 +560,8 @@ static koksma_status take_medium(reader *r, source *s)
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     if (strcmp(koksma__pbrt_word(p, "type", ""), "homogeneous") != 0 || koksma__pbrt_find(p, "preset") ||
         koksma__pbrt_find(p, "Le")) {
-        return koksma__import_unknown(r->im, p->place, "media that vary, emit or are presets are ignored");
+        return koksma__import_unknown(r->im, p->place,
+                                      "media that vary in space, emit light or are presets are ignored");
     }
     KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, "sigma_a", medium.absorption));
     KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, "sigma_s", medium.scattering));

@@ -207,7 +207,9 @@ static void numbers_out_of_range_are_refused(void **state)
          "accessors[4]: 6 elements of 4 bytes lie beyond a view of 36 bytes"},
         {"\"count\": 4", "\"count\": 3", "TEXCOORD_0: accessor 1 has 4 elements, but accessor 0 has 3 positions"},
         {"\"byteOffset\": 88", "\"byteOffset\": 89",
-         "bufferViews[3]: 36 bytes from 89 on lie beyond a buffer of 124"},
+         "bufferViews[3]: its 36 bytes, from byte 89 on, go beyond the end of a buffer of 124 bytes"},
+        {"\"byteLength\": 36", "\"byteStride\": 256, \"byteLength\": 36",
+         "byteStride is 256; it must be at most 252"},
         {"{\"buffer\": 0", "{\"buffer\": 1", "bufferViews[0]: buffer: there is no buffer 1; the file has 1"},
         {"\"byteLength\": 124", "\"byteLength\": 128", "buffers[0]: byteLength is 128, but there are only 124 bytes"},
     };

@@ -50,7 +50,7 @@ static const struct {
      "\"focus_distance\": 1, \"lens_blades\": 2}}",
      "line 1: camera.lens_blades: 2 is not in 3 to 64"},
     {"{\"camera\": {\"eye\": [0, 1, 0], \"target\": [9, 1, 0], \"fov_deg\": 40, \"lens_angle_deg\": 5}}",
-     "line 1: camera: lens_angle_deg turns the corners"},
+     "line 1: camera: lens_angle_deg turns the corners of the lens, whose number 'lens_blades' gives"},
     {"{" CAMERA "\"materials\": [{\"name\": \"m\", \"kind\": \"gold\"}]}",
      "line 2: materials[0]: no kind 'gold'; known here: lambert"},
     {"{" CAMERA "\"materials\": [{\"name\": \"m\", \"kind\": \"lamber\"}]}",

@@ -306,7 +306,7 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
     KOKSMA__FAIL_IF(adaptive->probes && !method->probes, KOKSMA_ARGUMENT,
                     "%s splits no strata, so that probes have no effect; leave out the probes", name);
     const koksma_strata *strata = adaptive->strata;
-    KOKSMA__FAIL_IF(strata && !method->show, KOKSMA_ARGUMENT, "%s: it has no strata to show", name);
+    KOKSMA__FAIL_IF(strata && !method->show, KOKSMA_ARGUMENT, "%s splits no strata, so that none can be shown", name);
     KOKSMA__FAIL_IF(
         strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height),
         KOKSMA_ARGUMENT, "pixel %d,%d is outside the image of %d x %d pixels", strata->x, strata->y, options->width,
