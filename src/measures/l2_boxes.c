@@ -83,8 +83,8 @@ L2(periodic, "L2 discrepancy over boxes on the torus (root mean square)", "lev19
    .a24 = {8, 0, 0, 0}, .g = {0.25, 0, 0, 0}, .q = -1, .r = 1);
 
 /*
- * l2-wraparound: the sum of l2-periodic over all projections: its square is the sum, over the non-empty sets of
- * coordinates, of the square of l2-periodic of the points in these coordinates.
+ * l2-wraparound: l2-periodic over all projections: its square is the sum, over the non-empty sets of coordinates, of
+ * the square of l2-periodic of the points in these coordinates.
  *
  * Formula: -(4/3)^d + (1/n^2) sum_ij prod_k (3/2 - t + t^2), t = |x_ik - x_jk|.
  * Source: Hickernell 1998. SciPy's qmc.discrepancy(method='WD') is the square.
@@ -94,9 +94,9 @@ L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", true, 16, .a24 = 
    .q = -1, .r = 1);
 
 /*
- * l2-modified: the sum of l2-star over all projections: its square is the sum, over the non-empty sets of
- * coordinates, of the square of l2-star of the points in these coordinates. It is the worst-case integration error
- * over functions whose mixed first derivatives, anchored at 1, have norm 1.
+ * l2-modified: l2-star over all projections: its square is the sum, over the non-empty sets of coordinates, of the
+ * square of l2-star of the points in these coordinates. It is the worst-case integration error over functions whose
+ * mixed first derivatives, anchored at 1, have norm 1.
  *
  * Formula: (4/3)^d - (2/n) sum_i prod_k (3 - x_ik^2)/2 + (1/n^2) sum_ij prod_k (2 - max(x_ik, x_jk)).
  * Source: Hickernell 1998.

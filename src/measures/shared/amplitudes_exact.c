@@ -37,7 +37,7 @@ static bool keep_going(void *context, double fraction)
 }
 
 /* Writes for each point from + j, j < count, and each r < width the number out[width j + r]: the cosine (even r) or
-   sine (odd r) of coordinate k at frequency first/2 + r/2, rounded down. */
+   sine (odd r) of 2 pi f x, where x is coordinate k of the point and f = first/2 + r/2, in integer division. */
 static void fill_panel(const koksma_points *p, int k, size_t first, int width, size_t from, size_t count, double *out)
 {
     for (size_t j = 0; j < count; j++) {

@@ -59,8 +59,8 @@ double koksma__ball_overlap(koksma__disk_law law, double r, double distance2)
     return M_PI * t * t * t * (r + h) / (3 * r);
 }
 
-/* Returns the derivative of the mean overlap by the distance. For a given radius it is minus the length of the common
-   chord of two disks, or minus the area of the common disk of two balls. */
+/* Returns the derivative of the mean overlap by the distance. For a given radius this derivative is minus the length
+   of the common chord of two disks, or minus the area of the disk in which two spheres intersect. */
 double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double distance)
 {
     const double h = distance / 2;

@@ -2,17 +2,17 @@
 /*
  * edge in 3 dimensions. The deficit of an open half-space is the excess of its complement, a closed half-space. So
  * the supremum is that of count/n - volume over closed half-spaces. It is reached by a half-space that has the least
- * volume among those that contain some subset of the points. Consider the section of its plane with the cube. The
- * plane goes through three points; or through two points whose line contains the centroid of the section (otherwise
- * turning the plane about that line would reduce the volume); or through one point, which is the centroid.
+ * volume among those that contain some subset of the points. Consider the section of its bounding plane with the
+ * cube. This plane goes through three points; or through two points whose line contains the centroid of the section
+ * (otherwise turning the plane about that line would reduce the volume); or through one point, which is the centroid.
  *
  * The cube is unchanged by reflection in its centre. For such bodies Meyer and Reisner (1991) proved: for each
  * v < 1/2 there is a convex body in the cube such that every plane that cuts off the volume v touches this body, at
  * the centroid of the plane's section. The bodies are nested: the larger v, the smaller the body. Therefore only one
- * of them touches a given line or a given point. Hence, as a plane turns about a line, the volume has one minimum and
- * one maximum, opposite to each other, and is stationary nowhere else: golden section search finds the minimum. For
- * planes through a point, compute for each horizontal line through the point the least volume over the planes through
- * that line. As a function of the direction of the line this has one minimum.
+ * of these bodies touches a given line or a given point. Hence, as a plane turns about a line, the volume has one
+ * minimum and one maximum, opposite to each other, and is stationary nowhere else: golden section search finds the
+ * minimum. For planes through a point, compute for each horizontal line through the point the least volume over the
+ * planes through that line. As a function of the direction of the line this least volume has one minimum.
  *
  * There is one exception: many sections can have the same centroid if it is on an axis of the cube. The volume is
  * then constant while the plane turns. Then some optimal plane also goes through another point and through a corner
