@@ -38,7 +38,7 @@ typedef struct interlacing {
     uint64_t spread[256];
 } interlacing;
 
-/* Stores for each byte its bits with `order` - 1 zeros between each two. */
+/* Stores for each byte its bits with `order` - 1 zeros between adjacent bits. */
 static void make_spread(int order, uint64_t spread[256])
 {
     for (int byte = 0; byte < 256; byte++) {

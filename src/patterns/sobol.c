@@ -297,7 +297,8 @@ const koksma_pattern koksma__pattern_sobol = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 |
               KOKSMA_CLAIM_NET2_PREFIXES,
     .params = params,
-    .revision = 2, /* its rows without scrambling have one trial now (docs/decisions/0058) */
+    .revision = 2, /* since revision 2 a study makes one trial, not several, of the unscrambled points
+                      (docs/decisions/0058) */
     .generate = generate,
     .ranges = koksma__ranges_always,
 };

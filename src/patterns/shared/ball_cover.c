@@ -22,7 +22,9 @@
 enum { LOOK_EVERY = 1 << 14, CHILDREN = 1 << KOKSMA__BALL_DIMS };
 
 #define NONE UINT32_MAX
-#define FINEST ((uint32_t)1 << 29) /* largest number of cubes along an axis; smaller free volumes are ignored */
+
+/* The largest number of cubes along an axis; free volumes smaller than such a cube are ignored. */
+#define FINEST ((uint32_t)1 << 29)
 
 double koksma__balls_per_volume(int dim)
 {
@@ -249,7 +251,7 @@ static void move_region(const koksma__balls *s, const uint32_t *cube, region *r)
     }
 }
 
-/* Lists the children of a cube that have free volume after those in `list`. */
+/* Appends to `list` the children of a cube that have free volume. */
 static koksma_status add_children(const koksma__balls *s, const uint32_t *cube, region *r, uint32_t **list,
                                   size_t *room, size_t *count)
 {

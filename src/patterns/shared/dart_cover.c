@@ -29,9 +29,8 @@
 
 #define NONE UINT32_MAX
 
-#define FINEST                                                                                                       \
-    ((uint64_t)1 << 30) /* largest number of squares on a side of the torus; smaller free areas are ignored
-                                      */
+/* The largest number of squares on a side of the torus; free areas smaller than such a square are ignored. */
+#define FINEST ((uint64_t)1 << 30)
 
 static const double far_away = 1e9;
 

@@ -22,11 +22,11 @@ enum { KOKSMA__LATTICE_FEW = 64 };
 typedef struct koksma__lattice_search {
     size_t n;
     const koksma_run *run;
-    koksma__unit_sums *sums; /* NULL until they are needed */
+    koksma__unit_sums *sums; /* the sums of unit_sums.c; NULL until the search needs them */
     double *product;         /* n numbers: elements 1 .. n/2 are the products of the coordinates so far */
     double *values;          /* n/2 + 1 numbers: the amount that each multiplier would add to the sum, up to rounding
                              */
-    /* only for small n. few: memory of `product` and `values`; kernel[i]: B_2(i / n) */
+    /* used only for small n. few: the memory of `product` and `values`; kernel[i]: B_2(i / n) */
     double few[2 * KOKSMA__LATTICE_FEW], kernel[KOKSMA__LATTICE_FEW];
 } koksma__lattice_search;
 

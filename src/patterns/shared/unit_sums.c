@@ -124,7 +124,7 @@ static koksma_status make_room(koksma__unit_sums *s)
         }
     }
     longest = padded > longest ? padded : longest;
-    const size_t line = longest > 64 ? longest : 64; /* transforms that are computed by the definition use up to 64
+    const size_t line = longest > 64 ? longest : 64; /* direct transforms, which sum the definition, use up to 64
                                                         numbers */
     const size_t bytes = 2 * (line + several) * sizeof *s->line_re;
     s->line_re = malloc(bytes);
