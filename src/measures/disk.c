@@ -36,7 +36,7 @@ typedef struct search {
                                          the pairs of points i and j > i */
 } search;
 
-/* Tries the disks of radius 0 about each point. */
+/* Tries the disk of radius 0 about each point. */
 static void try_points(search *s)
 {
     for (size_t i = 0; i < s->set.m; i++) {

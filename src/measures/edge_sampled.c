@@ -5,8 +5,8 @@
  * Formula: the root of the mean, over `lines` random lines, of (#{x_i above the line}/n - area above)^2; its standard
  * error is the standard error of the mean of the squares, divided by twice the value.
  * Source: Mitchell 1992, section 5, which uses 10,000 lines. With skip=1 the first point is never counted, although n
- * includes it. This reproduces the paper's table 4 to within its noise; presumably the loop of the paper's program
- * began at 1.
+ * includes it. This reproduces table 4 of the paper to within the noise of 10,000 lines; presumably the loop of the
+ * paper's program began at 1.
  * Known exactly: with skip=0 the expectation of the squared value is l2-edge squared.
  * Limits: the value is random; equal seeds
  * give equal bits. In 3 dimensions random planes through the cube replace the lines, with the isotropic distribution

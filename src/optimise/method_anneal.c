@@ -185,7 +185,7 @@ static void swap(job *j, double *xs, size_t k, size_t p, size_t q)
     order[rank[q]] = (uint32_t)q;
 }
 
-/* Proposes SWAPS n swaps; each is accepted if the change is below a random threshold with this mean. */
+/* Proposes SWAPS n swaps; each is accepted if the change is below a random threshold whose mean is `threshold`. */
 static void propose(job *j, double *xs, double threshold)
 {
     const size_t n = j->n;

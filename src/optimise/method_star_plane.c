@@ -93,12 +93,12 @@ typedef struct plane {
     float *rounded;           /* v as floats */
     uint32_t *cause, *queue, *found, *stamps;
     uint8_t *queued;
-    size_t first, waiting; /* first entry and length of the queue, a ring buffer of 2 side nodes */
+    size_t first, waiting; /* first entry and length of the queue, a ring buffer with capacity for 2 * side nodes */
     uint32_t stamp;
     cycle cycles[CYCLES];     /* the stored cycles; the most recently violated ones come first */
     cycle guides[GUIDES];     /* some of the stored cycles that are violated at a walk's target */
     size_t guided, conflicts; /* number of guides, and number of stored cycles violated at the target */
-    edge *traced, *critical;  /* each has capacity for 2 side edges */
+    edge *traced, *critical;  /* each has capacity for 2 * side edges */
     size_t n_traced, n_critical;
     double work, budget;
     koksma__stream random;

@@ -30,7 +30,8 @@ enum { FEW = 256, BLOCK = 256 };
 typedef struct grid {
     uint64_t seed, key; /* key: the hash key of the permutation that orders the points */
     uint32_t columns, rows;
-    uint32_t *in_column, *in_row; /* the permutations p, of `rows` numbers, and q, of `columns` */
+    uint32_t *in_column, *in_row; /* the permutation p of `rows` numbers, and the permutation q of `columns`
+                                     numbers */
 } grid;
 
 static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)

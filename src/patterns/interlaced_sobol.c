@@ -49,8 +49,8 @@ static void make_spread(int order, uint64_t spread[256])
     }
 }
 
-/* The number whose binary digits are those of `order` numbers y, taken in turn, byte by byte of each: digit j of byte k
-   of y_r is digit order (8 k + j) + r. */
+/* Returns the number whose binary digits are those of `order` numbers y in turn. The digits are placed byte by byte:
+   digit j of byte k of y_r becomes digit order (8 k + j) + r. */
 static double interlace(const double *y, int order, const uint64_t *spread)
 {
     uint64_t x = 0;

@@ -90,8 +90,8 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
     return true;
 }
 
-/* Visits the pairs of cell c with itself and with its later neighbour cells, each neighbour once. Adjacent neighbour
-   cells are visited together, because their points are contiguous in memory. */
+/* Visits the pairs of points within cell c, and the pairs of a point in c and a point in a later neighbour cell.
+   Adjacent neighbour cells are visited together, because their points are contiguous in memory. */
 static bool pairs_of_cell(visit *v, size_t c)
 {
     const size_t m = v->g->columns;

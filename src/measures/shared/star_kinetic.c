@@ -176,7 +176,8 @@ static void advance(tree *t, size_t v)
     pull(t, v);
 }
 
-/* Raises *best to the largest leaf below node v if it is larger. slack: the amount by which bounds may be too low. */
+/* Raises *best to the largest value of the leaves below node v, if that is larger. slack: the amount by which bounds
+   may be too low. */
 static void look(tree *t, size_t v, double slack, double *best)
 {
     t->looks++;

@@ -6,8 +6,9 @@
 
 #include <koksma/koksma.h>
 
-/* Computes index[i], the index of the point at position first + i in the random order for this seed, where both are
-   numbers within a part (patterns/shared/parts.h). Each part has an order of its own; the parts are not shuffled. */
+/* Computes index[i], the index of the point at position first + i in the random order for this seed; indices and
+   positions are counted from the beginning of the part (patterns/shared/parts.h). Each part has an order of its own;
+   the parts are not shuffled. */
 void koksma__hash_owen_order(uint64_t seed, uint64_t part, uint64_t first, size_t count, uint32_t *index);
 
 /* Scrambles coordinate k of `count` points. v[i] has the coordinate with its bits reversed and is overwritten; xs[i]
