@@ -74,7 +74,7 @@ L2(extreme, "L2 discrepancy over all boxes [lo, hi): root of the integral, not o
 /*
  * l2-periodic: the root mean square, over boxes on the torus whose start and length in each coordinate are uniform,
  * of the difference between the share of points in the box and its volume. Shifting all points on the torus does not
- * change it.
+ * change the value.
  *
  * Formula: -(3^-d) + (1/n^2) sum_ij prod_k (1/2 - t + t^2), t = |x_ik - x_jk|.
  * Source: Lev 1995; Hinrichs, Kritzinger and Pillichshammer 2020, who call it periodic.

@@ -34,8 +34,8 @@
  *     P_2 = (1/n) sum_i sum_(l=1)^Q Gamma_l e_l(2 pi^2 B_2({i z_0 / n}), 2 pi^2 B_2({i z_1 / n}), ...)
  *
  * with e_l the elementary symmetric polynomials. LatNet Builder's weights order-dependent:0:1,0.1,0.01 are
- * order=3,gamma2=0.1,gamma3=0.01. In two dimensions weights do not matter, so that z_1 is the best multiplier in two
- * dimensions even with gamma2=0.
+ * order=3,gamma2=0.1,gamma3=0.01. In two dimensions weights do not matter. With gamma2=0, which gives pairs of
+ * coordinates no weight, z_1 is still the best multiplier in two dimensions.
  *
  * Time: The search takes O(dim n log n): half a second for 2^20 points in 10 dimensions, hardly more for a prime
  * number of points. The memory in addition to the points is 28 n bytes for powers of two, up to 95 n bytes for other
@@ -69,9 +69,9 @@ static koksma_status weights_of(const koksma_args *args, int order, double facto
         factors[l - 1] = weight < 0 ? 1 : weight * power;
         sum += l <= order ? factors[l - 1] : 0;
     }
-    KOKSMA__FAIL_IF(order && sum == 0, KOKSMA_ARGUMENT,
-                    "lattice-rank1: gamma2 to gamma%d are 0, so that every lattice is as good; one above 0 would do",
-                    order);
+    KOKSMA__FAIL_IF(
+        order && sum == 0, KOKSMA_ARGUMENT,
+        "lattice-rank1: gamma2 to gamma%d are 0, so that all lattices are equally good; one above 0 would do", order);
     return KOKSMA_OK;
 }
 

@@ -35,7 +35,7 @@ enum {
     LOOKS_A_PAIR = 16
 };
 
-static const double max_work = 0x1p28; /* limit of point tests if there is no time limit; they take some seconds */
+static const double max_work = 0x1p28; /* limit of point tests (some seconds) if there is no time limit */
 static const double slack = 1e-12;     /* larger than the rounding errors of a bound */
 
 typedef struct cell {

@@ -64,8 +64,8 @@ typedef struct plane {
 
 typedef struct searcher {
     const plane *p;
-    koksma__run_list lists[DEPTH]; /* lists of points: of a group of tiles, of 16 tiles, and of tiles at depths 0 and
-                                      1 */
+    koksma__run_list lists[DEPTH]; /* the points of [0] a group of tiles, [1] up to LANES tiles at depth 0, [2] one
+                                      tile at depth 0, [3] one tile at depth 1 */
     tile waiting[LANES];           /* strips to measure */
     size_t n_waiting;
     best_strip best;

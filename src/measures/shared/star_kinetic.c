@@ -19,10 +19,11 @@
  * Guibas & Hershberger 1999) with x as the time. A node then stores the winner, which is the line with the largest
  * value among its leaves, and the x until which this line is known to win:
  *
- *     value |        ____.--  line 2 overtakes at `until`
+ *     value |        ____.--  line 2 overtakes
  *           |  __.--'  .--'
  *           |-'    .--'  line 1 wins
  *           +----------|--------- x
+ *                    until
  *
  * At an x below `until` the stored winner of a subtree is valid and is read in O(1). Past `until` the node's winner
  * and `until` are computed again from those of its children. An insertion adds one to the counts of a range of ranks:

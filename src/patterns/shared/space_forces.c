@@ -5,6 +5,7 @@
  *   s <= 1/10   Only the nearest image of a point can be within the cut-off 5 s. Points are sorted into cells that are
  *               5 s / 2 wide, and 5^dim cells are visited; if fewer than 5 cells fit along an axis, there is only one
  *               cell.
+ *
  *   s > 1/10    All images act. The sum over the images is a product over the axes of the periodic Gaussian
  *                   g(t) = sum over m of exp(-(t + m)^2 / (2 s^2)),
  *               so that the force along axis k is -s^2 g'(t_k) product over j != k of g(t_j), without a cut-off. 1,024
