@@ -108,8 +108,8 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
     s->blocks = malloc(s->set.m * sizeof *s->blocks);
     KOKSMA__REQUIRE_MEMORY(s->blocks, s->set.m * sizeof *s->blocks);
     try_singles(s);
-    /* All blocks use this lower bound for pruning. It is computed before the blocks start, so that results do not
-       depend on the number of threads. */
+    /* All blocks use this lower bound for pruning. The bound is computed before the blocks start, so that results do
+       not depend on the number of threads. */
     koksma_status status = koksma__disk_pencils(&s->set, s->set.m / 2, &s->start);
     status = status ? status : koksma__parallel(run, s->set.m, block, s);
     for (size_t i = 0; !status && i < s->set.m; i++) {

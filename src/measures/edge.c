@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * edge: the largest absolute difference, over all half-planes, between the share of points in the half-plane and the
- * area of the unit square in it. It is the largest error of the coverage of a pixel by an edge when the points
- * estimate that coverage. Mitchell 1992 announces this measure as work of David Dobkin.
+ * area of the unit square in it. The value is the largest error when the points estimate how much of a pixel an edge
+ * covers. Mitchell 1992 announces this measure as work of David Dobkin.
  *
  * Formula: sup over half-planes H of |#{x_i in H}/n - area of H in the square|. Turning a line about a point changes
  * the area on one side of the line by (r1^2 - r2^2)/2 per radian, where r1 and r2 are the lengths of the line from

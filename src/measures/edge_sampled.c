@@ -101,7 +101,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 
 static const koksma_param params[] = {
     {"lines", "number of random lines (in 3D: planes)", 10000, 1, 1e8, NULL, true},
-    {"law", "distribution of the lines: isotropic, or that of Mitchell 1992", 0, 0, 1, koksma__line_laws, true},
+    {"law", "distribution of the lines: isotropic, or as in Mitchell 1992", 0, 0, 1, koksma__line_laws, true},
     {"seed", "seed of the lines", 1, 0, 9007199254740992.0, NULL, true},
     {"skip", "number of points at the start that are not counted", 0, 0, 1e9, NULL, true},
     {0},

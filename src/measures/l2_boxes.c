@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The L2 discrepancies of boxes, one table row for each. Each is the norm of the signed measure (points - volume)
- * under a kernel K; its square is
+ * The L2 discrepancies of boxes, one table row for each. Each discrepancy is the norm of the signed measure (points -
+ * volume) under a kernel K; its square is
  *
  *     c^d - (2/n) sum_i prod_k a(x_ik) + (1/n^2) sum_ij prod_k K(x_ik, x_jk),
  *     a(u) = int_0^1 K(u, v) dv,  c = int_0^1 a(u) du.
  *
- * They differ only in the kernel K, whose coefficients are in the table row (see measures/shared/l2_pairs.h);
- * shared/l2.c chooses the method by n and dim. Limits: the three terms cancel. In one and two dimensions the sums are
- * exact or have 106 bits, and the relative error of the value is 1e-11 for 10^6 points. In more dimensions the error of
- * the square is about 1e-16 times its terms (l2-star: 1e-17).
+ * The discrepancies differ only in the kernel K, whose coefficients are in the table row (see
+ * measures/shared/l2_pairs.h); shared/l2.c chooses the method by n and dim. Limits: the three terms cancel. In one
+ * and two dimensions the sums are exact or have 106 bits, and the relative error of the value is 1e-11 for 10^6
+ * points. In more dimensions the error of the square is about 1e-16 times its terms (l2-star: 1e-17).
  */
 #include "measures/l2_boxes.h"
 
@@ -46,7 +46,7 @@
 
 /*
  * l2-star: the root mean square, over all boxes [0,y) with a corner at the origin, of the difference between the
- * share of points in the box and its volume. It is S in Shirley 1991, and T with the L2 norm in Mitchell 1992.
+ * share of points in the box and its volume. The value is S in Shirley 1991, and T with the L2 norm in Mitchell 1992.
  *
  * Formula: S^2 = 3^-d - (2/n) sum_i prod_k (1 - x_ik^2)/2 + (1/n^2) sum_ij prod_k (1 - max(x_ik, x_jk)).
  * Source: Warnock 1972; Shirley 1991, section 5.5.7; Mitchell 1992, section 2; in O(n log n) after Heinrich 1996.
@@ -97,8 +97,8 @@ L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", true, 16, .a24 = 
 
 /*
  * l2-modified: l2-star over all projections: its square is the sum, over the non-empty sets of coordinates, of the
- * square of l2-star of the points in these coordinates. It is the worst-case integration error over functions whose
- * mixed first derivatives, anchored at 1, have norm 1.
+ * square of l2-star of the points in these coordinates. The value is the worst-case integration error over functions
+ * whose mixed first derivatives, anchored at 1, have norm 1.
  *
  * Formula: (4/3)^d - (2/n) sum_i prod_k (3 - x_ik^2)/2 + (1/n^2) sum_ij prod_k (2 - max(x_ik, x_jk)).
  * Source: Hickernell 1998.

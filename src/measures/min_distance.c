@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * min-distance: the smallest distance between two points. Unlike for the discrepancies, a larger value means more
+ * min-distance: the smallest distance between two points. In contrast to the discrepancies, a larger value means more
  * even points.
  *
  * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in space.

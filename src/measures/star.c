@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * star: the L-infinity star discrepancy, the largest absolute difference, over all boxes with a corner at the origin,
- * between the share of points in the box and its volume. It is D in Shirley 1991.
+ * between the share of points in the box and its volume. The value is D in Shirley 1991.
  *
  * Formula: D = sup over y in [0,1]^d of |#{x_i in [0,y)}/n - prod_k y_k|. The supremum is reached at a corner whose
  * coordinates are coordinates of points, or 1 (Niederreiter 1972): an excess by a closed box, a deficit by an open

@@ -18,9 +18,9 @@
  *     2 sum_(j != p, q) (R_pj - R_qj) (K_k(q, j) - K_k(p, j)) + (R_pp - R_qq) (K_k(q, q) - K_k(p, p))
  *     - 2 n (B_p - B_q) (a_k(q) - a_k(p)),
  *
- * where R is the product of the kernels K_l, and B that of their integrals a_l, over the coordinates l != k. The
- * kernels of all pairs are stored, one matrix for each coordinate: a change is a sum along rows, in fixed order, and
- * a swap of coordinate k exchanges two rows and two columns of matrix k.
+ * where R is the product of the kernels K_l, and B the product of their integrals a_l, over the coordinates l != k.
+ * The kernels of all pairs are stored, one matrix for each coordinate: a change is a sum along rows, in fixed order,
+ * and a swap of coordinate k exchanges two rows and two columns of matrix k.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -24,8 +24,8 @@
 
 enum { MOVES = 200, LOWER = 10, DIGITS = KOKSMA__SEQUENCE_DIGITS };
 
-/* Computes coordinate k of all points from that of the points with indices 2^c: the digits of point 2^c are column c
-   of the generator matrix. */
+/* Computes coordinate k of all points from coordinate k of the points with indices 2^c: its digits are column c of
+   the generator matrix. */
 static void fill(koksma_points *points, size_t k)
 {
     const size_t dim = (size_t)points->dim;

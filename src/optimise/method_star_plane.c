@@ -11,19 +11,19 @@
  *     X_i Y_j >= c(i,j) - F,   X_i Y_j <= c(i-1,j-1) + F,   X_i <= X_i+1,   Y_j <= Y_j+1,   X_n+1 Y_n+1 = n,
  *
  * i, j = 1 .. n + 1; X_n+1 and Y_n+1 are the sides of the domain, whose area is scaled to n. In logarithms these are
- * difference constraints. They have a solution if and only if no cycle of constraints is violated. A solution is then
- * found from any start by raising X or lowering Y where a constraint is violated, one node after the other (Bellman &
- * Ford with a queue). A violated cycle is found by following the causes of changes. It becomes satisfiable at the F
- * for which the product of its terms (count - F) equals the product of its terms (count + F): F is raised to this
- * value, and the search for violations continues. When no constraint is violated, F is the least value for the
- * permutation p, and the cycle to which F was raised last is called critical.
+ * difference constraints. The constraints have a solution if and only if no cycle of constraints is violated. A
+ * solution is then found from any start by raising X or lowering Y where a constraint is violated, one node after the
+ * other (Bellman & Ford with a queue). A violated cycle is found by following the causes of changes. The cycle
+ * becomes satisfiable at the F for which the product of its terms (count - F) equals the product of its terms (count
+ * + F): F is raised to this value, and the search for violations continues. When no constraint is violated, F is the
+ * least value for the permutation p, and the cycle to which F was raised last is called critical.
  *
  * A walk starts from the permutation of the points (i, {i a + s}), where a has small partial quotients and s is
  * random, or, in a share of the searches (width_of), from the best set. The least F that a walk has met is its
  * target; it accepts permutations whose F is below a limit, which exceeds the target by a threshold (record-to-record
- * travel, Dueck 1993). A move swaps the ranks by y of two points. It is chosen for a cycle that is violated at the
- * target: a box of this cycle with too many points loses a point, or a box with too few points gains one, because no
- * other swap can help. The last CYCLES violated cycles are stored, and a walk reduces the number of stored cycles
+ * travel, Dueck 1993). A move swaps the ranks by y of two points. The move is chosen for a cycle that is violated at
+ * the target: a box of this cycle with too many points loses a point, or a box with too few points gains one, because
+ * no other swap can help. The last CYCLES violated cycles are stored, and a walk reduces the number of stored cycles
  * that are violated at the target: a move that increases this number, or violates a stored cycle at the limit, is
  * rejected before any constraint is checked. The least F is computed only when no stored cycle is violated; it gives
  * a new target or a new cycle (min-conflicts with constraints generated on demand). Work is counted in corners

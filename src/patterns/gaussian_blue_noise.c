@@ -22,10 +22,10 @@
  * 2,000 steps, but 0.0090 after 400.
  *
  * If all forces beyond the cut-off had the same direction, at the mean density of the points their sum would be n
- * integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s. This bounds the error of a move. With few
- * points, where 5 s > 1/2, several periodic images of a point are within 5 s and all exert forces. The torus is then
- * repeated in tiles x tiles copies, which form a torus so large that only the nearest image of a point is within the
- * cut-off.
+ * integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s. This sum bounds the error of a move. With
+ * few points, where 5 s > 1/2, several periodic images of a point are within 5 s and all exert forces. The torus is
+ * then repeated in tiles x tiles copies, which form a torus so large that only the nearest image of a point is within
+ * the cut-off.
  *
  * Limits of sigma: below about 0.13 the forces are too short to push points apart to half the distance of the densest
  * packing; from about 1.1 on, points that are close together feel nearly the same force, and many end at the same

@@ -7,7 +7,7 @@
  *
  * For integrands with square-integrable mixed derivatives up to `order` the error falls as n^-order in place of n^-1,
  * up to powers of log n: for exp in one dimension from 2^5 points on, for products in three dimensions from about
- * 2^10. For integrands that are not smooth the points are worse than those of Sobol'.
+ * 2^10. For integrands that are not smooth the points are worse than the Sobol' points.
  *
  *     scramble=owen   scrambles the coordinates before they are interlaced: estimates are unbiased, and errors fall as
  *                     n^(-order - 1/2). The modifier owen=1 scrambles after interlacing and destroys this rate

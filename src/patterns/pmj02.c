@@ -2,8 +2,8 @@
 /*
  * pmj02: progressive multi-jittered points whose prefixes of 2^m points are (0,m,2)-nets in base 2; they have all
  * properties of the pmj02 sequences of Christensen, Kensler & Kilpatrick 2018. The points are made by stochastic
- * generation (shared/grow.h) from two matrices: that of the Stirling numbers of the first kind modulo 2, and this
- * matrix shifted by a row and a column.
+ * generation (shared/grow.h) from two matrices: the matrix of the Stirling numbers of the first kind modulo 2, and
+ * this matrix shifted by a row and a column.
  *
  *     x(2^l + i) is at a random position in the empty half of the stratum of width 2^-l of x(i XOR partner_l)
  *

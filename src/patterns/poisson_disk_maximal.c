@@ -121,8 +121,8 @@ static koksma_status try_shrink(void *set, size_t kept, double d, size_t n, cons
     return explain(status, c, (double)(n - 1));
 }
 
-/* Searches for a maximal set of n points. It starts up to TRIES times, with the seeds number first .. first + TRIES -
-   1. */
+/* Searches for a maximal set of n points. The search starts up to TRIES times, with the seeds number first .. first +
+   TRIES - 1. */
 static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksma_run *run, cover *c)
 {
     double d = distance_of(fmax((double)n - 0.6 * sqrt((double)n) - 0.4, 0.9), c->dim);

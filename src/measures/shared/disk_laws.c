@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Integrals over the distributions ("laws") of the radius of random disks and balls: the mean overlap of two disks of
- * the same random radius whose centres are a given distance apart, and the mean of the squared area. They have closed
- * forms in h = distance / 2 and s = sqrt(r^2 - h^2): two disks overlap in a lens of area 2 r^2 atan2(s, h) - 2 h s,
- * which is integrated over the distribution of r.
+ * the same random radius whose centres are a given distance apart, and the mean of the squared area. These integrals
+ * have closed forms in h = distance / 2 and s = sqrt(r^2 - h^2): two disks overlap in a lens of area 2 r^2 atan2(s,
+ * h) - 2 h s, which is integrated over the distribution of r.
  */
 #include "measures/shared/disk_laws.h"
 

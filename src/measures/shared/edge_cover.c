@@ -123,8 +123,8 @@ static size_t halve(const cover *v, size_t count, double lower, cut *to)
     return kept;
 }
 
-/* Halves, in rounds, the intervals of directions that may contain a better line. It stops when no such interval is
-   left, when the deadline has passed, or when the intervals are too many or too narrow. */
+/* Halves, in rounds, the intervals of directions that may contain a better line. The search stops when no such
+   interval is left, when the deadline has passed, or when the intervals are too many or too narrow. */
 static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *best, double *upper)
 {
     size_t count = FIRST_CUTS;

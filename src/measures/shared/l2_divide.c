@@ -23,7 +23,7 @@
  * pairs with AVX-512 up to n = 16,384: for kernels with one product 3.0 times in 5D and 5.1 times in 6D, for kernels
  * with three products 19 times in 5D and 50 times in 6D. At n = 65,536 divide and conquer was as fast as pairs in 5D
  * with one product (2.27 s, pairs 2.42 s), but slower in 6D with one product (1.9 times) and in 5D with three
- * products (6.1 times). Larger n were not measured; there the values would differ from those of pairs from the 13th
+ * products (6.1 times). Larger n were not measured; there the values would differ from sums over pairs from the 13th
  * digit on.
  *
  * All sums are compensated. The weights are rounded products, with independent errors of 1e-16 for each point that
@@ -142,8 +142,8 @@ static void pass(worker *w, const item *items, size_t n, int k)
 {
     const divider *d = w->d;
     const int ranks = d->ranks;
-    koksma__sum before[4][RANKS][RANKS]; /* sums of the items so far, by kind (left, upper) and by the products of
-                                            coordinates k and k + 1 */
+    koksma__sum before[4][RANKS][RANKS]; /* sums over the items so far; the indices are the kind of item (left,
+                                            upper), and the product m for coordinate k and for coordinate k + 1 */
     memset(before, 0, sizeof before);
     for (size_t i = 0; i < n; i++) {
         double a[2][RANKS], b[2][RANKS], sum = 0;

@@ -87,8 +87,8 @@ static factor factor_of(wide v)
     return (factor){(int64_t)(v >> LOW_BITS), (int64_t)(v & (((wide)1 << LOW_BITS) - 1))};
 }
 
-/* Adds a b to s, whose unit is 2^LOW_BITS times that of the product. The product of the low halves, which is below
-   2^(2 LOW_BITS), is ignored. */
+/* Adds a b to s, whose unit is 2^LOW_BITS times the unit of the product. The product of the low halves, which is
+   below 2^(2 LOW_BITS), is ignored. */
 static void add_product(products *s, factor a, factor b)
 {
     s->high += (wide)a.high * b.high;

@@ -141,8 +141,8 @@ static bool is_spread(const koksma__torus_cells *g, size_t n)
     return pairs <= CROWD * (double)n;
 }
 
-/* Computes the smallest distance with cells of width r or, for crowded points, by divide and conquer. Both square the
-   same differences, so that they give the same bits. */
+/* Computes the smallest distance with cells of width r or, for crowded points, by divide and conquer. Both methods
+   square the same differences, so that they give equal bits. */
 static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                    double *distance)
 {

@@ -7,12 +7,12 @@
  * blocks of leaves, which are scanned. The star discrepancy of the plane is the largest value of a leaf over all x,
  * and x takes n values from left to right.
  *
- * At first the nodes store bounds. The bound of a node is a line that is above all its leaves at the current x. It
- * has the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only when its
- * bound is above the best value so far. An insertion scans one block and takes the larger of two bounds on its way
- * back to the root, in O(log n). In each step to the right, the bound of a subtree of w ranks rises by at most w/n
- * relative to its leaves. If the leaves are u below the best value, the subtree is therefore searched only once in
- * about u n/w steps.
+ * At first the nodes store bounds. The bound of a node is a line that is above all its leaves at the current x. This
+ * line has the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only
+ * when its bound is above the best value so far. An insertion scans one block and takes the larger of two bounds on
+ * its way back to the root, in O(log n). In each step to the right, the bound of a subtree of w ranks rises by at
+ * most w/n relative to its leaves. If the leaves are u below the best value, the subtree is therefore searched only
+ * once in about u n/w steps.
  *
  * For some points, such as Hammersley's, values near the best occur everywhere, and subtrees are searched too often.
  * These searches are counted, and when there are too many, the rest of the walk is a kinetic tournament (Basch,

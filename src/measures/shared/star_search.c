@@ -10,8 +10,8 @@
  * stores for each point the number of coordinates in which it is outside. A pass therefore reads each point once, and
  * moving an end updates only the points between the old and the new end.
  *
- * A step moves some coordinates by a bounded number of ranks and climbs. It is undone if the new value is less than
- * the old value minus a threshold. The moves get smaller and the threshold goes to zero.
+ * A step moves some coordinates by a bounded number of ranks and climbs. The step is undone if the new value is less
+ * than the old value minus a threshold. The moves get smaller and the threshold goes to zero.
  */
 #include "measures/shared/star_search.h"
 

@@ -183,8 +183,9 @@ static koksma_status throw_dart(koksma__balls *s)
 
 /* ---- The cover ------------------------------------------------------------------------------------------- */
 
-/* Returns those of the `open` children of a cube that the ball about y does not contain. Bit k of the number of a
-   child tells on which side it is along axis k. half: half of the side of a child. */
+/* Returns the children among `open` that the ball of radius d about y does not contain; both are bit sets of the
+   children of a cube. Bit k of the number of a child tells on which side it is along axis k. half: half of the side
+   of a child. */
 static uint64_t open_children(const koksma__balls *s, const double *centre, double half, const double *y,
                               uint64_t open)
 {

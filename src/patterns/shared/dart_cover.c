@@ -63,9 +63,9 @@ static void look_around(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y
     }
 }
 
-/* Finds the quarters of a tile's squares that have free area, in double arithmetic. It is used for squares so small
-   that the rounding of fixed-point positions matters. Larger squares without free area may be kept, because their
-   quarters are examined later. */
+/* Finds the quarters of a tile's squares that have free area, in double arithmetic. The function is used for squares
+   so small that the rounding of fixed-point positions matters. Larger squares without free area may be kept, because
+   their quarters are examined later. */
 static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, size_t first, size_t end,
                              koksma__square *out)
 {

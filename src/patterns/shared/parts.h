@@ -28,8 +28,8 @@ static inline bool koksma__in_first_part(const koksma_args *args, const koksma_p
 /* Cuts a range into its parts and calls f for each. */
 koksma_status koksma__range_parts(const koksma_args *args, koksma_points *out, koksma__part f, const void *context);
 
-/* Returns the exclusive or of the columns 32 + b of a matrix over the bits b of `part`. A column is a whole number whose
-   53 bits are its entries, the highest that of row 1. */
+/* Returns the exclusive or of the columns 32 + b of a matrix over the bits b of `part`. A column is a whole number
+   whose 53 bits are its entries; the highest bit is the entry of row 1. */
 uint64_t koksma__part_sum(const uint64_t columns[KOKSMA__DIGITS], uint64_t part);
 
 /* Returns the first 32 digits of a sum of columns. */
