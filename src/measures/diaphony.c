@@ -8,8 +8,8 @@
  * Source: Zinterhof 1976.
  * Known exactly: one point, F^2 = (1 + pi^2/3)^d - 1; m points i/m on the line, F = pi/(m sqrt 3).
  * Limits: the terms are near 1 and cancel, so the square has an absolute error of about 1e-15. In one and two
- * dimensions with 1,024 points or more the sums have 106 bits, and the relative error of the square is 1e-11. From
- * about 970 dimensions on the square is beyond the range of doubles, and the measure fails.
+ * dimensions with 1,024 points or more the sums are computed with 106 bits, and the relative error of the square is
+ * 1e-11. With about 970 dimensions or more the measure fails, because its square is beyond the range of doubles.
  */
 #include <math.h>
 

@@ -4,19 +4,19 @@
  * points in the disk and its area.
  *
  * Formula: sup over c and 0 <= s <= r of |#{x_i within s of c}/n - pi s^2|, r < 1/2. The largest excess of points is
- * reached at the smallest closed disk about some of the points: a disk of radius 0 about a point, a disk with two
- * points at the ends of a diameter, or one with three points on its rim. The largest deficit is reached at an open
- * disk with three points on its rim, or of radius r with one or two points on its rim. The centres of all disks with
- * two given points on their rim lie on the bisector of these points; every other point is inside the disk while the
- * centre is on one half-line of the bisector.
+ * reached at the smallest closed disk that contains some subset of the points: a disk of radius 0 about a point, a
+ * disk with two points at the ends of a diameter, or one with three points on its rim. The largest deficit is reached
+ * at an open disk with three points on its rim, or of radius r with one or two points on its rim. The centres of all
+ * disks with two given points on their rim lie on the bisector of these points; every other point is inside the disk
+ * while the centre is on one half-line of the bisector.
  * Source: derived; the critical disks are the same as for smallest enclosing circles (Megiddo 1983) and for an
  * arrangement of circles of equal radius.
  * Known exactly: one point has the value 1; the m x m lattice with r < 1/(2m) has 1/n.
  * Limits: a point counts as on the rim if its squared distance from the centre is within 4e-15 of the squared radius,
- * so that rounding does not separate cocircular points; the error of the value is up to 1e-14. Up to 64 points all
- * pairs are tried. For more points a branch and bound search (shared/disk_cover.c) stops at the time limit or,
- * without one, after 2^28 point tests. The value is then a lower bound and comes with an upper bound; this happens
- * for lattices of a few hundred points and for the first 4,096 points of sobol.
+ * so that rounding does not separate cocircular points; the error of the value is up to 1e-14. With up to 64 points
+ * the disks through all pairs of points are tried. For more points a branch and bound search (shared/disk_cover.c)
+ * stops at the time limit or, without one, after 2^28 point tests. The value is then a lower bound and comes with an
+ * upper bound; this happens for lattices of a few hundred points and for the first 4,096 points of sobol.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -32,11 +32,11 @@ enum { PAIRS_TO = 64 };
 
 typedef struct search {
     koksma__disk_set set;
-    koksma__disk_best start, *blocks; /* best disk before pairs are tried; for each point, the best disk of the pairs
-                                         that begin with it */
+    koksma__disk_best start, *blocks; /* start: the best disk before most pairs are tried; blocks[i]: the best disk of
+                                         the pairs of points i and j > i */
 } search;
 
-/* Tries the disks of radius 0 about each point. */
+/* Tries the disk of radius 0 about each point. */
 static void try_points(search *s)
 {
     for (size_t i = 0; i < s->set.m; i++) {
@@ -75,7 +75,7 @@ static int compare_points(const void *a, const void *b)
 }
 
 /* Fills the struct with the distinct points and their multiplicities. The coordinate 1 becomes 0, and so do
-   coordinates up to 2^-400, which are too small for squares of differences. */
+   coordinates up to 2^-400, because squares of such small differences could underflow. */
 static koksma_status fill_set(koksma__disk_set *set, const koksma_points *points)
 {
     const size_t n = points->n;
@@ -108,8 +108,8 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
     s->blocks = malloc(s->set.m * sizeof *s->blocks);
     KOKSMA__REQUIRE_MEMORY(s->blocks, s->set.m * sizeof *s->blocks);
     try_singles(s);
-    /* All blocks prune with this lower bound. It is computed before the blocks start, so that results do not depend
-       on the number of threads. */
+    /* All blocks use this lower bound for pruning. The bound is computed before the blocks start, so that results do
+       not depend on the number of threads. */
     koksma_status status = koksma__disk_pencils(&s->set, s->set.m / 2, &s->start);
     status = status ? status : koksma__parallel(run, s->set.m, block, s);
     for (size_t i = 0; !status && i < s->set.m; i++) {
@@ -120,9 +120,9 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
 }
 
 /* The squared distance of a point on the rim may differ from the squared radius by up to KOKSMA__DISK_RIM. Adjusts
-   the radius of the witness so that comparisons in doubles, as koksma.h defines them, count the same points. The
-   radius of a closed disk grows until it contains all its points; that of an open disk shrinks until all other points
-   are outside. */
+   the radius of the witness so that comparisons in doubles, as koksma.h defines them, count the same points as the
+   search. The radius of a closed disk grows until it contains all its points; that of an open disk shrinks until all
+   other points are outside. */
 static void settle_radius(const koksma_points *points, koksma_witness *w)
 {
     for (;;) {

@@ -67,7 +67,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"disks", "random disks, or balls", 10000, 1, 1e8, NULL, true},
+    {"disks", "number of random disks (in 3D: balls)", 10000, 1, 1e8, NULL, true},
     {"r", "radius of the disks, or the largest radius if it is random; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL,
      false},
     {"law", "law of the radius: fixed, uniform, or such that the area (volume) is uniform", 0, 0, 2,

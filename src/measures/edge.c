@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * edge: the largest absolute difference, over all half-planes, between the share of points in the half-plane and the
- * area of the unit square in it. It is the largest error of the estimated coverage of a pixel by an edge; Mitchell
- * 1992 announces it as work of David Dobkin.
+ * area of the unit square in it. The value is the largest error when the points estimate how much of a pixel an edge
+ * covers. Mitchell 1992 announces this measure as work of David Dobkin.
  *
  * Formula: sup over half-planes H of |#{x_i in H}/n - area of H in the square|. Turning a line about a point changes
  * the area on one side of the line by (r1^2 - r2^2)/2 per radian, where r1 and r2 are the lengths of the line from
@@ -13,14 +13,13 @@
  * about one point (the pivot) past all others in order of angle, for each point in turn: O(n^2 log n).
  * Known exactly: the single point (1/2,1/2) has the value 1/2, (1/4,1/4) has 7/8, (0,0) has 1; m x m cell centres
  * have 1/(2m).
- * Limits: the order of angles and their
- * ties are exact, also in clusters as small as the smallest doubles; areas are rounded, with errors of a few 1e-16.
- * Under a time limit, half of the time is for the pivots and the rest for bounds on intervals of directions
- * (shared/edge_cover.c). If the time is too short, the result has a lower and an upper bound. In 3 dimensions
- * half-spaces and the unit cube replace half-planes and the square: the planes go through up to three points
- * (shared/edge_space.c), in O(n^4) and for up to 1024 points. Known exactly for one point (u,v,w): 1 - 9uvw/2 if u, v
- * and w are at most 1/3; 1 - 2uv/(1 + 12h^2) with h = 1/2 - w if u, v and w are at most 1/2, w is at least 1/3, 2u(1
- * + 6h) <= 1 + 12h^2 and 2v(1 + 6h) <= 1 + 12h^2.
+ * Limits: the order of angles, with their ties, is exact even in clusters as small as the smallest doubles; areas are
+ * rounded, with errors of a few 1e-16. Under a time limit, half of the time is spent on the pivots and the rest on
+ * bounds for intervals of directions (shared/edge_cover.c). If the time is too short, the result has a lower and an
+ * upper bound. In 3 dimensions half-spaces and the unit cube replace half-planes and the square: the planes go
+ * through up to three points (shared/edge_space.c), in O(n^4) and for up to 1024 points. Known exactly for one point
+ * (u,v,w): 1 - 9uvw/2 if u, v and w are at most 1/3; 1 - 2uv/(1 + 12h^2) with h = 1/2 - w if u, v and w are at most
+ * 1/2, w is at least 1/3, 2u(1 + 6h) <= 1 + 12h^2 and 2v(1 + 6h) <= 1 + 12h^2.
  */
 #include <math.h>
 

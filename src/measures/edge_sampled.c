@@ -4,10 +4,10 @@
  *
  * Formula: the root of the mean, over `lines` random lines, of (#{x_i above the line}/n - area above)^2; its standard
  * error is the standard error of the mean of the squares, divided by twice the value.
- * Source: Mitchell 1992, section 5, where lines=10000. With skip=1 the first point is never counted, although n
- * includes it. This reproduces the paper's table 4 to within its noise; presumably the loop of the paper's program
- * began at 1.
- * Known exactly: E(square) is the square of l2-edge (skip=0).
+ * Source: Mitchell 1992, section 5, which uses 10,000 lines. With skip=1 the first point is never counted, although n
+ * includes it. This reproduces table 4 of the paper to within the noise of 10,000 lines; presumably the loop of the
+ * paper's program began at 1.
+ * Known exactly: with skip=0 the expectation of the squared value is l2-edge squared.
  * Limits: the value is random; equal seeds
  * give equal bits. In 3 dimensions random planes through the cube replace the lines, with the isotropic distribution
  * only.
@@ -44,8 +44,8 @@ static koksma_status sample_block(void *context, size_t block)
         }
         koksma__kernels()->count_below(j->n - j->skip, j->x + j->skip, j->y + j->skip, a, b, c, counts);
         for (size_t l = 0; l < LANES && first + l < end; l++) {
-            /* The fraction of points below the line minus the area below it is the negative of the deviation above.
-               Skipped points are never above, so they count as below. */
+            /* The fraction of points below the line minus the area below it is the negative of the same difference
+               above the line. Skipped points are never counted above the line, so they count as below. */
             const double below = counts[l] + (double)j->skip;
             const double deviation = below / (double)j->n - koksma__area_below(a[l], b[l], c[l]);
             j->squares[first + l] = deviation * deviation;
@@ -100,10 +100,10 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"lines", "random lines, or planes", 10000, 1, 1e8, NULL, true},
-    {"law", "distribution of the lines: isotropic, or that of Mitchell 1992", 0, 0, 1, koksma__line_laws, true},
+    {"lines", "number of random lines (in 3D: planes)", 10000, 1, 1e8, NULL, true},
+    {"law", "distribution of the lines: isotropic, or as in Mitchell 1992", 0, 0, 1, koksma__line_laws, true},
     {"seed", "seed of the lines", 1, 0, 9007199254740992.0, NULL, true},
-    {"skip", "points at the start that are not counted", 0, 0, 1e9, NULL, true},
+    {"skip", "number of points at the start that are not counted", 0, 0, 1e9, NULL, true},
     {0},
 };
 

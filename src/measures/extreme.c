@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * extreme: the largest absolute difference, over all axis-parallel boxes, between the share of points in the box and
- * its volume. It is T ("Stroud's discrepancy") in Shirley 1991. Rotating the points by 90 degrees does not change the
- * value.
+ * its volume. The value is T ("Stroud's discrepancy") in Shirley 1991. Rotating the points by 90 degrees does not
+ * change the value.
  *
  * Formula: T = sup over boxes of |#{x_i in box}/n - volume|. The largest excess is reached at a closed box whose
  * sides are at coordinates of points, the largest deficit at an open box whose sides are at coordinates of points, 0
@@ -24,9 +24,9 @@
 #include "measures/shared/extreme_plane.h"
 #include "measures/shared/extreme_small.h"
 
-/* With `grid`, there is one pass along the rows of the grid for each pair of columns. It stores the lowest and the
-   highest value so far of (number of points below the row) / n - area below the row; the best box that ends at a row
-   has the value of that row minus one of these two. */
+/* With `grid`, there is one pass along the rows of the grid for each pair of columns. The pass stores the lowest and
+   the highest value so far of (number of points below the row) / n - area below the row; the best box that ends at a
+   row has the value of that row minus one of these two. */
 
 /* Returns the index of the cell of x: the largest c with c/grid <= x, compared as doubles. For x = 1, which no
    half-open box contains, it returns `grid`. */

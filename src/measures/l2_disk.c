@@ -6,20 +6,24 @@
  * Formula: square = n^-2 sum_ij sum_k W(|x_i - x_j + k|) - c, where k runs over the integer shifts of the torus and
  * W(d) is the area of the overlap of two disks whose centres are d apart, or its mean over the radius. For the three
  * laws of the radius, with h = d/2 < r and s = sqrt((r - h) (r + h)), W(d) and c are
+ *
  *   fixed   2 r^2 acos(h/r) - 2 h s,                                           c = pi^2 r^4
  *   radius  ((2/3) r^3 acos(h/r) - (4/3) h r s + (2/3) h^3 ln((r+s)/h)) / r,   c = pi^2 r^4 / 5
  *   area    (r^4 acos(h/r) - (5/3) h s^3 - h^3 s) / r^2,                       c = pi^2 r^4 / 3
+ *
  * In 3 dimensions, for balls and the volume of their overlap, with t = r - h:
+ *
  *   fixed   (2 pi/3) (2 t + 3 h) t^2,                                          c = (16/9) pi^2 r^6
  *   radius  pi t^3 (r + h) / (3 r),                                            c = (16/63) pi^2 r^6
  *   area    (2 pi/r^3) t^3 (t^3/3 + 7 h t^2/5 + 2 h^2 t + h^3),                c = (16/27) pi^2 r^6
+ *
  * where law=area makes the volume uniform.
  * Source: Mitchell 1992, section 4, which samples disks; the closed forms are derived from the area of the lens in
  * which two disks overlap.
- * Known exactly: random points, the mean of the square is pi r^2 (1 - pi r^2)/n for a fixed radius, and at r = 1/2
- * (pi/12 - pi^2/80)/n for radius and (pi/8 - pi^2/48)/n for area. One point and a fixed radius: the square is pi r^2
- * (1 - pi r^2). For balls and random points, with v the volume of the largest ball, the mean of the square is v (1 -
- * v)/n for fixed, (v/4 - v^2/7)/n for radius and (v/2 - v^2/3)/n for area.
+ * Known exactly: random points, the mean of the square is pi r^2 (1 - pi r^2)/n for a fixed radius. With r = 1/2 it
+ * is (pi/12 - pi^2/80)/n for law=radius and (pi/8 - pi^2/48)/n for law=area. One point and a fixed radius: the square
+ * is pi r^2 (1 - pi r^2). For balls and random points, with v the volume of the largest ball, the mean of the square
+ * is v (1 - v)/n for law=fixed, (v/4 - v^2/7)/n for law=radius and (v/2 - v^2/3)/n for law=area.
  * Limits: the two terms are near c and cancel. Sums over rows are compensated and have errors of about 1e-15 c; for
  * 10^5 evenly spread points the value has 9 correct digits. For r <= 1/8 a grid of cells skips pairs of points that
  * are too far apart to overlap.
@@ -54,7 +58,7 @@ static double span(const pairs *p, size_t i, size_t first, size_t last)
 }
 
 /* Returns the sum of the overlaps of ball i with balls 0 .. i - 1 and their periodic copies. Along each axis only the
-   two nearest copies can be less than 1 away. */
+   two nearest copies of a point can be less than 1 away. */
 static double balls_before(const pairs *p, size_t i)
 {
     koksma__sum sum = {0};

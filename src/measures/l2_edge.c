@@ -159,7 +159,7 @@ static koksma_status gradient(const koksma_points *points, const koksma_args *ar
 }
 
 static const koksma_param params[] = {
-    {"law", "distribution of the lines: isotropic, or that of Mitchell 1992", 0, 0, 1, koksma__line_laws, true},
+    {"law", "distribution of the lines: isotropic, or as in Mitchell 1992", 0, 0, 1, koksma__line_laws, true},
     {0},
 };
 

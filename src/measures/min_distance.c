@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * min-distance: the smallest distance between two points. Unlike for the discrepancies, a larger value means more
+ * min-distance: the smallest distance between two points. In contrast to the discrepancies, a larger value means more
  * even points.
  *
  * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in space.
  * Source: Lagae and Dutre 2008, who compare Poisson disk patterns by it; see relative-radius.
- * Known exactly: the points (0,0) and (1/2,1/2) have 1/sqrt 2; m x m cell centres have 1/m, and so have m^dim
- * centres.
+ * Known exactly: the points (0,0) and (1/2,1/2) have 1/sqrt 2; the centres of a grid of m^dim cells have 1/m.
  * Limits: for a single point the measure fails with KOKSMA_N. The value is exact to rounding.
  */
 #include <math.h>

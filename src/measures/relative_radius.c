@@ -10,15 +10,15 @@
  *     dim  2             3            4    5            6            7     8
  *     c    1/(2 sqrt 3)  1/(4 sqrt 2) 1/8  1/(8 sqrt 2) 1/(8 sqrt 3) 1/16  1/16
  *
- * These are the hexagonal lattice, D3 (face-centred cubic), D4, D5, E6, E7 and E8. They are the densest packings in
- * 2, 3 and 8 dimensions (Fejes Toth 1940, Hales 2005, Viazovska 2017). In 4 to 7 dimensions they are the densest
- * lattices, and no denser packing is known. The measure does not exist in other dimensions.
- * Source: Lagae and Dutre
- * 2008, in the plane; c: Conway and Sloane 1999.
+ * The packings of this table are the hexagonal lattice, D3 (face-centred cubic), D4, D5, E6, E7 and E8. These
+ * packings are the densest in 2, 3 and 8 dimensions (Fejes Toth 1940, Hales 2005, Viazovska 2017). In 4 to 7
+ * dimensions they are the densest lattice packings, and no denser packing is known. The measure does not exist in
+ * other dimensions.
+ * Source: Lagae and Dutre 2008, for the plane; the values of c are from Conway and Sloane 1999.
  * Known exactly: m x m cell centres have sqrt(sqrt(3)/2) = 0.9306; for dim >= 3 the points of the lattices above have
  * 1.
- * Limits: as for min-distance. With torus=0 a small set can have a value above 1,
- * because there are no points beyond the sides.
+ * Limits: as for min-distance. With torus=0 a small set can have a value above 1, because there are no points beyond
+ * the sides of the cube.
  */
 #include <math.h>
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * star: the L-infinity star discrepancy, the largest absolute difference, over all boxes with a corner at the origin,
- * between the share of points in the box and its volume. It is D in Shirley 1991.
+ * between the share of points in the box and its volume. The value is D in Shirley 1991.
  *
  * Formula: D = sup over y in [0,1]^d of |#{x_i in [0,y)}/n - prod_k y_k|. The supremum is reached at a corner whose
  * coordinates are coordinates of points, or 1 (Niederreiter 1972): an excess by a closed box, a deficit by an open
  * one.
  * Source: Zaremba 1968; Shirley 1991, section 5.5.7; in more than two dimensions Dobkin, Eppstein and Mitchell 1996;
- * bounds Thiemard 2001.
+ * for the upper bounds Thiemard 2001.
  * Known exactly: one point at (g,g), g = (sqrt 5 - 1)/2, has D = g; 4 x 4 cell centres 15/64; one point at the centre
  * of the cube 7/8; Hammersley 2^m, m >= 2: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) (De Clerck 1986; n D is 1 for m = 0,
  * 3/2 for m = 1).
@@ -33,7 +33,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     if (points->dim <= 2) {
         return koksma__star_2d(points, args->run, out);
     }
-    /* The partition starts from a good value, so that most of it can be skipped. */
+    /* The partition (star_partition.c) starts from the good value that a short search finds, so that most of it can
+       be skipped. */
     const double half_s = koksma__deadline_s(args->run, 0.5), end_s = koksma__deadline_s(args->run, 0.95);
     bool complete = false;
     const size_t steps = points->n / 5 < FIRST_STEPS ? points->n / 5 : FIRST_STEPS;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * star-lower: a lower bound of the star discrepancy by a random search for a box with a large difference. It is for
- * many dimensions, where finding the worst box is NP-hard.
+ * star-lower: a lower bound of the star discrepancy by a random search for a box with a large difference. The measure
+ * is meant for many dimensions, where finding the worst box is NP-hard.
  *
  * Formula: the largest |#{x_i in box}/n - volume| that threshold accepting finds among anchored boxes (see star.c).
  * Source: Gnewuch, Wahlstrom and Winzen 2012; measures/shared/star_search.c describes how this search differs from
- * theirs. Known exactly: the value never exceeds that of the measure star, except in the last bit by rounding. In
- * measurements (docs/findings/star-lower.md) the default search reached star in all of 360 sets of 12 patterns, with 64
- * to 2000 points in 2 to 5 dimensions and 50 to 200 points in 6 to 8. Limits: the witness, which is given up to 16
- * dimensions, proves the bound. The distance to the supremum is unknown, so the upper bound is 1.
+ * theirs. Known exactly: the value never exceeds the value of the measure star, except in the last bit by rounding.
+ * In measurements (docs/findings/star-lower.md) the default search reached star in all of 360 sets of 12 patterns,
+ * with 64 to 2000 points in 2 to 5 dimensions and 50 to 200 points in 6 to 8. Limits: the witness, which is given up
+ * to 16 dimensions, proves the bound. The distance to the supremum is unknown, so the upper bound is 1.
  */
 #include "measures/measures.h"
 #include "measures/shared/deadline.h"

@@ -9,8 +9,8 @@
  * Source: Niederreiter 1987.
  * Known exactly: Hammersley's points have t = 0 in base 2; n equal points have t = m.
  * Limits: n must be a power of the base. A coordinate that is the double nearest to a/base^d counts as this fraction
- * (core/net.c). A coordinate that was rounded to fewer digits, as in a text file with six, may fall into the next
- * lower interval. A coordinate of 1 is counted in the last interval.
+ * (core/net.c). A coordinate that was rounded to fewer digits, as in a text file with six digits, may fall into the
+ * next lower interval. A coordinate of 1 is counted in the last interval.
  */
 #include "core/net.h"
 #include "core/status.h"

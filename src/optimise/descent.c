@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * L-BFGS (Nocedal 1980, and Nocedal & Wright 2006, algorithm 7.4) with a backtracking line search. For functions on
- * the torus, coordinates are reduced modulo 1 after each step; for other functions each is projected to its interval,
- * which is [0,1] or has length 1/n.
+ * the torus, coordinates are reduced modulo 1 after each step; for other functions each coordinate is projected to
+ * its interval, which is [0,1] or has length 1/n.
  *
  * Four of five descents start from the best set after a random change (kick); the others start from the points {i a +
  * s} (fractional parts) with random vectors a and s, or from random points.
@@ -130,8 +130,8 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
         }
         bool ends = square - next <= 1e-12 * square;
         square = next;
-        /* stop if HOPE more stretches of STRETCH iterations, each gaining as much as the last one, would not reach
-           the goal */
+        /* stop if the goal would not be reached after HOPE more stretches of STRETCH iterations that each gain as
+           much as the last stretch */
         if (k % STRETCH == STRETCH - 1) {
             ends = ends || HOPE * (mark - square) < square - d->goal;
             mark = square;
@@ -194,8 +194,9 @@ static void kick(koksma__descent *d, koksma__stream *random)
     }
 }
 
-/* Sets the points {i a + s} (fractional parts). In half of the cases one coordinate is i / n + s, and in half of those
-   all entries of a are multiples of 1/n, which makes the set a rank-1 lattice. */
+/* Sets point i to {i a + s} (fractional parts) with random vectors a and s. In half of the calls the first entry of a
+   is 1/n; in half of those calls the other entries are multiples of 1/n, which makes the set a shifted rank-1
+   lattice. */
 void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random)
 {
     const double n = (double)d->points.n;
@@ -239,9 +240,9 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
     d->direction = d->gradient + n;
     d->before = d->direction + n;
     d->gradient_before = d->before + n;
-    d->steps = d->gradient_before + 2 * n; /* the `count` numbers before it have the current step */
+    d->steps = d->gradient_before + 2 * n; /* the `count` doubles before d->steps hold the current step */
     d->changes = d->steps + KOKSMA__MEMORY * n;
-    /* enough for some tenths of a second, but at least for one descent */
+    /* the limit of work: some tenths of a second, but at least one descent */
     d->budget = fmax(1.5e7, KOKSMA__ITERATIONS * cost);
     d->length = keep == KOKSMA_KEEP_NET ? (1 - 2e-9) / (double)points->n : 1 - 0x1p-53;
     for (size_t c = 0; c < n; c++) {

@@ -5,22 +5,22 @@
  *
  * While the order of the points along each axis is fixed, the squared discrepancy is a smooth function, and nearly
  * all of its local minima have different orders. So a search anneals the orders: two points swap one coordinate, and
- * the swap is accepted if the square grows by less than a random threshold, whose mean falls from round to round.
- * Half of the swaps are between points that are close to each other in the order along another axis. After each round
- * a few iterations of L-BFGS fit the coordinates to the new orders. The last rounds accept only swaps that reduce the
- * value. Then the search tries single swaps with a descent after each, because a swap that raises the value a little
- * at fixed coordinates can reduce it after the descent: with 64 points this lowers l2-star from .00691 to .00677.
- * Half of the searches start from random orders of the centres (i + 1/2)/n, the others from the best set at a lower
- * threshold.
+ * the swap is accepted if the squared discrepancy grows by less than a random threshold, whose mean falls from round
+ * to round. Half of the swaps are between points that are close to each other in the order along another axis. After
+ * each round a few iterations of L-BFGS fit the coordinates to the new orders. The last rounds accept only swaps that
+ * reduce the value. Then the search tries single swaps with a descent after each, because a swap that raises the
+ * value a little at fixed coordinates can reduce it after the descent: with 64 points this lowers l2-star from .00691
+ * to .00677. Half of the searches start from random orders of the centres (i + 1/2)/n, the others from the best set
+ * at a lower threshold.
  *
- * A swap of coordinate k of points p and q changes n^2 times the square by (Jin, Chen & Sudjianto 2005)
+ * A swap of coordinate k of points p and q changes n^2 times the squared discrepancy by (Jin, Chen & Sudjianto 2005)
  *
  *     2 sum_(j != p, q) (R_pj - R_qj) (K_k(q, j) - K_k(p, j)) + (R_pp - R_qq) (K_k(q, q) - K_k(p, p))
  *     - 2 n (B_p - B_q) (a_k(q) - a_k(p)),
  *
- * where R and B are the products of the kernels K_l and of their integrals a_l over the other coordinates. The
- * kernels of all pairs are stored, one matrix for each coordinate: a change is a sum along rows, in fixed order, and
- * a swap of coordinate k exchanges two rows and two columns of matrix k.
+ * where R is the product of the kernels K_l, and B the product of their integrals a_l, over the coordinates l != k.
+ * The kernels of all pairs are stored, one matrix for each coordinate: a change is a sum along rows, in fixed order,
+ * and a swap of coordinate k exchanges two rows and two columns of matrix k.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -50,12 +50,12 @@ enum {
     STALE = 2
 };
 
-/* FIRST: the mean threshold in the first round, as a fraction of the square after a first descent. FALL: the factor by
-   which the mean threshold falls from each round to the next. */
+/* FIRST: the mean threshold in the first round, as a fraction of the squared discrepancy after a first descent. FALL:
+   the factor by which the mean threshold falls from each round to the next. */
 static const double FIRST = 0.1, FALL = 0.96;
 
-/* LEAP: single swaps are tried if they raise the square by at most this share. POLISH: number of coordinates read
-   while they are tried. */
+/* LEAP: single swaps are tried if they raise the squared discrepancy by at most this share. POLISH: limit of the work
+   spent on such trials, as a number of coordinates read. */
 static const double LEAP = 0.02, POLISH = 1e8;
 
 typedef struct job {
@@ -185,7 +185,7 @@ static void swap(job *j, double *xs, size_t k, size_t p, size_t q)
     order[rank[q]] = (uint32_t)q;
 }
 
-/* Proposes SWAPS n swaps; each is accepted if the change is below a random threshold with this mean. */
+/* Proposes SWAPS n swaps; each is accepted if the change is below a random threshold whose mean is `threshold`. */
 static void propose(job *j, double *xs, double threshold)
 {
     const size_t n = j->n;

@@ -5,12 +5,13 @@
  * a column to a column on its right. Both kinds of move preserve, for all k, the rank of the upper left k x k
  * submatrix, so that each coordinate remains a (0,1)-sequence: its first 2^k points include one in each interval of
  * length 2^-k. Adding rows is Matousek's linear scrambling, and preserves all net parameters; adding columns changes
- * the direction numbers, and so the joint distribution of the coordinates. Columns of coordinate 0 are not changed,
- * because a column added in all coordinates at once leaves every prefix of 2^k points the same set. A move is kept if
- * the value grows by no more than a threshold that falls to 0 (threshold accepting: Dueck & Scheuer 1990). A quarter
- * of the walks start with 8 random moves for each column and coordinate.
+ * the direction numbers, and so the joint distribution of the coordinates. Columns are not added in coordinate 0:
+ * adding a column in all coordinates at once leaves every prefix of 2^k points the same set, so that moves of the
+ * other coordinates suffice. A move is kept if the value grows by no more than a threshold that falls to 0 (threshold
+ * accepting, Dueck & Scheuer 1990). A quarter of the walks start with 8 random moves for each column and coordinate.
  *
- * Source: Matousek 1998 for the scrambling; Sobol' sequences with optimised direction numbers: Joe & Kuo 2008.
+ * Sources: Matousek 1998 for the scrambling, and Joe & Kuo 2008 for Sobol' sequences with optimised direction
+ * numbers.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +24,8 @@
 
 enum { MOVES = 200, LOWER = 10, DIGITS = KOKSMA__SEQUENCE_DIGITS };
 
-/* Computes coordinate k of all points from the points 2^c, which hold the columns of the matrix. */
+/* Computes coordinate k of all points from coordinate k of the points with indices 2^c: its digits are column c of
+   the generator matrix. */
 static void fill(koksma_points *points, size_t k)
 {
     const size_t dim = (size_t)points->dim;
@@ -54,8 +56,8 @@ static void add_column(koksma_points *points, size_t k, unsigned from, unsigned 
     *x = (double)((uint64_t)(*x * 0x1p53) ^ y) * 0x1p-53;
 }
 
-/* Makes a random move and returns the coordinate that it changed. It changes only the rows that distinguish 2^m points
-   and the LOWER rows below these, because lower rows move points too little to matter. */
+/* Makes a random move and returns the coordinate that it changed. The move changes only the first m rows, which
+   distinguish 2^m points, and the next LOWER rows, because rows below these move points too little to matter. */
 static size_t move(koksma_points *points, unsigned m, koksma__stream *random)
 {
     const size_t k = koksma__next_below(random, (size_t)points->dim);

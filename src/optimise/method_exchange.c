@@ -4,8 +4,8 @@
  * Latin hypercube, and the change of the value is computed in O(n d) instead of O(n^2 d) (Jin, Chen & Sudjianto
  * 2005).
  *
- * Let K = prod_k K_k be the kernel, a = prod_k a_k its integral, and let R_ij and B_i be the products for K and a
- * without factor k. When points p and q swap coordinate k, n^2 times the squared discrepancy changes by
+ * Let K = prod_k K_k be the kernel, a = prod_k a_k its integral, and let R_ij and B_i be these products without
+ * factor k. When points p and q swap coordinate k, n^2 times the squared discrepancy changes by
  *
  *     2 sum_(j != p, q) (R_pj - R_qj) (K_k(q, j) - K_k(p, j)) + (R_pp - R_qq) (K_k(q, q) - K_k(p, p))
  *     - 2 n (B_p - B_q) (a_k(q) - a_k(p)),
@@ -18,7 +18,7 @@
 #include "measures/l2_boxes.h"
 #include "optimise/methods.h"
 
-/* The number of coordinates read in one search, which takes some tenths of a second. */
+/* The number of coordinates that one search reads; this takes some tenths of a second. */
 static const double WORK = 3e7;
 
 static double kernel(const koksma__l2_row *row, double u, double v)

@@ -4,7 +4,7 @@
  * point at a time on the torus, by a step whose length is drawn log-uniformly between 10^-4 and 1 times the mean
  * spacing n^(-1/d). With keep=net the point stays within its intervals of length 1/n; with keep=latin two points swap
  * a coordinate instead. A move is accepted if the new value is at most the walk's current value plus a threshold that
- * falls to 0 (threshold accepting: Dueck & Scheuer 1990).
+ * falls to 0 (threshold accepting, Dueck & Scheuer 1990).
  */
 #include <math.h>
 #include <string.h>

@@ -4,28 +4,30 @@
  * each permutation are computed exactly. The file is long because the constraint solver and the search share all
  * their state.
  *
- * Let the i-th point by x have rank p(i) by y, let c(i,j) be the number of points with rank at most i by x and at
- * most j by y, and let F = n f. Then coordinates with D* <= f exist if and only if
+ * Number the points by x, let p(i) be the rank by y of point i, c(i,j) the number of points with rank at most i by x
+ * and at most j by y, and F = n f for a bound f. Then coordinates with a star discrepancy of at most f exist if and
+ * only if
  *
  *     X_i Y_j >= c(i,j) - F,   X_i Y_j <= c(i-1,j-1) + F,   X_i <= X_i+1,   Y_j <= Y_j+1,   X_n+1 Y_n+1 = n,
  *
- * i, j = 1 .. n + 1; X_n+1 and Y_n+1 stand for the sides of the square. In logarithms these are difference
- * constraints. They have a solution if and only if no cycle of constraints is violated. A solution is then found from
- * any start by raising X or lowering Y where a constraint is violated, one node after the other (Bellman & Ford with
- * a queue). A violated cycle is found by following the causes of changes; it becomes satisfiable at the F for which
- * the product of its terms (count - F) equals the product of its terms (count + F): F is raised to this value, and
- * the search for violations continues. When no constraint is violated, F is the least value for the permutation p,
- * and the cycle to which F was raised last is called critical.
+ * i, j = 1 .. n + 1; X_n+1 and Y_n+1 are the sides of the domain, whose area is scaled to n. In logarithms these are
+ * difference constraints. The constraints have a solution if and only if no cycle of constraints is violated. A
+ * solution is then found from any start by raising X or lowering Y where a constraint is violated, one node after the
+ * other (Bellman & Ford with a queue). A violated cycle is found by following the causes of changes. The cycle
+ * becomes satisfiable at the F for which the product of its terms (count - F) equals the product of its terms (count
+ * + F): F is raised to this value, and the search for violations continues. When no constraint is violated, F is the
+ * least value for the permutation p, and the cycle to which F was raised last is called critical.
  *
  * A walk starts from the permutation of the points (i, {i a + s}), where a has small partial quotients and s is
  * random, or, in a share of the searches (width_of), from the best set. The least F that a walk has met is its
- * target; it accepts permutations whose F is below a limit, which exceeds the target by a threshold (Dueck 1993:
- * record-to-record travel). A move swaps the ranks by y of two points. It is chosen for a cycle that is violated at the
- * target: a box of this cycle with too many points loses a point, or a box with too few points gains one, because no
- * other swap can help. The last CYCLES violated cycles are stored, and a walk reduces the number of stored cycles that
- * are violated at the target: a move that increases this number, or violates a stored cycle at the limit, is rejected
- * before any constraint is checked. The least F is computed only when no stored cycle is violated; it gives a new
- * target or a new cycle (min-conflicts with constraints generated on demand). Work is counted in corners visited.
+ * target; it accepts permutations whose F is below a limit, which exceeds the target by a threshold (record-to-record
+ * travel, Dueck 1993). A move swaps the ranks by y of two points. The move is chosen for a cycle that is violated at
+ * the target: a box of this cycle with too many points loses a point, or a box with too few points gains one, because
+ * no other swap can help. The last CYCLES violated cycles are stored, and a walk reduces the number of stored cycles
+ * that are violated at the target: a move that increases this number, or violates a stored cycle at the limit, is
+ * rejected before any constraint is checked. The least F is computed only when no stored cycle is violated; it gives
+ * a new target or a new cycle (min-conflicts with constraints generated on demand). Work is counted in corners
+ * visited.
  *
  * Source: the constraints as in Clement, Doerr, Klamroth & Paquete 2023, who solve them as integer programs.
  */
@@ -85,17 +87,18 @@ typedef struct swap {
 typedef struct plane {
     size_t n, side, stride;   /* side: n + 1, the number of nodes of each axis */
     uint32_t *rank, *at;      /* p and its inverse, 1 .. n */
-    int16_t *counts, *turned; /* c(i,j) at index i stride + j, and at j stride + i, for i, j = 0 .. n + 1 */
+    int16_t *counts, *turned; /* c(i,j) for i, j = 0 .. n + 1: in counts at index i stride + j, in turned at j stride
+                                 + i */
     double *v, *saved;        /* X_1 .. X_n+1, Y_1 .. Y_n+1 */
     float *rounded;           /* v as floats */
     uint32_t *cause, *queue, *found, *stamps;
     uint8_t *queued;
-    size_t first, waiting; /* first entry and length of the queue, a ring buffer of 2 side nodes */
+    size_t first, waiting; /* first entry and length of the queue, a ring buffer with capacity for 2 * side nodes */
     uint32_t stamp;
     cycle cycles[CYCLES];     /* the stored cycles; the most recently violated ones come first */
     cycle guides[GUIDES];     /* some of the stored cycles that are violated at a walk's target */
     size_t guided, conflicts; /* number of guides, and number of stored cycles violated at the target */
-    edge *traced, *critical;  /* each has capacity for 2 side edges */
+    edge *traced, *critical;  /* each has capacity for 2 * side edges */
     size_t n_traced, n_critical;
     double work, budget;
     koksma__stream random;
@@ -296,8 +299,8 @@ static bool set(plane *s, uint32_t from, uint32_t to, double value)
     return true;
 }
 
-/* Finds those of the `count` nodes from number `others` on whose constraints with `node` may be violated at F: s->found
-   receives their indices, counted from `others`. Returns how many there are. */
+/* Searches the nodes others .. others + count - 1 for those that have a constraint with `node` that may be violated
+   at F. s->found receives their offsets from `others`. Returns the number of nodes found. */
 static size_t far(const plane *s, size_t count, const int16_t *counts, size_t others, uint32_t node, double F)
 {
     const float sign = node < s->side ? -1 : 1, rounding = (float)s->n * 0x1p-21F;
@@ -305,7 +308,8 @@ static size_t far(const plane *s, size_t count, const int16_t *counts, size_t ot
                                           (float)F - rounding, s->found);
 }
 
-/* Moves the nodes whose constraints with this node are violated. Returns false if this finds a violated cycle. */
+/* Moves all nodes that have a violated constraint with the given node. Returns false if this finds a violated
+   cycle. */
 static bool relax(plane *s, uint32_t node, double F)
 {
     const size_t side = s->side;
@@ -424,9 +428,9 @@ static size_t log_uniform(koksma__stream *random, size_t most)
     return d < most ? d : most;
 }
 
-/* Draws a swap for a random corner of one of the guides or, if there are none, of the critical cycle: it lowers the
-   count of a corner with too many points, or raises that of a corner with too few. Returns false if it finds no
-   swap. */
+/* Draws a swap for a random corner of one of the guides or, if there are none, of the critical cycle. The swap lowers
+   the count of a corner with too many points, or raises the count of a corner with too few. Returns false if it finds
+   no swap. */
 static bool draw_swap(plane *s, swap *w)
 {
     const cycle *guide = s->guided ? &s->guides[koksma__next_below(&s->random, s->guided)] : NULL;
@@ -586,7 +590,7 @@ static void walk(plane *s, double F, double *best, koksma_points *points)
     s->guided = 0;
 }
 
-/* Takes the ranks and coordinates from given points in the unit square. */
+/* Sets the permutation, its counts and the coordinates X and Y from given points in the unit square. */
 static koksma_status take_points(plane *s, const double *xs, uint32_t *order)
 {
     const koksma_run run = {.threads = 1};
@@ -649,7 +653,7 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
         status = koksma__fail_memory(3 * n * sizeof *xs);
     }
     const width wide = width_of(n);
-    /* limit for the F of a start, as a multiple of the best F */
+    /* a walk starts from a random set only if its F is at most this multiple of the best F */
     const double accepted = 1.01 + wide.accepted * koksma__next_unit(&s.random) + 1 / (double)n;
     const bool again = koksma__next_unit(&s.random) < wide.again;
     double best = value * (double)n * (1 + 1e-9), F;

@@ -7,16 +7,17 @@
  *
  * where c and o are the numbers of points in the closed and in the open box of the corner, and X, Y and Z are the
  * sorted coordinates of the points, followed by 1. For fixed ranks the counts are fixed, and the coordinates with E = 0
- * form a convex set in log X, log Y, log Z. Coordinates with E = 0 have a star discrepancy of at most f; then a
- * slightly lower target is tried, until a target is not reached.
+ * form a convex set in log X, log Y, log Z. Coordinates with E = 0 have a star discrepancy of at most f; once they
+ * are found, a slightly lower target is tried, until a target is not reached.
  *
  * A vectorised pass over all corners (far_corners) gives the star discrepancy and a list of the corners whose local
  * discrepancy is near it. L-BFGS uses only the listed corners, about 1 % of all corners, and ignores changes of
- * ranks; the next pass checks the result. Three of four searches are a walk from the best set. The others are walks
- * from the best of DRAWS sets {i a + s}; a new walk starts after STALE kicks (random changes) without a gain. A kick
- * exchanges a coordinate of two points so that a listed box with too many points loses one, or a box with too few gains
- * one, because no other exchange can help; one kick in five (with keep=net every kick) replaces a point by a random
- * one. The walk accepts the result of a descent if its value is at most a threshold above the walk's value.
+ * ranks; the next pass checks the result. Three of four searches are a walk from the best set. The other searches are
+ * walks from the best of DRAWS sets of points {i a + s} (fractional parts); a new walk starts after STALE kicks
+ * (random changes) without a gain. A kick exchanges a coordinate of two points so that a listed box with too many
+ * points loses one, or a box with too few gains one, because no other exchange can help; one kick in five (with
+ * keep=net every kick) replaces a point by a random one. The walk accepts the result of a descent if its star
+ * discrepancy exceeds that of the walk's current set by at most a threshold.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -42,9 +43,10 @@ typedef struct job {
     double target;
     uint32_t *order, *found; /* order: the points sorted along each axis, followed by their ranks along each axis */
     double *low, *x;         /* x: for each axis the sorted coordinates, followed by 1 */
-    float *z;                /* the sorted coordinates along the third axis, 1, and zeros */
-    int16_t *open, *closed;  /* numbers of points before, or up to, x_i whose ranks by y and z are below (j, k) */
-    corner *corners, *kept;  /* kept: the corners listed for the set of the walk */
+    float *z;                /* the sorted coordinates along the third axis, followed by 1 and by zeros */
+    int16_t *open, *closed;  /* for the current i: numbers of points with rank below i (closed: at most i) by x and
+                                ranks below j and k by y and z */
+    corner *corners, *kept;  /* kept: the corners listed for the walk's current set */
     size_t listed, n_kept;
     void *memory;
 } job;
@@ -70,7 +72,7 @@ static koksma_status job_init(job *j, size_t n)
     return KOKSMA_OK;
 }
 
-/* Adds the i-th point in the order of x to the counts. */
+/* Adds the i-th point, in increasing order of x, to the counts. */
 static void count(const job *j, size_t i, int16_t *counts)
 {
     const size_t n = j->n, point = j->order[i];
@@ -104,8 +106,8 @@ static koksma_status sort(job *j, const double *xs)
     return KOKSMA_OK;
 }
 
-/* Lists those corners (X_i, Y_b, any Z) whose local discrepancy, times n, is above `limit`, and raises *largest to the
-   largest of these numbers. Returns false if the list is full. */
+/* Lists those corners (X_i, Y_b, any Z) whose local discrepancy times n is above `limit`, and raises *largest to the
+   largest such product. Returns false if the list is full. */
 static bool list_row(job *j, size_t i, size_t b, int16_t sign, double limit, double *largest)
 {
     const size_t n = j->n, columns = (n + 1 + LANES - 1) / LANES * LANES;
@@ -160,7 +162,7 @@ static koksma_status list(job *j, koksma__descent *d, double limit, double *valu
     return status;
 }
 
-/* Returns whether a point is inside a corner's box along all axes, where the axis `but` does not count. */
+/* Returns whether a point is inside a corner's box along all axes except the axis `but`. */
 static bool inside(const job *j, const corner *at, const double *xs, size_t point, size_t but)
 {
     bool in = true;

@@ -6,7 +6,7 @@
  * supremum. A walk moves each touching point with probability 1/2, by a step whose length is drawn log-uniformly
  * between 10^-4 and 1 times the mean spacing; every fourth move is of a random point, because other regions have
  * nearly the same discrepancy. A move is accepted if the value grows by less than a threshold that falls to 0
- * (threshold accepting: Dueck & Scheuer 1990).
+ * (threshold accepting, Dueck & Scheuer 1990).
  */
 #include <math.h>
 #include <string.h>

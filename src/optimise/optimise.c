@@ -4,7 +4,7 @@
  * own seed, start from the best set; they run on any number of threads. The best of their results (the first of equal
  * ones) becomes the new best set if it is better. koksma_evaluate measures every result; values that a method
  * computes are not used. Several processes can share a run: process r of p makes the searches r, r + p, r + 2 p, ... of
- * each step. They exchange the results after each step, so that all continue from the same best set.
+ * each step. The processes exchange the results after each step, so that all continue from the same best set.
  */
 #include <koksma/optimise.h>
 
@@ -76,7 +76,7 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(s->run, fmin(done, 1));
 }
 
-/* Runs one step: those of the searches 0 to SEARCHES - 1 that this process makes. A better result replaces the best
+/* Runs one step: the share of this process in the searches 0 to SEARCHES - 1. A better result replaces the best
    set. */
 static koksma_status take_step(step *s, koksma_optimum *best)
 {

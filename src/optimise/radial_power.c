@@ -37,7 +37,7 @@ enum { LANES = 8, SETS = 16 };
 static koksma_status only_in_searches(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     (void)points, (void)args, (void)out;
-    return koksma__fail(KOKSMA_ARGUMENT, "radial power: it can be computed only in a search (koksma_optimise)");
+    return koksma__fail(KOKSMA_ARGUMENT, "radial power: only a search can compute it (koksma_optimise)");
 }
 
 const koksma_measure koksma__measure_radial_power = {
@@ -72,7 +72,7 @@ double koksma__radial_power_cost(const koksma_optimise_options *o)
 typedef struct job {
     size_t n, stride, rings;
     double *tables[4]; /* cos and sin of 2 pi k x, then of 2 pi k y: [k stride + point], k = 0 .. rings */
-    double *c, *s;     /* cos and sin of 2 pi (kx x + ky y) of all points */
+    double *c, *s;     /* cos and sin of 2 pi (kx x + ky y) of all points, for one frequency (kx, ky) */
     double *sums;      /* C and S of each frequency, in the order of find_powers */
     double *means, *counts, *slopes;
     double *moves; /* the derivatives by x of all points, then by y */
@@ -214,8 +214,8 @@ koksma_status koksma__radial_power_square(const koksma_optimise_options *o, cons
 }
 
 /* Reads a target from a file: each line has a frequency, in units of sqrt n and higher than the one before, and a
-   power. Between the frequencies of two lines the power is interpolated linearly. Below the first frequency it is
-   that of the first line, above the last frequency that of the last line. */
+   power. Between the frequencies of two lines the power is interpolated linearly. Below the first frequency the power
+   is that of the first line; above the last frequency it is that of the last line. */
 static koksma_status read_profile(const char *path, double root, int rings, double *power)
 {
     unsigned char *bytes;

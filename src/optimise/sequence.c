@@ -3,7 +3,7 @@
  * Digital sequences in base 2. Points are the first 2^m of a digital sequence if and only if point 0 is the origin
  * and, for 0 < r < 2^c, the digits of point 2^c + r are the sums modulo 2 of the digits of points 2^c and r: point
  * 2^c is column c of the generator matrices (Niederreiter 1992). So searches exchange only points; the matrices can
- * be recovered from these.
+ * be recovered from the points.
  */
 #include "optimise/sequence.h"
 

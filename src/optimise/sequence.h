@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Digital sequences in base 2, given by their first points, as KOKSMA_KEEP_SEQUENCE preserves them. */
+/* Digital sequences in base 2, given by their first points; a search with KOKSMA_KEEP_SEQUENCE changes only their
+   generator matrices. */
 #ifndef KOKSMA_OPTIMISE_SEQUENCE_H
 #define KOKSMA_OPTIMISE_SEQUENCE_H
 

@@ -10,8 +10,8 @@
    without a coordinate or with a coordinate that the points do not have; a weight that is not above 0). */
 koksma_status koksma__search_check(const koksma_optimise_options *options);
 
-/* Computes the value that koksma_optimum has for these points. Errors: those of koksma_evaluate, ARGUMENT (a value of 0
-   in a geometric mean). */
+/* Computes the value of these points that a search minimises and reports (koksma_optimum.value). Errors: those of
+   koksma_evaluate, ARGUMENT (a value of 0 in a geometric mean). */
 koksma_status koksma__search_value(const koksma_spec *measure, const koksma_optimise_options *options,
                                    const koksma_points *points, double *value);
 

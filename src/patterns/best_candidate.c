@@ -17,8 +17,8 @@
 
 enum { MAX_DIM = 8, LOOKS = 1 << 24 };
 
-/* Returns the squared distance from x to the nearest of the points. If this is at most `enough`, the function may
-   return any value up to `enough`. */
+/* Returns the squared distance from x to the nearest of the points. If this distance is at most `enough`, the
+   function may return any value up to `enough`. */
 static double nearest(const koksma_points *out, size_t placed, const double *x, double enough)
 {
     double best = INFINITY; /* squared distances on the torus are at most dim / 4 */

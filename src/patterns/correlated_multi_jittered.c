@@ -28,9 +28,10 @@ enum { FEW = 256, BLOCK = 256 };
 /* The grid and its permutations, computed once for all points. (koksma_cmj_2d of koksma/sampler.h computes them for
    each point.) */
 typedef struct grid {
-    uint64_t seed, key; /* key: that of the permutation that orders the points */
+    uint64_t seed, key; /* key: the hash key of the permutation that orders the points */
     uint32_t columns, rows;
-    uint32_t *in_column, *in_row; /* the permutations p, of `rows` numbers, and q, of `columns` */
+    uint32_t *in_column, *in_row; /* the permutation p of `rows` numbers, and the permutation q of `columns`
+                                     numbers */
 } grid;
 
 static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
@@ -46,8 +47,8 @@ static void place(const void *context, size_t first, size_t count, bool stream, 
         kernels->permute((uint32_t)first, some, (uint32_t)out->n, g->key, cell);
         kernels->uniform(g->seed, KOKSMA__PURPOSE_POINT, first, 0, some, xs);
         for (size_t i = 0; i < some; i++, xs += 2) {
-            /* Returns cell / columns rounded down. The added half absorbs the rounding error of the product with the
-               inverse. */
+            /* row = cell / columns, rounded down: a product with the inverse, in which the added half absorbs the
+               rounding error. */
             const uint32_t row = (uint32_t)(int32_t)((cell[i] + 0.5) * inverse), column = cell[i] - row * g->columns;
             xs[0] = koksma_place((double)(column * g->rows + g->in_column[row]), xs[0], cells);
             xs[1] = koksma_place((double)(row * g->columns + g->in_row[column]), xs[1], cells);

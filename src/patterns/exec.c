@@ -4,10 +4,10 @@
  *
  *     PROGRAM n dim seed          three whole numbers, in decimal
  *
- * without a shell and without a search path. It must print n points of dim coordinates in [0,1) to standard output:
- * text with one point on each line, or a .npy file. The program is run twice, and the points of both runs have to be
- * equal. All of Koksma assumes that a set is a pure function of its arguments; results of a sampler that is seeded by
- * the clock could not be reproduced.
+ * without a shell and without a search path. The program must print n points of dim coordinates in [0,1) to standard
+ * output: text with one point on each line, or a .npy file. The program is run twice, and the points of both runs
+ * have to be equal. All of Koksma assumes that a set is a pure function of its arguments; results of a sampler that
+ * is seeded by the clock could not be reproduced.
  *
  * Limits: the time limit set by koksma_allow_exec, 8 GiB of data for each process, and 64 bytes of output for each
  * coordinate plus 64 KiB. core/child.c documents how all processes of the program are ended.

@@ -13,25 +13,27 @@
  * order does not matter.
  *
  * With steps=0 the descent ends when the root mean square of the forces is below 2e-5 sigma^2 / sqrt n, or when it
- * has not decreased by 10 % within 200 steps. The limit is about 1e-5 of the root mean square for independent points,
- * which is sqrt(pi) sigma^2 / sqrt n; the error of the cut-off is 1.1e-5 of it. The descent takes at least 400 steps,
- * because a few points near a saddle feel almost no force, and at most 2,000. At sigma = 1 it takes about 600 steps
- * for 64 and more points, and at sigma < 0.6 up to 2,000. At n = 1024 the mean power at frequencies below 0.75 sqrt n
- * is 0.0015; with a constant momentum of 0.9 this power is the same after 2,000 steps, but 0.0090 after 400.
+ * has not decreased by 10 % within 200 steps. This limit is 1.13e-5 times the root mean square of the forces between
+ * independent random points, which is sqrt(pi) sigma^2 / sqrt n. A smaller limit would gain nothing: the forces that
+ * the cut-off leaves out of a converged set are 1.5e-5 times this root mean square (sigma = 1, n = 1024 and 4096).
+ * The descent takes at least 400 steps, because a few points near a saddle feel almost no force, and at most 2,000.
+ * At sigma = 1 it takes about 600 steps for 64 and more points, and at sigma < 0.6 up to 2,000. At n = 1024 the mean
+ * power at frequencies below 0.75 sqrt n is 0.0015; with a constant momentum of 0.9 this power is the same after
+ * 2,000 steps, but 0.0090 after 400.
  *
  * If all forces beyond the cut-off had the same direction, at the mean density of the points their sum would be n
- * integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s. This bounds the error of a move. With few
- * points, where 5 s > 1/2, several periodic images of a point are within 5 s and all exert forces. The torus is then
- * repeated in tiles x tiles copies, which form a torus so large that only the nearest image of a point is within the
- * cut-off.
+ * integral_{5 s}^inf r exp(-r^2 / (2 s^2)) 2 pi r dr = 1.2e-4 sigma^2 s. This sum bounds the error of a move. With
+ * few points, where 5 s > 1/2, several periodic images of a point are within 5 s and all exert forces. The torus is
+ * then repeated in tiles x tiles copies, which form a torus so large that only the nearest image of a point is within
+ * the cut-off.
  *
  * Limits of sigma: below about 0.13 the forces are too short to push points apart to half the distance of the densest
  * packing; from about 1.1 on, points that are close together feel nearly the same force, and many end at the same
- * position (in 20 sets of 100 points the smallest distance was 0.56 of the densest packing's at 1.05, 0.48 at 1.1,
- * 0.36 at 1.15).
+ * position (in 20 sets of 100 points the smallest distance, divided by that of the densest packing, was 0.56 at sigma
+ * = 1.05, 0.48 at 1.1 and 0.36 at 1.15).
  *
- * With order=progressive the finished set is put into Yuksel's progressive order (2015; shared/elimination.c): the points
- * are the same, and every prefix is blue noise of its number. The plain order is random.
+ * With order=progressive the finished set is put into Yuksel's progressive order (2015; shared/elimination.c): the
+ * points are the same, and every prefix is blue noise, too. The plain order is random.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -177,9 +179,9 @@ static koksma_status descend(descent *d, int steps, const koksma_run *run)
     return status;
 }
 
-/* The limit is 1.13e-5 of the root mean square for independent points, s sqrt(dim/2) pi^(dim/4) sigma^(dim/2). The
-   stiffness of a crystal grows as (2 pi)^(dim/2); the step is therefore divided by this number, relative to its value
-   in the plane. */
+/* The descent stops at 1.13e-5 times the root mean square of the forces between independent random points, which is s
+   sqrt(dim/2) pi^(dim/4) sigma^(dim/2). The stiffness of a crystal grows as (2 pi)^(dim/2); the step is therefore
+   divided by this number, relative to its value in the plane. */
 static koksma_status generate_in_space(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const size_t n = out->n, numbers = n * (size_t)out->dim;
@@ -211,7 +213,8 @@ static koksma_status generate_in_plane(uint64_t seed, const koksma_args *args, k
 {
     const size_t n = out->n;
     descent d = {.dim = 2, .n = n, .s = args->params[1] / sqrt((double)n), .step = args->params[2], .xs = out->xs};
-    d.limit = TOLERANCE * d.s * d.s * (double)n; /* this limit is for the square root of the sum of n squares */
+    d.limit = TOLERANCE * d.s * d.s * (double)n; /* limit of the square root of the sum (not the mean) of the n
+                                                    squared forces */
     d.tiles = fmax(ceil(10 * d.s), 1);
     d.cut = 5 * d.s / d.tiles;
     d.copies = n * (size_t)(d.tiles * d.tiles);

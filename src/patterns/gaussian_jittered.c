@@ -6,8 +6,8 @@
  *
  *     x_k = (c_k + 1/2 + sigma z_k) / m,   z normal given |sigma z| < 1/2, by inverting its distribution function
  *
- * Source: Cook 1986, after Shirley 1991, section 5.5.3; the inverse: Giles 2012. With a small sigma the points are
- * nearly a regular grid, with a large sigma nearly jittered.
+ * Source: Cook 1986, after Shirley 1991, section 5.5.3. The inverse of the distribution function is from Giles 2012.
+ * With a small sigma the points are nearly a regular grid, with a large sigma nearly jittered.
  */
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * golden: equidistant in one coordinate, multiples of the golden ratio in the other, for any n.
+ * golden: one coordinate is equidistant, the other has the fractional parts of the multiples of the golden ratio, for
+ * any n.
  *
  *     x = i / n,   y = {i phi},   phi = (1 + sqrt 5) / 2
  *

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * half-jittered: one point in the middle half of each cell of a grid. The points form fewer clusters than jittered
- * ones, but have more aliasing. They are biased, because no point is in the outer parts of the cells.
+ * ones, but have more aliasing. The points are biased, because no point is in the outer parts of the cells.
  *
  *     x_k = (c_k + 1/4 + u_k/2) / m,   c in {0 .. m-1}^dim, u uniform in [0,1)^dim
  *

@@ -78,7 +78,8 @@ const koksma_pattern koksma__pattern_halton = {
     .max_dim = KOKSMA_MAX_DIM,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATIN_PREFIXES,
     .params = params,
-    .revision = 1, /* its rows have one trial now (docs/decisions/0058) */
+    .revision = 1, /* since revision 1 a study makes one trial, not several, of the unscrambled points
+                      (docs/decisions/0058) */
     .generate = generate,
     .ranges = ranges,
 };

@@ -5,7 +5,8 @@
  *     x_0 = (i + offset) / n,   x_k = phi_b(i), b the k-th prime
  *
  * Source: Hammersley 1960. offset=0.5 has a lower star discrepancy than offset=0. In 2D, n = 2^m points are a
- * (0,m,2)-net in base 2. Known exactly, 2D, n = 16: D* = 0.171875 with offset 0, 0.15234375 with offset 1/2.
+ * (0,m,2)-net in base 2. Known exactly: in 2D with n = 16 the star discrepancy is 0.171875 with offset 0, and
+ * 0.15234375 with offset 1/2.
  *
  *     scramble=owen  Owen's nested uniform scrambling (1995), exact: the radical inverses are scrambled as in halton,
  *                    and x_0 in base 2 if n is a power of 2; otherwise x_0 is uniform in [i/n, (i+1)/n). offset has

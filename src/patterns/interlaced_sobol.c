@@ -7,7 +7,7 @@
  *
  * For integrands with square-integrable mixed derivatives up to `order` the error falls as n^-order in place of n^-1,
  * up to powers of log n: for exp in one dimension from 2^5 points on, for products in three dimensions from about
- * 2^10. For integrands that are not smooth the points are worse than those of Sobol'.
+ * 2^10. For integrands that are not smooth the points are worse than the Sobol' points.
  *
  *     scramble=owen   scrambles the coordinates before they are interlaced: estimates are unbiased, and errors fall as
  *                     n^(-order - 1/2). The modifier owen=1 scrambles after interlacing and destroys this rate
@@ -38,7 +38,7 @@ typedef struct interlacing {
     uint64_t spread[256];
 } interlacing;
 
-/* Stores for each byte its bits with `order` - 1 zeros between each two. */
+/* Stores for each byte its bits with `order` - 1 zeros between adjacent bits. */
 static void make_spread(int order, uint64_t spread[256])
 {
     for (int byte = 0; byte < 256; byte++) {
@@ -49,8 +49,8 @@ static void make_spread(int order, uint64_t spread[256])
     }
 }
 
-/* The number whose binary digits are those of `order` numbers y, taken in turn, byte by byte of each: digit j of byte k
-   of y_r is digit order (8 k + j) + r. */
+/* Returns the number whose binary digits are those of `order` numbers y in turn. The digits are placed byte by byte:
+   digit j of byte k of y_r becomes digit order (8 k + j) + r. */
 static double interlace(const double *y, int order, const uint64_t *spread)
 {
     uint64_t x = 0;

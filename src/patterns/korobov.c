@@ -8,7 +8,7 @@
  * lattice_rank1.c. In two dimensions (where the lattices are those of lattice-rank1), and for up to 2,048 points,
  * every multiplier is tried. No search of all multipliers in more dimensions is known that takes less than n^2 dim
  * steps; for more points, 4 million / n evenly distributed multipliers are tried, at least 16. In 10 dimensions the
- * best of them has about 1.1 to 6 times the error of lattice-rank1 and is found in a third of the time
+ * best of these multipliers has about 1.1 to 6 times the error of lattice-rank1 and is found in a third of the time
  * (docs/findings/lattices.md). The points are Latin if a has no divisor in common with n; this holds for every a that
  * the search returns.
  */

@@ -6,7 +6,7 @@
  *
  * The matrix of y has ones on and above its diagonal. Source: Larcher & Pillichshammer 2001; the generator in the
  * form of Kollig & Keller 2002. Known exactly, n = 16: D* = 0.140625; n = 1024: 3.41796875 / n. For n = 2^m, n D*
- * grows as m / 5 (Larcher & Pillichshammer 2003), while that of Hammersley's net grows as m / 3.
+ * grows as m / 5 (Larcher & Pillichshammer 2003), while for Hammersley's net it grows as m / 3.
  *
  *     scramble=owen  Owen's nested uniform scrambling (1995) in base 2, exact, in steps of 2^-32; where n is not
  *                    a power of 2, x is uniform in [i/n, (i+1)/n)

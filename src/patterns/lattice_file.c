@@ -12,9 +12,10 @@
  * Without a header b is 2 and N is 2^32. For any other N, n has to be N: the points are {i z / N}. A vector should be
  * used only with the numbers of points listed in the comments of its file.
  *
- * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion,
- * Godin & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 the
- * integration error falls nearly as n^-2 for smooth functions that are not periodic (Hickernell 2002).
+ * Sources: Hickernell, Hong, L'Ecuyer & Lemieux 2000 for the order of an extensible lattice, Cools, Kuo & Nuyens 2006
+ * for embedded lattices, and L'Ecuyer, Marion, Godin & Puchhammer 2022 for the formats. With the modifiers
+ * shift=1,tent=1 the integration error falls nearly as n^-2 for smooth functions that are not periodic (Hickernell
+ * 2002).
  */
 #include <koksma/sampler.h>
 
@@ -46,7 +47,7 @@ static uint64_t mirrored(const vector *v, uint64_t i)
 static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const vector *v = context;
-    if (v->base == 2) { /* the same numbers without divisions */
+    if (v->base == 2) { /* computes the same coordinates as the general case, but without divisions */
         const int unused = 32 - (int)round(log2((double)v->points));
         const double scale = 1 / (double)v->points;
         for (size_t i = 0; i < count; i++) {

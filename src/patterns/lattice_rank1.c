@@ -9,32 +9,33 @@
  * gamma = 3/(8 pi^2) = 0.038. With this weight P_2 is the square of l2-wraparound divided by (4/3)^d. The set in
  * fewer dimensions consists of the first coordinates of the set in more dimensions.
  *
- * Source: Sloan & Reztsov 2002, with gamma = 1; evaluating all multipliers at once in O(n log n), as in
- * shared/unit_sums.c: Nuyens & Cools 2006 and 2006a; weights: Sloan & Wozniakowski 1998, Dick, Kuo & Sloan 2013;
- * l2-wraparound: Hickernell 1998.
+ * Sources: Sloan & Reztsov 2002 for the construction with gamma = 1, Nuyens & Cools 2006 and 2006a for evaluating all
+ * multipliers at once in O(n log n) (shared/unit_sums.c), Sloan & Wozniakowski 1998 and Dick, Kuo & Sloan 2013 for
+ * weights, Hickernell 1998 for l2-wraparound.
  *
- * The weight: with gamma = 1 the products of many coordinates outweigh all pairs. From about 8 dimensions on the same
- * multiplier is then chosen repeatedly (for n = 4096: 1615), so that the points lie on diagonals. Weights 1/k^2 for
- * coordinate k are customary if the first coordinates are the most important, which this pattern does not assume;
- * even with such weights a multiplier is chosen twice (for n = 256: within 32 dimensions). With gamma = 0.038 no
- * multiplier (z and n - z counted as one) was chosen again before all phi(n)/2 had been chosen, for each n from 5 to
- * 700 in 64 dimensions and for powers of two up to 65,536 in 128 dimensions. No theorem excludes repetitions. In more
- * dimensions than phi(n)/2 some points lie on diagonals. In two dimensions the minimiser does not depend on the
- * weight.
+ * Why gamma is small: with gamma = 1 the terms of many coordinates outweigh the terms of all pairs of coordinates.
+ * From about 8 dimensions on the same multiplier is then chosen repeatedly (1615 for n = 4096), so that the points
+ * lie on diagonals. Weights 1/k^2 for coordinate k are customary if the first coordinates are the most important,
+ * which this pattern does not assume; even with such weights a multiplier is chosen twice (within 32 dimensions for n
+ * = 256). With gamma = 0.038 no multiplier (z and n - z counted as one) was chosen again before all phi(n)/2 had been
+ * chosen, for each n from 5 to 700 in 64 dimensions and for powers of two up to 65,536 in 128 dimensions. No theorem
+ * excludes repetitions. In more dimensions than phi(n)/2 some points lie on diagonals. In two dimensions the
+ * minimiser does not depend on the weight.
  *
  * Ties: z and n - z always have equal errors, and the smaller is taken, except for n = 12 and a few other n below 30
  * (lattice.h). Among other multipliers with bitwise equal sums the smallest is taken.
  * Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9 (docs/findings/lattices.md).
  *
- * With order=Q only projections of up to Q coordinates count (finite-order weights), and gamma2 .. gammaQ are the weights
- * of all projections of 2 .. Q coordinates, those of single coordinates having the weight 1 (the order-dependent weights
- * of Cools, Kuo & Nuyens 2006). With Gamma_l = gammal, or gamma^(l-1) where it is not given, the search minimises
+ * With order=Q only projections of up to Q coordinates count (finite-order weights), and gamma2 to gammaQ are the
+ * weights of the projections of 2 to Q coordinates, relative to a weight of 1 for single coordinates (the
+ * order-dependent weights of Cools, Kuo & Nuyens 2006). With Gamma_l = gammal, or gamma^(l-1) where it is not given,
+ * the search minimises
  *
  *     P_2 = (1/n) sum_i sum_(l=1)^Q Gamma_l e_l(2 pi^2 B_2({i z_0 / n}), 2 pi^2 B_2({i z_1 / n}), ...)
  *
  * with e_l the elementary symmetric polynomials. LatNet Builder's weights order-dependent:0:1,0.1,0.01 are
- * order=3,gamma2=0.1,gamma3=0.01. In two dimensions weights do not matter; with gamma2=0, z_1 is the best in two
- * dimensions nevertheless.
+ * order=3,gamma2=0.1,gamma3=0.01. In two dimensions weights do not matter. With gamma2=0, which gives pairs of
+ * coordinates no weight, z_1 is still the best multiplier in two dimensions.
  *
  * Time: The search takes O(dim n log n): half a second for 2^20 points in 10 dimensions, hardly more for a prime
  * number of points. The memory in addition to the points is 28 n bytes for powers of two, up to 95 n bytes for other
@@ -51,8 +52,8 @@
 
 enum { MAX_DIM = 256, MOST_ORDER = 8 };
 
-/* Computes the factors of the elementary symmetric polynomials of degree 0 .. order - 1, whose terms are 3/4 B_2 =
-   gamma 2 pi^2 B_2, in the factor of the next coordinate: Gamma_(l+1) / gamma^l for degree l. */
+/* Computes the factors for koksma__lattice_extend_orders: for l = 0 .. order - 1, the factor Gamma_(l+1) / gamma^l of
+   the elementary symmetric polynomial of degree l in the terms 3/4 B_2 = gamma 2 pi^2 B_2. */
 static koksma_status weights_of(const koksma_args *args, int order, double factors[MOST_ORDER])
 {
     double power = 1, sum = 0;
@@ -68,14 +69,14 @@ static koksma_status weights_of(const koksma_args *args, int order, double facto
         factors[l - 1] = weight < 0 ? 1 : weight * power;
         sum += l <= order ? factors[l - 1] : 0;
     }
-    KOKSMA__FAIL_IF(order && sum == 0, KOKSMA_ARGUMENT,
-                    "lattice-rank1: gamma2 to gamma%d are 0, so that every lattice is as good; one above 0 would do",
-                    order);
+    KOKSMA__FAIL_IF(
+        order && sum == 0, KOKSMA_ARGUMENT,
+        "lattice-rank1: gamma2 to gamma%d are 0, so that all lattices are equally good; one above 0 would do", order);
     return KOKSMA_OK;
 }
 
-/* Finds all components of z. `sums` is scratch memory for koksma__lattice_extend_orders, with these factors; NULL if all
-   projections count. */
+/* Finds all components of z. `factors` and the scratch memory `sums` are those of koksma__lattice_extend_orders;
+   `sums` is NULL if all projections count. */
 static koksma_status search_all(koksma__lattice_search *search, int dim, int order, const double *factors,
                                 double *sums, uint64_t *z)
 {
@@ -130,7 +131,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 static const koksma_param params[] = {
     {"order", "count only projections of up to this number of coordinates, 2 to 8; 0: count all", 0, 0, MOST_ORDER,
      NULL, true},
-    {"gamma2", "weight of projections of 2 coordinates, where single ones have 1; -1: 0.038", -1, -1, 1e6, NULL,
+    {"gamma2", "weight of projections of 2 coordinates (single coordinates have 1); -1: 0.038", -1, -1, 1e6, NULL,
      false},
     {"gamma3", "weight of projections of 3 coordinates; -1: 0.038^2", -1, -1, 1e6, NULL, false},
     {"gamma4", "weight of projections of 4 coordinates; -1: 0.038^3", -1, -1, 1e6, NULL, false},

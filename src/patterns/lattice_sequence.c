@@ -2,18 +2,19 @@
 /*
  * lattice-sequence: an extensible rank-1 lattice for any number of points: more points can follow, and the first 2^m
  * are a good lattice for every m up to 20.
+ *
  *     x_i,k = {phi_2(i) z_k},   phi_2(i) the radical inverse of i in base 2
  *
  * tools/make_lattice_sequence.py makes the vector component by component: it chooses each component so that for every
  * m the lattice of 2^m points is nearly as good as with the best multiplier for this m. If n is not a power of two,
  * the points consist of shifted lattices with 2^m points each and a part of another lattice. The vector was optimised
  * for up to 2^20 points, but can be used for more. Multiples of 2^32 added to z_k change no point below 2^32; without
- * them the points beyond would lie on few lines. late_bits therefore draws bits 32 to 52 of each z_k but the first from
- * a hash, so that pairs of coordinates of 2^33 to 2^51 points are as even as those of a random vector
+ * them the points beyond 2^32 would lie on few lines. late_bits therefore draws bits 32 to 52 of each z_k but the
+ * first from a hash, so that pairs of coordinates of 2^33 to 2^51 points are as even as those of a random vector
  * (docs/decisions/0055).
- * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000; embedded lattices: Cools, Kuo & Nuyens 2006; the weights are
- * those of lattice-rank1. For 2^m points, m = 4 to 18, the worst-case error is at most 1.41 times that of lattice-rank1 in
- * 2 to 10 dimensions; Cools, Kuo & Nuyens report at most 1.6 (docs/findings/lattices.md).
+ * Sources: Hickernell, Hong, L'Ecuyer & Lemieux 2000, and Cools, Kuo & Nuyens 2006 for embedded lattices. The weights
+ * are those of lattice-rank1. For 2^m points, m = 4 to 18, the worst-case error is at most 1.41 times that of
+ * lattice-rank1 in 2 to 10 dimensions; Cools, Kuo & Nuyens report at most 1.6 (docs/findings/lattices.md).
  */
 #include <koksma/sampler.h>
 
@@ -41,7 +42,7 @@ static void early_column(const void *context, int k, uint64_t first, size_t coun
     }
 }
 
-/* Does the same beyond point 2^32, modulo 2^53. */
+/* Computes one coordinate modulo 2^53, for points beyond 2^32. */
 static void late_column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const uint64_t part = *(const uint64_t *)context, wide = z[k] + late_bits(k);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * n-rooks: each coordinate is jittered in n strata, and independent random permutations pair the strata of the
- * coordinates, so that every row and column of the n x n grid has one point. It takes any n and any dimension.
- * Statistics calls the method Latin hypercube sampling.
+ * coordinates, so that every row and column of the n x n grid has one point. The pattern takes any n and any
+ * dimension. Statistics calls the method Latin hypercube sampling.
  *
  *     x_k = (p_k(i) + u_k) / n,   p_0 the identity, p_k random permutations, u uniform in [0,1)^dim
  *

@@ -4,7 +4,7 @@
  *
  *     x_i,k = sum_l y_l b^-l,   y = C_k a modulo b,   i = sum_c a_c b^c   (l = 1, 2, ..., c = 0, 1, ...)
  *
- * The file is in one of these formats of the collection LDData, or in that of Joe & Kuo; comments follow a #:
+ * The file is in one of these formats of the collection LDData, or in Joe & Kuo's own format; comments follow a #:
  *
  *     # dnet      base b, dimensions s, columns k (or b^k), digits r; then a line for each dimension: the k columns of
  *                 C, each as a whole number whose highest digit, that of b^(r-1), is the entry of row 1. Interlaced
@@ -17,13 +17,13 @@
  *
  * The files of LatNet Builder begin differently: in place of the line "# dnet", "# plattice" or "# soboljk" there is a
  * heading "# Parameters for ..." among the first comments, which also gives the base ("... in base 2"); they have no line
- * for the base. Its Sobol' points have the number of dimensions in a line of their own, and by default
- * only m_1 ... m_degree in each line ("# Parameters m_{j,c} ..."): the polynomials are then the primitive ones in Joe &
- * Kuo's order, by degree and then by a. If its digital net has the line "# Interlacing factor", d, there are d matrices for
- * each dimension, and row l of the j-th of them (j = 0 .. d - 1) is row l d + j, counted from 0, of the dimension's matrix
- * (Dick 2008).
+ * for the base. LatNet Builder's files of Sobol' points have the number of dimensions on a separate line, and by
+ * default only m_1 ... m_degree on each later line ("# Parameters m_{j,c} ..."): the polynomials are then the
+ * primitive ones in Joe & Kuo's order, by degree and then by a. If a digital net of LatNet Builder has an interlacing
+ * factor d (the line "# Interlacing factor"), there are d matrices for each dimension, and row l of the j-th of them
+ * (j = 0 .. d - 1) is row l d + j, counted from 0, of the dimension's matrix (Dick 2008).
  *
- * Source: Niederreiter 1992; formats: L'Ecuyer et al. 2022, Joe & Kuo 2008.
+ * Sources: Niederreiter 1992; for the formats L'Ecuyer et al. 2022 and Joe & Kuo 2008.
  *
  * Point i does not depend on n, and there are b^k points; k is 53 for Sobol' numbers. A coordinate has as many digits as
  * fit into a double (53 in base 2); further digits are cut off. The modifier owen-base=b scrambles the points in base b.
@@ -41,7 +41,7 @@ enum { MOST_COLUMNS = 64, MOST_DIGITS = 53, LARGEST_BASE = 256, SOBOL_COLUMNS = 
 typedef struct matrices {
     uint32_t base;
     int columns, digits;                         /* columns and rows (digits) of each matrix */
-    uint64_t end;                                /* number of points that are needed */
+    uint64_t end;                                /* all points to compute have indices below this number */
     uint8_t (*digit)[MOST_COLUMNS][MOST_DIGITS]; /* [k][c][l]: row l + 1, column c of C_k */
 } matrices;
 

@@ -3,13 +3,15 @@
  * orthogonal-array: points on a jittered orthogonal array: every 2D projection has one point in each of s x s cells
  * (strength 2, n = s^2), or every 3D projection has one in each of s x s x s cells (strength 3, n = s^3), where s is
  * prime.
- *     strength 2, Bose 1938, up to s + 1 dimensions: the levels i div s, i mod s, (i div s + k (i mod s)) mod s
- *     strength 3, Bush 1952, up to s dimensions: level k is the polynomial whose coefficients are the digits of i in
- *                 base s, evaluated at k modulo s
  *
- * The levels of each coordinate are permuted at random, and the n/s points of each level are put into n/s strata in
- * random order, so that the points are also n-rooks. Source: Owen 1992; the multi-jittered arrays of Jarosz et al.
- * 2019.
+ *     strength 2   up to s + 1 dimensions (Bose 1938): point i has the levels i div s, i mod s and, for k = 1, 2, ...,
+ *                  (i div s + k (i mod s)) mod s
+ *     strength 3   up to s dimensions (Bush 1952): the digits of i in base s are the coefficients of a polynomial, and
+ *                  level k of point i is its value at k, modulo s
+ *
+ * The levels of each coordinate are permuted at random, and the n/s points of each level are put, in random order,
+ * into the n/s strata of that level, so that the points are also n-rooks. Source: Owen 1992; the multi-jittered
+ * arrays of Jarosz et al. 2019.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * pmj02: progressive multi-jittered points whose prefixes of 2^m points are (0,m,2)-nets in base 2, with every other
- * property of Christensen, Kensler & Kilpatrick 2018. The points are made by stochastic generation (shared/grow.h) from
- * two matrices: that of the Stirling numbers of the first kind modulo 2, and this matrix shifted by a row and a column.
+ * pmj02: progressive multi-jittered points whose prefixes of 2^m points are (0,m,2)-nets in base 2; they have all
+ * properties of the pmj02 sequences of Christensen, Kensler & Kilpatrick 2018. The points are made by stochastic
+ * generation (shared/grow.h) from two matrices: the matrix of the Stirling numbers of the first kind modulo 2, and
+ * this matrix shifted by a row and a column.
+ *
  *     x(2^l + i) is at a random position in the empty half of the stratum of width 2^-l of x(i XOR partner_l)
  *
  * Source: Christensen, Kensler & Kilpatrick 2018; the generation is from Helmer, Christensen & Kensler 2021.
+ *
  *     shuffle=1    points of the same matrices in random order, scrambled by a hash as in sobol:scramble=hash-owen
  *
  * With shuffle=1 every aligned block of 2^m points is a (0,m,2)-net, and the points of two seeds are paired at
  * random. Without shuffle=1 the points of two seeds are correlated: the numbers of the strata of point i for two
  * seeds differ only by an exclusive or with a constant.
  *
- * Without shuffle=1 the points fall into classes that interleave (figure 1 of Christensen et al.): by the parity of bits
- * 0, 2, 4, .. and of bits 1, 3, 5, .. of the index there are four, each a (0,m-2,2)-net in every aligned block of 2^m
- * points. The points of even index are no such class: they all lie in one half of x.
+ * Without shuffle=1 the points fall into classes that interleave (figure 1 of Christensen et al.): the parities of
+ * bits 0, 2, 4, .. and of bits 1, 3, 5, .. of the index define four classes, each a (0,m-2,2)-net in every aligned
+ * block of 2^m points. The points of even index are no such class: they all lie in one half of x.
  *
  * Known: for 2^m points root mean square errors fall about as N^-1.5 for smooth functions, as N^-0.75 for edges and as
  * N^-1 for steps along an axis, as published (docs/findings/integration.md).
@@ -44,8 +47,8 @@ static void directions_of(int k, uint32_t *directions)
 }
 
 /* Computes the columns of the matrix of coordinate k for all 53 digits, from its definition: column n has in row r the
-   Stirling number of the first kind of n + k and r + k, modulo 2. They count the powers in x (x + 1) ... (x + n - 1),
-   which is x^ceil(n/2) (x + 1)^floor(n/2) modulo 2. */
+   Stirling number of the first kind of n + k and r + k, modulo 2. These numbers are the coefficients of the
+   polynomial x (x + 1) ... (x + n - 1), which is x^ceil(n/2) (x + 1)^floor(n/2) modulo 2. */
 static void columns_of(int k, uint64_t columns[KOKSMA__DIGITS])
 {
     uint64_t product = 1; /* bit r: the coefficient of x^r */

@@ -2,25 +2,27 @@
 /*
  * pmj02bn: pmj02 with blue noise: a nested scrambling of pmj02 for which the first 4, 16, 64, .. 4^levels points are
  * far from each other. The points have every property of pmj02 that nested (Owen) scrambling preserves: prefixes of
- * 2^m points, and all aligned blocks of 2^m points, are (0,m,2)-nets, and so are the four classes of pmj02.c in them.
+ * 2^m points, and all aligned blocks of 2^m points, are (0,m,2)-nets, and so are the four classes of points that
+ * pmj02.c describes.
+ *
  *     x = x' XOR the mask for the first `levels` bits of x', x' from pmj02; y likewise, with other masks
  *     energy of 4^d points = sum over pairs in adjacent cells of max(0, 1 - |p - q|^2 / (1.2 / 2^d)^2)^8
  *
- * Source: the aim, nets that are also blue noise, is that of Christensen, Kensler & Kilpatrick 2018. They choose each
- * new point among candidates that preserve the net. But a (0,m,2)-net of 2^m points determines the position of a new
- * point up to 1/2^(m+1). Every box of area 2^-m has one old and one new point, in opposite quadrants. The box of one
- * shape therefore determines the next bit of each coordinate, these bits determine the box of the next shape, and so
- * on. Only the position in a square of side 1/(2n) is free. Choosing among candidates in this square (Helmer,
- * Christensen & Kensler 2021) has three faults: it improves nothing from about 4,000 points on, the points crowd at the
- * ends of their strata, and the measured error of a step edge was 1.8 times that of pmj02. This file uses another
- * freedom: in each of the 2^d strata of an axis a scrambling may flip the bit of weight 2^-(d+1). A flip moves 2^d of
- * 4^d points by half the spacing. The masks are chosen bit by bit, the coarsest first: for d = 1 .. levels each of the
- * 2 * 2^d strata is flipped if this lowers the energy of the first 4^d points. This is repeated until nothing changes,
- * at most SWEEPS times. Each cell of side 2^-d always contains one point. Energies are sums of whole numbers and thus
- * the same on all machines.
+ * Source: the aim, nets that are also blue noise, is that of Christensen, Kensler & Kilpatrick 2018. These authors
+ * choose each new point among candidates that preserve the net. But a (0,m,2)-net of 2^m points determines the
+ * position of a new point up to 1/2^(m+1). Every box of area 2^-m has one old and one new point, in opposite
+ * quadrants. A box of one shape therefore determines the next bit of each coordinate of the new point, these bits
+ * determine the box of the next shape, and so on. Only the position in a square of side 1/(2n) is free. Choosing
+ * among candidates in this square (Helmer, Christensen & Kensler 2021) has three faults: it improves nothing from
+ * about 4,000 points on, the points crowd at the ends of their strata, and the measured error of a step edge was 1.8
+ * times that of pmj02. This file uses another freedom: in each of the 2^d strata of an axis a scrambling may flip the
+ * bit of weight 2^-(d+1). A flip moves 2^d of 4^d points by half the spacing. The masks are chosen bit by bit, the
+ * coarsest first: for d = 1 .. levels each of the 2 * 2^d strata is flipped if this lowers the energy of the first
+ * 4^d points. This is repeated until nothing changes, at most SWEEPS times. Each cell of side 2^-d always contains
+ * one point. Energies are sums of whole numbers and thus the same on all machines.
  *
  * docs/findings/blue-noise.md lists the mean distance to the nearest point over 16 seeds, in units of the densest
- * packing's distance. The time is that of pmj02 plus a time proportional to 4^levels, for any n.
+ * packing's distance. For any n the time is the time of pmj02 plus a time proportional to 4^levels.
  *
  * A single point is not uniform over seeds, because the masks are chosen: over 6,000 sets of 16 points, the density
  * of points 0, 1, 2, 3 and 15 in 16 bins deviated by 7 to 11 % (root mean square). Averaged over all points of a set

@@ -2,10 +2,11 @@
 /*
  * poisson-disk-maximal: dart throwing on the torus until no point can be added: no two points are closer than d, and
  * no position is further than d from all points.
- *     by distance, d=D: the number of points follows from D (about 0.6965 / D^2); any other n is an error
- *     by number, d=0: darts are thrown at a distance at which slightly fewer than n points fit; then the distance
- *         shrinks, and darts fill the free area that opens, until exactly n points leave no free area (a bisection
- *         over the distance, because free areas open one at a time)
+ *
+ *     d=D   The number of points follows from the distance D (about 0.6965 / D^2); any other n is an error.
+ *     d=0   The distance follows from n: darts are thrown at a distance at which slightly fewer than n points fit; then
+ *           the distance shrinks, and darts fill the free area that opens, until exactly n points leave no free area
+ *           (a bisection over the distance, because free areas open one at a time).
  *
  * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree of the free area. The points have the
  * distribution of dart throwing and are thus unbiased. Free areas narrower than 2^-30 are ignored. The time is about
@@ -14,9 +15,10 @@
  * proportional to n and grow by a factor of 6 to 10 with each dimension: 400 points take 0.01, 0.2 and 2 s in 3, 4
  * and 5 dimensions.
  *
- * With order=progressive the finished set is put into Yuksel's progressive order (2015; shared/elimination.c): the points
- * are the same, and every prefix is blue noise of its number. Prefixes of the plain order, that of the darts, are not: the
- * first eighth of 512 points in the plane has a relative radius of 0.30, in progressive order 0.64.
+ * With order=progressive the finished set is put into Yuksel's progressive order (2015; shared/elimination.c): the
+ * points are the same, and every prefix is blue noise, too. In the plain order, in which the darts were thrown,
+ * prefixes are not blue noise: the first eighth of 512 points in the plane has a relative radius of 0.30, in
+ * progressive order 0.64.
  */
 #include <math.h>
 #include <string.h>
@@ -119,8 +121,8 @@ static koksma_status try_shrink(void *set, size_t kept, double d, size_t n, cons
     return explain(status, c, (double)(n - 1));
 }
 
-/* Searches for a maximal set of n points. It starts up to TRIES times, with the seeds number first .. first + TRIES -
-   1. */
+/* Searches for a maximal set of n points. The search starts up to TRIES times, with the seeds number first .. first +
+   TRIES - 1. */
 static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksma_run *run, cover *c)
 {
     double d = distance_of(fmax((double)n - 0.6 * sqrt((double)n) - 0.4, 0.9), c->dim);
@@ -164,11 +166,11 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
     return status ? status : explain(cover_fill(c, SIZE_MAX, run), c, expected);
 }
 
-/* Returns whether a maximal set of n points with distance d can exist. Its disks of radius d cover the torus, and its
-   disks of radius d/2 do not overlap. Therefore n is at least 2/(sqrt(27) d^2), as in the thinnest covering, and at
-   most 2/(sqrt(3) d^2), as in the densest packing. In more dimensions n balls of radius d have at least, and n balls
-   of radius d/2 at most, the volume of the torus. With this test an impossible n fails before the first dart is
-   thrown. */
+/* Returns whether a maximal set of n points with distance d can exist. The disks of radius d about the points of such
+   a set cover the torus, and the disks of radius d/2 do not overlap. Therefore n is at least 2/(sqrt(27) d^2), as in
+   the thinnest covering, and at most 2/(sqrt(3) d^2), as in the densest packing. In more dimensions n balls of radius
+   d have at least, and n balls of radius d/2 at most, the volume of the torus. With this test an impossible n fails
+   before the first dart is thrown. */
 static bool is_possible(double d, size_t n, int dim)
 {
     const double area = (double)n * pow(d, dim), packed = koksma__packing_distance(n, dim, true) / d;

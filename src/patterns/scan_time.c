@@ -31,7 +31,7 @@ static double around(double t)
 }
 
 /* Returns the squared distance from (x, y, t) to the nearest finished point, where (x, y) is point i and finished
-   points have lower indices. The search stops when this is at most `enough`. */
+   points have lower indices. The search stops when this distance is at most `enough`. */
 static double nearest(const scan *s, size_t i, double t, double enough)
 {
     const double *own = s->out->xs + 3 * i;

@@ -21,10 +21,11 @@
  *     shuffle=1               with hash-owen: the hash scrambles the order of the points, too; the first 2^m points
  *                             are still an aligned block of the sequence
  *
- * The first 2^32 points are scrambled in 32 digits. Every map of digits 33 to 53 keeps the string of 21 digits 0, so
- * that all points together are a scrambled sequence: digital-shift leaves these digits alone, lms multiplies them by a
- * random lower triangular matrix, owen and hash-owen permute them at every node of the tree of digits that has no point
- * below 2^32. With shuffle=1 the points of each aligned block of 2^32 have a random order; the blocks are in order.
+ * The first 2^32 points are scrambled in 32 digits. Every map of digits 33 to 53 maps 21 zeros to 21 zeros, so that
+ * all points together are a scrambled sequence: digital-shift leaves these digits alone, lms multiplies them by a
+ * random lower triangular matrix, owen and hash-owen permute them at every node of the tree of digits that has no
+ * point below 2^32. With shuffle=1 the points of each aligned block of 2^32 have a random order; the blocks are in
+ * order.
  *
  * Known exactly, 2D, n = 16: D* = 0.171875, L2 star = 0.047766231 (no scrambling).
  */
@@ -297,7 +298,8 @@ const koksma_pattern koksma__pattern_sobol = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 |
               KOKSMA_CLAIM_NET2_PREFIXES,
     .params = params,
-    .revision = 2, /* its rows without scrambling have one trial now (docs/decisions/0058) */
+    .revision = 2, /* since revision 2 a study makes one trial, not several, of the unscrambled points
+                      (docs/decisions/0058) */
     .generate = generate,
     .ranges = koksma__ranges_always,
 };

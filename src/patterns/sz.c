@@ -108,7 +108,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const size_t bytes = (size_t)out->dim * sizeof(uint32_t[32]);
     uint32_t(*directions)[32] = calloc(1, bytes);
     KOKSMA__REQUIRE_MEMORY(directions, bytes);
-    for (int d = 0; d < out->dim; d++) { /* compute the columns that indices up to the last need */
+    for (int d = 0; d < out->dim; d++) { /* compute only the columns that the indices up to the last one use */
         for (int b = 0; b < 32 && last >> b; b++) {
             directions[d][b] = column_of(d, b);
         }

@@ -14,14 +14,14 @@
  * property for every number of points, and the N_g are this project's. Niederreiter (1988) constructed digital
  * sequences from series of rational functions. Why t is 0 and 1:
  *
- *     Take k rows in all, the first ones of some of the C_b, and a linear combination of them that is not 0. It is a
- *     fraction whose denominator is the product of the powers of the four polynomials in these rows; its degree is k,
- *     or k + 1 if an odd number of rows comes from C_3. If the first m coefficients of the series vanish, the degree
- *     of the numerator is below that of the denominator minus m. Therefore the rows are independent for m = k without
- *     C_3, and for k = m - 1 with it, which means t = 0 and t = 1. For the pair C_2, C_3 and m = k the numerator
- *     would be a constant. With u = x + 1, p = u^2 + 1 and the leading row is (u - 1)/p^(q+1), so that u^-k would be
- *     a constant multiple of u - 1 modulo p. But the powers of u modulo p are 1, u and their negatives; so t = 0 for
- *     this pair, too.
+ *     Take k rows in all, the first ones of some of the C_b, and a linear combination of them that is not 0. This
+ *     combination is a fraction whose denominator is the product of the powers of the four polynomials in these rows;
+ *     its degree is k, or k + 1 if an odd number of rows comes from C_3. If the first m coefficients of the series
+ *     vanish, the degree of the numerator is below that of the denominator minus m. Therefore the rows are
+ *     independent for m = k without C_3, and for k = m - 1 with it, which means t = 0 and t = 1. For the pair C_2,
+ *     C_3 and m = k the numerator would be a constant. With u = x + 1, p = u^2 + 1 and the leading row is (u -
+ *     1)/p^(q+1), so that u^-k would be a constant multiple of u - 1 modulo p. But the powers of u modulo p are 1, u
+ *     and their negatives; so t = 0 for this pair, too.
  *
  * Multiplying the matrices of a group from the right by the same upper triangular matrix only permutes the indices
  * below each power of 3, so all groups have these properties. The N_g were found by a search

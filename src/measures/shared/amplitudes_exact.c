@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Computes the power spectrum by direct sums. The factor exp(-2 pi i k.x) is a product over the coordinates: with C,
-   S the cosine and sine of 2 pi kx x and c, s those of 2 pi ky y, the sums over the points of Cc, Cs, Sc and Ss give
-   the power at (kx, ky) and at (-kx, ky). These sums for all frequencies are one matrix product, computed in tiles of
-   8 x 16 numbers. Rows 2k and 2k+1 have the cosine and the sine at frequency k of x, columns those of y. The columns
-   are computed for one chunk of the points at a time and used for a band of rows, so that memory does not grow with
-   the number of points. */
+   S the cosine and sine of 2 pi kx x, and c, s the cosine and sine of 2 pi ky y, the sums over the points of Cc, Cs,
+   Sc and Ss give the power at (kx, ky) and at (-kx, ky). These sums for all frequencies are one matrix product,
+   computed in tiles of 8 x 16 numbers. Rows 2k and 2k+1 of the product belong to the cosine and the sine of 2 pi k x,
+   columns 2k and 2k+1 to those of 2 pi k y. The factor for the columns is computed for one chunk of the points at a
+   time and used for a band of rows, so that memory does not grow with the number of points. */
 #include "measures/shared/amplitudes_exact.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static bool keep_going(void *context, double fraction)
 }
 
 /* Writes for each point from + j, j < count, and each r < width the number out[width j + r]: the cosine (even r) or
-   sine (odd r) of coordinate k at frequency first/2 + r/2, rounded down. */
+   sine (odd r) of 2 pi f x, where x is coordinate k of the point and f = first/2 + r/2, in integer division. */
 static void fill_panel(const koksma_points *p, int k, size_t first, int width, size_t from, size_t count, double *out)
 {
     for (size_t j = 0; j < count; j++) {

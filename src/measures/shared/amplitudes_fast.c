@@ -3,8 +3,8 @@
  * Computes the power spectrum by a nonuniform fast Fourier transform of type 1 (Dutt and Rokhlin 1993; with the
  * kernel of Barnett, Magland and af Klinteberg 2019). Each point is spread over WIDTH x WIDTH cells of a grid of m x
  * m cells, where m >= 1.5 (2 half + 1) is a power of two, by the kernel exp(beta (sqrt(1 - z^2) - 1)). The Fourier
- * transform of the points is that of the grid divided by that of the kernel. All columns are transformed along y
- * first, two real columns as one complex column, then the rows with 0 <= ky <= half along x.
+ * transform of the points is the transform of the grid divided by the transform of the kernel. All columns are
+ * transformed along y first, two real columns as one complex column, then the rows with 0 <= ky <= half along x.
  */
 #include "measures/shared/amplitudes_fast.h"
 

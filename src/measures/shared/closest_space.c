@@ -4,8 +4,8 @@
  * its points at the median along its longest side. The closest pair lies within one half or between the two halves. A
  * pair of nodes is skipped if their boxes are further apart than the closest pair found so far. Otherwise the larger
  * node is replaced by its two children; if both nodes are leaves, all pairs of their points are compared. On the
- * torus the distance of two boxes is the shorter way around in each coordinate. It takes O(n log n) for evenly spread
- * points in few dimensions, and O(n^2) in many dimensions, where most boxes are near each other.
+ * torus the distance of two boxes is the shorter way around in each coordinate. The search takes O(n log n) for
+ * evenly spread points in few dimensions, and O(n^2) in many dimensions, where most boxes are near each other.
  */
 #include "measures/shared/closest_space.h"
 
@@ -122,7 +122,7 @@ static void try_pair(search *s, size_t i, size_t j)
     s->best = fmin(s->best, sum);
 }
 
-/* Tries the pairs of two different nodes, or of a node with itself. */
+/* Tries the pairs of points of two different nodes, or all pairs within one node if at = with. */
 static void search_pairs(search *s, size_t at, size_t with)
 {
     const node *a = &s->nodes[at], *b = &s->nodes[with];

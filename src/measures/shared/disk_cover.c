@@ -9,10 +9,11 @@
  *     deficit <= max_i pi min(r, d_i + rho)^2 - (i - 1)/n    over d_i - rho <= r, and d_(n+1) = infinity;
  *
  * with rho = 0 these are the values of the best disks about c itself. Cells that may contain the centre of a better
- * disk than the best so far are cut in four, level by level, so that the result is the same for any number of
+ * disk than the best so far are cut into four, level by level, so that the result is the same for any number of
  * threads. The points on the rim of a disk of radius s about a centre in the cell are between s - rho and s + rho
  * away from c. If the disk is better than the best so far, these distances are close to a d_i whose bound exceeds the
- * best value. When these points are few, the disks through all pairs of them are tried, and the cell is finished.
+ * best value. When few points are at such distances, the disks through all pairs of them are tried, and the cell is
+ * finished.
  */
 #include "measures/shared/disk_cover.h"
 
@@ -34,7 +35,7 @@ enum {
     LOOKS_A_PAIR = 16
 };
 
-static const double max_work = 0x1p28; /* limit of point tests if there is no time limit; they take some seconds */
+static const double max_work = 0x1p28; /* limit of point tests (some seconds) if there is no time limit */
 static const double slack = 1e-12;     /* larger than the rounding errors of a bound */
 
 typedef struct cell {
@@ -177,7 +178,8 @@ static koksma_status look(const cover *c, cell *at, desk *d, koksma__disk_best *
     koksma__disk_try(set, best, false, at_r, centre, r * r);
     upper = fmax(upper, M_PI * r * r - (double)up_to / n + slack);
     at->upper = fmin(at->upper, upper);
-    /* For r + rho >= 1/2 more than one periodic image of a point may be on the rim. */
+    /* For r + rho >= 1/2 more than one periodic image of a point may be on the rim; the cell is then not finished by
+       trying pairs. */
     return at->upper > c->start.value && r + rho < 0.5 ? settle(c, at, d, count, best) : KOKSMA_OK;
 }
 
@@ -230,7 +232,7 @@ static void drop_cells(cover *c)
     c->n_cells = kept;
 }
 
-/* Cuts each cell in four. */
+/* Cuts each cell into four. */
 static koksma_status cut_cells(cover *c, double half)
 {
     cell *quarters = malloc(4 * c->n_cells * sizeof *quarters);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Integrals over the distributions ("laws") of the radius of random disks and balls: the mean overlap of two disks of
- * the same random radius whose centres are a given distance apart, and the mean of the squared area. They have closed
- * forms in h = distance / 2 and s = sqrt(r^2 - h^2): two disks overlap in a lens of area 2 r^2 atan2(s, h) - 2 h s,
- * which is integrated over the distribution of r.
+ * the same random radius whose centres are a given distance apart, and the mean of the squared area. These integrals
+ * have closed forms in h = distance / 2 and s = sqrt(r^2 - h^2): two disks overlap in a lens of area 2 r^2 atan2(s,
+ * h) - 2 h s, which is integrated over the distribution of r.
  */
 #include "measures/shared/disk_laws.h"
 
@@ -59,8 +59,8 @@ double koksma__ball_overlap(koksma__disk_law law, double r, double distance2)
     return M_PI * t * t * t * (r + h) / (3 * r);
 }
 
-/* Returns the derivative of the mean overlap by the distance. For a given radius it is minus the length of the common
-   chord of two disks, or minus the area of the common disk of two balls. */
+/* Returns the derivative of the mean overlap by the distance. For a given radius this derivative is minus the length
+   of the common chord of two disks, or minus the area of the disk in which two spheres intersect. */
 double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double distance)
 {
     const double h = distance / 2;

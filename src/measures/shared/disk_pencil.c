@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Searches all disks with two given points on their rim, whose circles form a pencil. With 2h the distance of the two
- * points, the centres are middle + t normal, |t| <= top, and the squared radius is h^2 + t^2 <= r^2.
+ * points, `middle` their midpoint and n the unit normal of the line through them, the centres are middle + t n, |t|
+ * <= top, and the squared radius is h^2 + t^2 <= r^2.
  *
- * A third point at q from the middle is inside where |q|^2 - h^2 - 2 t q.n <= 0, which is a half-line of t. So each
- * point enters or leaves the disk at one value of t, an event. The events are sorted by t and visited with a running
- * count. Between events the count is constant and the area is monotonic on either side of t = 0, so that the supremum
- * is at an event, at t = 0 (for the excess of closed disks, which is largest for the least area) or at |t| = top (for
- * the deficit of open disks, which is largest for the largest area).
+ * A third point at the vector q from the midpoint is inside if |q|^2 - h^2 - 2 t q.n <= 0, which holds on a half-line
+ * of t. So each point enters or leaves the disk at one value of t, an event. The events are sorted by t and visited
+ * with a running count. Between events the count is constant and the area is monotonic on either side of t = 0, so
+ * that the supremum is at an event, at t = 0 (for the excess of closed disks, which is largest for the least area) or
+ * at |t| = top (for the deficit of open disks, which is largest for the largest area).
  *
  * Before sorting, the events are counted in BINS equal intervals of t, and each bin is bounded by its most favourable
- * count and its most favourable area. If no bin can exceed the best disk so far, the pencil is skipped. This takes
- * O(n) instead of O(n log n). On the torus several periodic images of a point may be near enough to matter. Points
- * whose squared distance is within KOKSMA__DISK_RIM of the squared radius count as on the rim; this is more than the
- * rounding errors of squared distances.
+ * count and its most favourable area. If no bin can exceed the best disk so far, the pencil is skipped. Skipping a
+ * pencil takes O(n), searching it O(n log n). On the torus several periodic images of a point may be near enough to
+ * matter. Points whose squared distance is within KOKSMA__DISK_RIM of the squared radius count as on the rim; this is
+ * more than the rounding errors of squared distances.
  */
 #include "measures/shared/disk_pencil.h"
 
@@ -63,8 +64,8 @@ static void add_event(pencil *p, double t, long delta)
     p->events[p->n_events++] = (event){t, delta};
 }
 
-/* Adds the event of a point at q from the middle, which is inside where |q|^2 - h^2 - 2 t q.n <= 0. Points on the rim
-   are inside a closed disk and outside an open one. */
+/* Adds the event of a point at the vector q from the midpoint. The point is inside if |q|^2 - h^2 - 2 t q.n <= 0.
+   Points on the rim are inside a closed disk and outside an open one. */
 static void add_point(pencil *p, double qx, double qy, long weight)
 {
     const double slope = 2 * (qx * p->normal[0] + qy * p->normal[1]);
@@ -79,7 +80,8 @@ static void add_point(pencil *p, double qx, double qy, long weight)
     }
 }
 
-/* Fills count and events. On the torus several periodic images of a point may be near enough to matter. */
+/* Fills p->count and p->events for the pencil through points i and j. On the torus several periodic images of a point
+   may be near enough to matter. */
 static void fill(pencil *p, size_t i, size_t j)
 {
     const koksma__disk_set *set = p->set;
@@ -174,7 +176,7 @@ static void try_pair(pencil *p, size_t i, size_t j, double dx, double dy)
     for (int closed = 0; closed < 2; closed++) {
         p->closed = closed;
         fill(p, i, j);
-        if (closed) { /* add the smallest closed disk, or the two largest open disks */
+        if (closed) { /* try also the smallest closed disk, or the two largest open disks */
             add_event(p, 0, 0);
         } else {
             add_event(p, -p->top, 0);

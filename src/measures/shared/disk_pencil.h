@@ -25,7 +25,8 @@ typedef struct koksma__disk_best {
 void koksma__disk_try(const koksma__disk_set *set, koksma__disk_best *best, bool closed, size_t count,
                       const double *centre, double square_radius);
 
-/* Tries the critical disks with point i and any point j > i on their rim. Errors: MEMORY. */
+/* Tries the critical disks (at which the discrepancy can be largest, see disk.c) with point i and any point j > i on
+   their rim. Errors: MEMORY. */
 koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma__disk_best *best);
 
 /* Tries the critical disks with points i and j on their rim, where (dx, dy) is the vector from i to the image of j.

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Bounds for the discrepancy of half-planes. The domain lies within distance rho of a centre. Turning a line about a
- * point of the domain by up to eta moves it there by at most s = 2 rho sin(eta/2). So a half-plane whose direction
- * differs by up to eta from a middle direction lies, within the domain, between two half-planes of the middle
- * direction that are shifted inward and outward by s. The counts and masses of these two bound those of the half-plane.
- * Over all lines of an interval of directions this gives
+ * Bounds for the discrepancy of half-planes. The domain (the unit square, a disk or a triangle) lies within distance
+ * rho of a centre. Turning a line about a point of the domain by up to eta moves the part of the line in the domain
+ * by at most s = 2 rho sin(eta/2). So a half-plane whose direction differs by up to eta from a middle direction lies,
+ * within the domain, between two half-planes of the middle direction that are shifted inward and outward by s. The
+ * counts and masses (areas in the domain, as shares of its area) of these two half-planes bound those of the given
+ * one. Over all lines of an interval of directions this gives
  *
  *     excess <= max_c #{x below c}/n - mass(below c - 2s),    deficit <= max_c mass(below c + 2s) - #{x below c}/n,
  *
  * where both bounds are computed from the points sorted along the middle direction. Intervals whose bound exceeds the
- * largest known value are halved.
+ * value of the best line found so far are halved.
  */
 #include "measures/shared/edge_cover.h"
 
@@ -122,8 +123,8 @@ static size_t halve(const cover *v, size_t count, double lower, cut *to)
     return kept;
 }
 
-/* Halves, in rounds, the intervals of directions that may contain a better line. It stops when no such interval is
-   left, when the deadline has passed, or when the intervals are too many or too narrow. */
+/* Halves, in rounds, the intervals of directions that may contain a better line. The search stops when no such
+   interval is left, when the deadline has passed, or when the intervals are too many or too narrow. */
 static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *best, double *upper)
 {
     size_t count = FIRST_CUTS;

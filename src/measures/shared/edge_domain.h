@@ -17,9 +17,9 @@ typedef struct koksma__chord {
 typedef struct koksma__domain {
     /* returns the mass of the half-plane a x + b y <= a p[0] + b p[1] */
     double (*area_below_through)(double a, double b, const double p[2]);
-    /* computes the chords with midpoint p. They are the lines through p for which the mass on one side is stationary
-       as the line turns about p. There is at least one; if p is a corner of the domain, they are the two adjacent
-       sides */
+    /* computes the chords with midpoint p. These chords lie on the lines through p for which the mass on one side is
+       stationary as the line turns about p. There is at least one chord; if p is a corner of the domain, the chords
+       are the two adjacent sides */
     void (*chords)(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS]);
     double radius; /* radius of a circle that contains the domain */
 } koksma__domain;

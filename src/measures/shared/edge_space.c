@@ -1,27 +1,28 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * edge in 3 dimensions. The deficit of an open half-space is the excess of its complement, a closed half-space. So
- * the supremum is that of count/n - volume over closed half-spaces. It is reached by a half-space that has the least
- * volume among those that contain some subset of the points. Consider the section of its plane with the cube. The
- * plane goes through three points; or through two points whose line contains the centroid of the section (otherwise
- * turning the plane about that line would reduce the volume); or through one point, which is the centroid.
+ * the measure is the supremum of count/n - volume over closed half-spaces. It is reached by a half-space that has the
+ * least volume among those that contain some subset of the points. Consider the section of its bounding plane with
+ * the cube. This plane goes through three points; or through two points whose line contains the centroid of the
+ * section (otherwise turning the plane about that line would reduce the volume); or through one point, which is the
+ * centroid.
  *
  * The cube is unchanged by reflection in its centre. For such bodies Meyer and Reisner (1991) proved: for each
  * v < 1/2 there is a convex body in the cube such that every plane that cuts off the volume v touches this body, at
  * the centroid of the plane's section. The bodies are nested: the larger v, the smaller the body. Therefore only one
- * of them touches a given line or a given point. Hence, as a plane turns about a line, the volume has one minimum and
- * one maximum, opposite to each other, and is stationary nowhere else: golden section search finds the minimum. For
- * planes through a point, compute for each horizontal line through the point the least volume over the planes through
- * that line. As a function of the direction of the line this has one minimum.
+ * of these bodies touches a given line or a given point. Hence, as a plane turns about a line, the volume has one
+ * minimum and one maximum, opposite to each other, and is stationary nowhere else: golden section search finds the
+ * minimum. For planes through a point, compute for each horizontal line through the point the least volume over the
+ * planes through that line. As a function of the direction of the line this least volume has one minimum.
  *
  * There is one exception: many sections can have the same centroid if it is on an axis of the cube. The volume is
  * then constant while the plane turns. Then some optimal plane also goes through another point and through a corner
  * of the cube or a third point; or the plane can turn without meeting another point, and the plane perpendicular to
  * the axis is optimal.
  *
- * The cost is that of n^3/6 planes, with one pass over the points for each plane. A point within 2e-15 of a plane
- * counts as on it, which causes errors of a few 1e-15 in the values. Normals of planes through three points are
- * computed with 106 bits, because the points may be almost collinear.
+ * The cost is n^3/6 planes with one pass over the points for each plane. A point within 2e-15 of a plane counts as on
+ * it, which causes errors of a few 1e-15 in the values. Normals of planes through three points are computed with 106
+ * bits, because the points may be almost collinear.
  */
 #include "measures/shared/edge_space.h"
 
@@ -99,8 +100,8 @@ static void normal_at(const fan *f, double angle, double normal[3])
 }
 
 /* A function of an angle: about_line gives the volume below the plane of a fan at this angle, about_point the least
-   volume below the planes through p that contain the horizontal direction at this angle. It writes the normal of the
-   plane to best, unless best is NULL. */
+   volume below the planes through p that contain the horizontal direction at this angle. The function writes the
+   normal of the plane to best, unless best is NULL. */
 typedef double (*turned)(const double *p, const void *context, double angle, double best[3]);
 
 static double golden(turned f, const double *p, const void *context, double low, double high)

@@ -8,16 +8,19 @@
  * directions from the pivot to the other points are turned into the upper half-plane and sorted by angle; they are
  * called rays:
  *
- *            \   c  /              the line turns counter-clockwise about the pivot o and passes a, b, c; a point of
- *             \    /   b           the upper half-plane leaves the left side as the line passes it, one of the lower,
- *              \  /  .'            which was turned up (flipped), enters: the count is updated in O(1) a ray, and the
- *     ----------o------- a         area of the domain on one side is a closed form of the line.
+ *            \   c  /
+ *             \    /   b
+ *              \  /  .'
+ *     ----------o------- a
  *
- * Points at the same angle are passed together. At each angle the closed half-plane, with the points on the line, is
- * tried for the excess, and the open one, without them, for the deficit. Sorting uses a key in doubles; nearly equal
- * keys are ordered by the exact sign of the cross product (orientation.c), so that collinear points are recognised.
- * Threads work on blocks of pivots. If the deadline passes, the remaining pivots are skipped, and the value is a
- * lower bound. See measures/edge.c.
+ * The line turns counter-clockwise about the pivot o and passes a, b and c. A point of the upper half-plane leaves
+ * the left side of the line as the line passes it. A point of the lower half-plane, whose direction was turned up
+ * (flipped), enters the left side. So the count is updated in O(1) for each ray; the area on one side is a closed
+ * form of the line. Points at the same angle are passed together. At each angle the closed half-plane, with the
+ * points on the line, is tried for the excess, and the open one, without them, for the deficit. Sorting uses a key in
+ * doubles; nearly equal keys are ordered by the exact sign of the cross product (orientation.c), so that collinear
+ * points are recognised. Threads work on blocks of pivots. If the deadline passes, the remaining pivots are skipped,
+ * and the value is a lower bound. See measures/edge.c.
  */
 #include "measures/shared/edge_sweep.h"
 

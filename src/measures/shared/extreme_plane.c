@@ -64,8 +64,8 @@ typedef struct plane {
 
 typedef struct searcher {
     const plane *p;
-    koksma__run_list lists[DEPTH]; /* lists of points: of a group of tiles, of 16 tiles, and of tiles at depths 0 and
-                                      1 */
+    koksma__run_list lists[DEPTH]; /* the points of [0] a group of tiles, [1] up to LANES tiles at depth 0, [2] one
+                                      tile at depth 0, [3] one tile at depth 1 */
     tile waiting[LANES];           /* strips to measure */
     size_t n_waiting;
     best_strip best;
@@ -148,8 +148,8 @@ static void add_strip(searcher *s, tile t)
     }
 }
 
-/* Makes in *to the run list for the strips of tile t, or of all tiles from t to the one that begins at `end`. Returns
-   `from` if the new list would not be shorter. */
+/* Writes to *to the run list for the strips of tile t, or of all tiles from t to the one that begins at `end`.
+   Returns `from` if the new list would not be shorter. */
 static const koksma__run_list *narrowed(searcher *s, const koksma__run_list *from, tile t, size_t end, size_t side,
                                         koksma__run_list *to)
 {
@@ -424,7 +424,8 @@ static koksma_status first_value(plane *p, bool *complete)
     return KOKSMA_OK;
 }
 
-/* Searches all blocks, or none if the first strips were all strips. */
+/* Searches all blocks. If the strips measured first were all strips (`complete`), only the methods BOUND and SWEEP,
+   which tests ask for, search the blocks as well. */
 static koksma_status search_blocks(plane *p, size_t n_blocks, bool complete, const koksma_run *run)
 {
     for (size_t block = 0; block < n_blocks; block++) {

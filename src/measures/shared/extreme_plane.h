@@ -18,7 +18,7 @@ typedef enum koksma__extreme_method {
     KOKSMA__EXTREME_SWEEP
 } koksma__extreme_method;
 
-/* Does the same by the given method. */
+/* Does the same as koksma__extreme_plane by the given method. */
 koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koksma_points *points,
                                        const koksma_run *run, koksma_value *out);
 

@@ -15,7 +15,7 @@ typedef struct koksma__run_list {
     double *x, *y, (*runs)[KOKSMA__RUN_NUMBERS];
 } koksma__run_list;
 
-/* The memory of one of the KOKSMA__RUN_CAPACITY entries of a list. */
+/* One entry of a list; the memory of a list is an array of KOKSMA__RUN_CAPACITY of these. */
 typedef struct koksma__run_place {
     double x, y, run[KOKSMA__RUN_NUMBERS];
 } koksma__run_place;

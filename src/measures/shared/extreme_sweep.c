@@ -8,7 +8,7 @@
  * The largest excess is the largest F_j - G_i, i <= j, for closed strips. The largest deficit is the largest F_i -
  * G_j, i < j, for open strips, where the lower and the upper side of the square count as points too. F, G and the
  * differences are lines in w. Each node of a tree over the points in order of y stores the largest F, the smallest G
- * and the best difference of the leaves below it, and the w up to which these are valid (a kinetic segment tree:
+ * and the best difference of the leaves below it, and the w up to which these are valid (a kinetic segment tree,
  * Basch, Guibas and Hershberger 1999). A new point changes the nodes on one path. A point in a left subtree shifts
  * all lines of the right subtree equally, which does not change their order. Among points with equal y the first has
  * the smallest G and the last the largest F; the others give only smaller values.

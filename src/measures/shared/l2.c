@@ -12,9 +12,9 @@
 
 enum { SORT_FROM = 256 };
 
-/* Returns whether to use divide and conquer. The table has the least n from which it is faster than summing pairs
-   (measured with AVX-512), by dimension and by the number of products of the kernel. Above n = 2^24 its lists would
-   take gigabytes. */
+/* Returns whether to use divide and conquer. The table has the least n from which divide and conquer is faster than
+   summing pairs (measured with AVX-512), by dimension and by the number of products of the kernel. Above n = 2^24 the
+   lists of divide and conquer would take gigabytes. */
 static bool divides(const koksma__l2_row *row, const koksma_points *points)
 {
     static const size_t from[][3] = {{3072, 6144, 16384}, {8192, 49152, 131072}};

@@ -11,21 +11,20 @@
  * absorb the factors A_m and B_m, and the remaining problem has one coordinate less. At the last coordinate but one
  * the halves are sorted by the last coordinate, and one pass with prefix sums handles all pairs across the halves.
  *
- *     problem on coordinate k:  [ lower half | upper half ]   in order of coordinate k
- *       within the halves:          solve      solve          the same problem, half as large
- *       across:                     a <= b in coordinate k, so K(a, b) = sum_m A_m(a) B_m(b):
- *                                   multiply the weights by A_m and B_m, and solve a problem
- *                                   between two sets on coordinate k + 1, once for each m
+ * A problem on coordinate k, with the points in order of this coordinate, thus consists of
+ *   - the same problem for the lower half and for the upper half;
+ *   - for each m, a problem on coordinate k + 1 between the two halves, with the weights multiplied by A_m and B_m.
  *
- * T_d(n) = 2 T_d(n/2) + M T_(d-1)(n) with M <= 3 products gives n log n for each coordinate but the last two, which
- * share one merge: n log^(d-1) n in total, with a constant that grows as M^(d-1). Problems of up to FEW points are
- * solved by summing over pairs.
+ * With M <= 3 products, the time T_d(n) = 2 T_d(n/2) + M T_(d-1)(n) gives n log n for each coordinate but the last
+ * two, which share one merge: n log^(d-1) n in total, with a constant that grows as M^(d-1). Problems of up to FEW
+ * points are solved by summing over pairs.
  *
- * Above four dimensions pairs are used. In a test with MAX_DIM = 6 divide and conquer was slower than pairs with
- * AVX-512 up to n = 16,384: 3.0 times in 5D and 5.1 times in 6D for kernels with one product, 19 and 50 times for
- * kernels with three. At n = 65,536 it was equal in 5D with one product (2.27 s, pairs 2.42 s), but slower in 6D (1.9
- * times) and with three products (6.1 times in 5D). Larger n were not measured; there the values would differ from
- * those of pairs from the 13th digit on.
+ * Above four dimensions all pairs are summed instead. In a test with MAX_DIM = 6 divide and conquer was slower than
+ * pairs with AVX-512 up to n = 16,384: for kernels with one product 3.0 times in 5D and 5.1 times in 6D, for kernels
+ * with three products 19 times in 5D and 50 times in 6D. At n = 65,536 divide and conquer was as fast as pairs in 5D
+ * with one product (2.27 s, pairs 2.42 s), but slower in 6D with one product (1.9 times) and in 5D with three
+ * products (6.1 times). Larger n were not measured; there the values would differ from sums over pairs from the 13th
+ * digit on.
  *
  * All sums are compensated. The weights are rounded products, with independent errors of 1e-16 for each point that
  * average out. The halves do not depend on the number of threads, and their sums are added in a fixed order.
@@ -143,8 +142,8 @@ static void pass(worker *w, const item *items, size_t n, int k)
 {
     const divider *d = w->d;
     const int ranks = d->ranks;
-    koksma__sum before[4][RANKS][RANKS]; /* sums of the items so far, by kind (left, upper) and by the products of
-                                            coordinates k and k + 1 */
+    koksma__sum before[4][RANKS][RANKS]; /* sums over the items so far; the indices are the kind of item (left,
+                                            upper), and the product m for coordinate k and for coordinate k + 1 */
     memset(before, 0, sizeof before);
     for (size_t i = 0; i < n; i++) {
         double a[2][RANKS], b[2][RANKS], sum = 0;

@@ -30,7 +30,7 @@ typedef struct koksma__l2_row {
 
 /* f[0] + f[1] z + f[2] z^2 + f[3] |z|, z = u - 1/2. */
 double koksma__l2_polynomial(const double f[4], double u);
-koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* the same for a given z, in 106 bits */
+koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* this polynomial at z, in 106 bits */
 
 /* prod_k a(x_k) in 106 bits. */
 koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * L2 discrepancies in hundreds of dimensions, where terms may be beyond the range of doubles. With M the larger of
- * c^d and max_i prod_k K(x_ik, x_ik), no term exceeds M: as K is positive definite, |K(x, y)|^2 <= K(x, x) K(y, y)
- * and a(x)^2 <= K(x, x) c (Cauchy and Schwarz). If M is far from 1, the one-dimensional kernel is multiplied by a
- * factor f near M^(-1/d) that has 5 bits, so that the products with the coefficients in the table are exact. The
- * result is f^d times the square, and its root is divided by f^(d/2). The root has half the exponent of the square,
- * so it is in the range of doubles in more dimensions.
+ * L2 discrepancies in hundreds of dimensions, where terms may be beyond the range of doubles. With the formula and
+ * the letters of l2_pairs.h, let M be the larger of c^d and max_i prod_k K(x_ik, x_ik). Then no term exceeds M: as K
+ * is positive definite, |K(x, y)|^2 <= K(x, x) K(y, y) and a(x)^2 <= K(x, x) c (Cauchy and Schwarz). If M is far from
+ * 1, the one-dimensional kernel is multiplied by a factor f near M^(-1/d) that has 5 bits, so that the products with
+ * the coefficients in the table are exact. The sum is then f^d times the square, so its root is divided by f^(d/2).
+ * The root has half the exponent of the square, so it is in the range of doubles in more dimensions.
  */
 #include "measures/shared/l2_range.h"
 

@@ -5,9 +5,9 @@
 
 #include "measures/shared/l2_pairs.h"
 
-/* Computes the value by sums over pairs. It is correct even if terms of the square are beyond the range of doubles,
-   or if the square itself is, which is then NaN. The error DIM means that the value, or a product over the first
-   coordinates of a point, is beyond this range. */
+/* Computes the value by sums over pairs. The value is correct even if terms of the square, or the square itself (then
+   NaN), are beyond the range of doubles. The error DIM means that the value, or a product over the first coordinates
+   of a point, is beyond this range. */
 koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                         koksma_value *out);
 

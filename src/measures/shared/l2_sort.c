@@ -10,11 +10,11 @@
  *     sum_ij t_x t_y = 4 sum_i x_i (sum over j < i with y_j < y_i of (y_i - y_j))
  *                      + 2 sum_i x_i sum_{j < i} (y_j - y_i) - 2 sum_i x_i t_y,i.
  *
- * Coordinates are rounded to whole numbers z of units 2^-bits, and all sums over points are sums of whole numbers. Two
- * things are rounded in them: a moment of more than 112 bits is cut to 112, and of a product of two such factors, each
- * split into halves of 56 bits, the product of the low halves is dropped. The sums are then combined as double-doubles.
- * For n <= 2^21 the unit is 2^-53, which is the spacing of doubles near 1. Moving a point by such a distance changes the
- * square by less than 1e-16/n.
+ * Coordinates are rounded to whole numbers z of units 2^-bits, and all sums over points are sums of whole numbers.
+ * Two kinds of term in these sums are rounded: a moment of more than 112 bits is cut to 112 bits; and in a product of
+ * two such factors, each split into halves of 56 bits, the product of the low halves is dropped. The sums are then
+ * combined as double-doubles. For n <= 2^21 the unit is 2^-53, which is the spacing of doubles near 1. Moving a point
+ * by such a distance changes the square by less than 1e-16/n.
  */
 #include "measures/shared/l2_sort.h"
 
@@ -87,8 +87,8 @@ static factor factor_of(wide v)
     return (factor){(int64_t)(v >> LOW_BITS), (int64_t)(v & (((wide)1 << LOW_BITS) - 1))};
 }
 
-/* Adds a b to s, whose unit is 2^LOW_BITS times that of the product. The product of the low halves, which is below
-   2^(2 LOW_BITS), is ignored. */
+/* Adds a b to s, whose unit is 2^LOW_BITS times the unit of the product. The product of the low halves, which is
+   below 2^(2 LOW_BITS), is ignored. */
 static void add_product(products *s, factor a, factor b)
 {
     s->high += (wide)a.high * b.high;

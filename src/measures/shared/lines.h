@@ -28,8 +28,8 @@ double koksma__area_below(double a, double b, double c);
    first. */
 double koksma__area_below_through(double a, double b, const double p[2]);
 
-/* Returns sigma(|dx|, |dy|), the probability that a random line separates two points that differ by (dx, dy). It is
-   symmetric in |dx| and |dy| and homogeneous of degree 1. */
+/* Returns sigma(|dx|, |dy|), the probability that a random line separates two points that differ by (dx, dy). This
+   probability is symmetric in |dx| and |dy| and homogeneous of degree 1. */
 double koksma__line_separates(koksma__line_law law, double dx, double dy);
 
 /* Return the potential P(p), which is the integral of sigma(p - x) over x in the square, and the constant C, the

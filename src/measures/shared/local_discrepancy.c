@@ -2,8 +2,8 @@
 /*
  * The local discrepancy of points at x: D(x) = #{i : p_i in [0, x)} / n - x_1 ... x_d, with its sign. The star
  * discrepancy is the supremum of |D|, the L2 star discrepancy the root mean square of D (Mitchell 1992, first
- * equation; Niederreiter 1992, section 2.1). For a grid of x, each point is counted at the first grid corner whose
- * box contains it, and the counts are summed along both axes: O(n + side^2).
+ * equation, and Niederreiter 1992, section 2.1). For a grid of x, each point is counted at the first grid corner
+ * whose box contains it, and the counts are summed along both axes: O(n + side^2).
  */
 #include <stdlib.h>
 

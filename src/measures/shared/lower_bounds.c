@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Lower bounds of discrepancies, n^-power (log n)^logs. The power depends on the family of the measure, in any
- * dimension: 1 for boxes (Roth 1954; Schmidt 1972), 1/2 + 1/(2 dim) for edges and disks (Schmidt 1969; Beck and Chen
- * 1987; Alexander 1990). The table has `logs` and the author of the theorem for the measures and dimensions where
- * they are known.
+ * dimension: 1 for boxes (Roth 1954, Schmidt 1972), 1/2 + 1/(2 dim) for edges and disks (Schmidt 1969, Beck and Chen
+ * 1987, Alexander 1990). The table has the exponent `logs` and the author of the theorem for the measures and
+ * dimensions where this exponent is known.
  */
 #include "measures/shared/lower_bounds.h"
 

@@ -90,8 +90,8 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
     return true;
 }
 
-/* Visits the pairs of cell c with itself and with its later neighbour cells, each neighbour once. Adjacent neighbour
-   cells are visited together, because their points are contiguous in memory. */
+/* Visits the pairs of points within cell c, and the pairs of a point in c and a point in a later neighbour cell.
+   Adjacent neighbour cells are visited together, because their points are contiguous in memory. */
 static bool pairs_of_cell(visit *v, size_t c)
 {
     const size_t m = v->g->columns;
@@ -141,8 +141,8 @@ static bool is_spread(const koksma__torus_cells *g, size_t n)
     return pairs <= CROWD * (double)n;
 }
 
-/* Computes the smallest distance with cells of width r or, for crowded points, by divide and conquer. Both square the
-   same differences, so that they give the same bits. */
+/* Computes the smallest distance with cells of width r or, for crowded points, by divide and conquer. Both methods
+   square the same differences, so that they give equal bits. */
 static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                    double *distance)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The smallest distance of points. */
+/* The smallest distance between points. */
 #ifndef KOKSMA_MEASURES_SHARED_NEIGHBOURS_H
 #define KOKSMA_MEASURES_SHARED_NEIGHBOURS_H
 

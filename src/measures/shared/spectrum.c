@@ -182,7 +182,8 @@ koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring
 }
 
 /* Returns the oscillation over a band of rings: the band begins at the first ring whose mean exceeds RISEN (about 1)
-   and is BAND sqrt(n) rings wide, for any size of the spectrum. It is NaN if the band ends beyond the spectrum. */
+   and is BAND sqrt(n) rings wide, for any size of the spectrum. The result is NaN if the band ends beyond the
+   spectrum. */
 static double oscillation(const koksma_spectrum *s)
 {
     int from = 1;

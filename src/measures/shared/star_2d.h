@@ -11,8 +11,8 @@
 koksma_status koksma__star_2d(const koksma_points *points, const koksma_run *run, koksma_value *out);
 koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, const koksma_run *run, koksma_value *out);
 
-/* Writes the box from the origin to corner[0..dim) to out if its value exceeds that in out. It counts the points
-   again, so that the value is |count/n - volume| to the last bit. */
+/* Writes the box from the origin to corner[0..dim) to out if its value exceeds that in out. The function counts the
+   points in the box again, so that the value is |count/n - volume| to the last bit. */
 void koksma__star_keep(const koksma_points *points, const double *corner, bool closed, koksma_value *out);
 
 #endif

@@ -76,7 +76,8 @@ static void sift_up(const cover *c, size_t i)
     }
 }
 
-/* Cuts the box at the top of the heap in two. It cuts the side whose length is largest relative to its upper end. */
+/* Cuts the box at the top of the heap in two. The side that is cut is the one whose length is largest relative to its
+   upper end. */
 static void cut(cover *c)
 {
     double *box = c->heap[0], *other = c->boxes + c->count * c->size;

@@ -1,33 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: n times the excess of the box to (x,
- * y_j), where k_j = -n y_j and b_j is the number of points, or n times its deficit, where k_j = n y_j and b_j is minus
- * this number. Inserting a point adds a constant to the lines of a range of ranks; x only grows. The amount `lazy` of a
- * node has not been added to its children yet. The lowest levels of the tree are replaced by blocks of leaves, which
- * are scanned. The star discrepancy of the plane is the largest value of a leaf over all x, and x takes n values from
- * left to right.
+ * y_j), where k_j = -n y_j and b_j is the number of points in the box, or n times the box's deficit, where k_j = n
+ * y_j and b_j is minus this number. Inserting a point adds a constant to the lines of a range of ranks; x only grows.
+ * The amount `lazy` of a node has not been added to its children yet. The lowest levels of the tree are replaced by
+ * blocks of leaves, which are scanned. The star discrepancy of the plane is the largest value of a leaf over all x,
+ * and x takes n values from left to right.
  *
- * At first the nodes store bounds. The bound of a node is a line that is above all its leaves at the current x. It
- * has the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only when its
- * bound is above the best value so far. An insertion scans one block and takes the larger of two bounds on its way
- * back to the root, in O(log n). In each step to the right, the bound of a subtree of w ranks rises by at most w/n
- * relative to its leaves. If the leaves are u below the best value, the subtree is therefore searched only once in
- * about u n/w steps.
+ * At first the nodes store bounds. The bound of a node is a line that is above all its leaves at the current x. This
+ * line has the largest slope of the leaves, so it is above them at every later x, too. A subtree is searched only
+ * when its bound is above the best value so far. An insertion scans one block and takes the larger of two bounds on
+ * its way back to the root, in O(log n). In each step to the right, the bound of a subtree of w ranks rises by at
+ * most w/n relative to its leaves. If the leaves are u below the best value, the subtree is therefore searched only
+ * once in about u n/w steps.
  *
  * For some points, such as Hammersley's, values near the best occur everywhere, and subtrees are searched too often.
  * These searches are counted, and when there are too many, the rest of the walk is a kinetic tournament (Basch,
  * Guibas & Hershberger 1999) with x as the time. A node then stores the winner, which is the line with the largest
  * value among its leaves, and the x until which this line is known to win:
  *
- *     value |        ____.--  line 2 overtakes at `until`    asking a subtree at x: below `until` the stored winner
- *           |  __.--'  .--'                                  answers in O(1); past it the children are asked, and the
- *           |-'    .--'  line 1 wins                         node's winner and `until` are computed again.
+ *     value |        ____.--  line 2 overtakes
+ *           |  __.--'  .--'
+ *           |-'    .--'  line 1 wins
  *           +----------|--------- x
+ *                    until
  *
- * An insertion adds one to the counts of a range of ranks: this changes `lazy` of O(log n) nodes, and only the
- * winners on the paths to the ends of the range are compared again. All other recomputations happen because one line
- * has overtaken another. Comparisons are made in doubles. If two lines are nearly equal, either may win, because
- * their values are equal up to rounding.
+ * At an x below `until` the stored winner of a subtree is valid and is read in O(1). Past `until` the node's winner
+ * and `until` are computed again from those of its children. An insertion adds one to the counts of a range of ranks:
+ * this changes `lazy` of O(log n) nodes, and only the winners on the paths to the ends of the range are compared
+ * again. All other recomputations happen because one line has overtaken another. Comparisons are made in doubles. If
+ * two lines are nearly equal, either may win, because their values are equal up to rounding.
  */
 #include "measures/shared/star_kinetic.h"
 
@@ -175,7 +177,8 @@ static void advance(tree *t, size_t v)
     pull(t, v);
 }
 
-/* Raises *best to the largest leaf below node v if it is larger. slack: the amount by which bounds may be too low. */
+/* Raises *best to the largest value of the leaves below node v, if that is larger. slack: the amount by which bounds
+   may be too low. */
 static void look(tree *t, size_t v, double slack, double *best)
 {
     t->looks++;

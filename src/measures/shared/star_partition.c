@@ -54,11 +54,11 @@ typedef struct searcher {
     region *levels;       /* dim + 1 */
     double *lo, *hi;      /* bounds of the region's slabs for each coordinate */
     double *cuts;         /* dim rows of n + 2 */
-    uint32_t *sorted;     /* dim rows of n: the points of `inside` in order of the next coordinate */
-    double *sorted_at;    /* dim rows of n: the next coordinate of the points in sorted */
-    double *undecided_at; /* dim rows of n: the next coordinate of the child's undecided points */
+    uint32_t *sorted;     /* dim rows of n numbers: the points of `inside` in order of the next coordinate */
+    double *sorted_at;    /* dim rows of n numbers: the next coordinate of the points in `sorted` */
+    double *undecided_at; /* dim rows of n numbers: the next coordinate of the child's undecided points */
     bool *flags;          /* n */
-    double *sides;        /* 2 rows of n + dim: the sides of boxes in a leaf */
+    double *sides;        /* 2 rows of n + dim numbers: the sides of boxes in a leaf */
     double **products;    /* products of the sides in coordinates 0 .. k, for each k: dim pairs of rows of n + 2 dim +
                           8 numbers */
     size_t leaves;

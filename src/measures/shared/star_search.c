@@ -10,8 +10,8 @@
  * stores for each point the number of coordinates in which it is outside. A pass therefore reads each point once, and
  * moving an end updates only the points between the old and the new end.
  *
- * A step moves some coordinates by a bounded number of ranks and climbs. It is undone if the new value is less than
- * the old value minus a threshold. The moves get smaller and the threshold goes to zero.
+ * A step moves some coordinates by a bounded number of ranks and climbs. The step is undone if the new value is less
+ * than the old value minus a threshold. The moves get smaller and the threshold goes to zero.
  */
 #include "measures/shared/star_search.h"
 
@@ -32,8 +32,8 @@ enum { DIMS = KOKSMA__STAR_MAX_DIM, MANY = 1 << 14 };
 typedef struct walk {
     const koksma_points *points;
     size_t n, dim;
-    double *levels;   /* dim rows of n + 1: the coordinates of the points in order, then 1 */
-    uint32_t *orders; /* dim rows of n: the indices of the points in order of each coordinate */
+    double *levels;   /* dim rows of n + 1 numbers: the coordinates of the points in order, then 1 */
+    uint32_t *orders; /* dim rows of n numbers: the indices of the points in order of each coordinate */
     /* The box: corner[k] is one of the levels. cut[k] is the number of points whose coordinate k is below corner[k]
        (for closed boxes: at most corner[k]); outside[i] is the number of coordinates in which point i is outside. */
     bool closed;

@@ -8,7 +8,8 @@
 
 typedef enum koksma__domain_kind { KOKSMA__DISK, KOKSMA__TRIANGLE, KOKSMA__HEMISPHERE } koksma__domain_kind;
 
-extern const koksma__domain koksma__domains[2]; /* only for the disk and the triangle */
+extern const koksma__domain koksma__domains[2]; /* domains[kind] for the disk and the triangle; the hemisphere is not
+                                                   a plane domain */
 
 /* Returns sigma, the probability that a random line that meets the domain (on the hemisphere: a plane through its
    centre) separates two points; the potential P and the constant C are defined in measures/l2_edge.c. */

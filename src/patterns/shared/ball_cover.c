@@ -22,7 +22,9 @@
 enum { LOOK_EVERY = 1 << 14, CHILDREN = 1 << KOKSMA__BALL_DIMS };
 
 #define NONE UINT32_MAX
-#define FINEST ((uint32_t)1 << 29) /* largest number of cubes along an axis; smaller free volumes are ignored */
+
+/* The largest number of cubes along an axis; free volumes smaller than such a cube are ignored. */
+#define FINEST ((uint32_t)1 << 29)
 
 double koksma__balls_per_volume(int dim)
 {
@@ -181,8 +183,9 @@ static koksma_status throw_dart(koksma__balls *s)
 
 /* ---- The cover ------------------------------------------------------------------------------------------- */
 
-/* Returns those of the `open` children of a cube that the ball about y does not contain. Bit k of the number of a
-   child tells on which side it is along axis k. half: half of the side of a child. */
+/* Returns the children among `open` that the ball of radius d about y does not contain; both are bit sets of the
+   children of a cube. Bit k of the number of a child tells on which side it is along axis k. half: half of the side
+   of a child. */
 static uint64_t open_children(const koksma__balls *s, const double *centre, double half, const double *y,
                               uint64_t open)
 {
@@ -249,7 +252,7 @@ static void move_region(const koksma__balls *s, const uint32_t *cube, region *r)
     }
 }
 
-/* Lists the children of a cube that have free volume after those in `list`. */
+/* Appends to `list` the children of a cube that have free volume. */
 static koksma_status add_children(const koksma__balls *s, const uint32_t *cube, region *r, uint32_t **list,
                                   size_t *room, size_t *count)
 {

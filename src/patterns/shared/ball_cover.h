@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Dart throwing on the torus in 3 to 6 dimensions without wasted darts: dart_cover.h for more dimensions than 2. The
- * points have the distribution of simple dart throwing: darts are uniform, and a dart is kept if it is at least d
- * from all darts kept before. Darts are thrown only at a cover of the free volume, made of cubes of equal size; after
- * each round each cube is cut into 2^dim, and those inside one ball of radius d are dropped. Source: Ebeida,
- * Mitchell, Patney, Davidson & Owens 2012.
+ * Dart throwing on the torus in 3 to 6 dimensions without wasted darts: the method of dart_cover.h for more
+ * dimensions than 2. The points have the distribution of simple dart throwing: darts are uniform, and a dart is kept
+ * if it is at least d from all darts kept before. Darts are thrown only at a cover of the free volume, made of cubes
+ * of equal size; after each round each cube is cut into 2^dim, and those inside one ball of radius d are dropped.
+ * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012.
  *
  * The number of cubes first grows and then shrinks. At its maximum it is about 12 times the number of points in 3
  * dimensions, 65 times in 4, 600 times in 5 and 4,500 times in 6. If the cover needs more than KOKSMA__BALL_BYTES, the
@@ -26,7 +26,7 @@ typedef struct koksma__balls {
     double *xs;
     uint32_t side;  /* number of cells along an axis, at least d wide; 1 if fewer than 3 would fit */
     uint32_t *head; /* the last point of each cell; UINT32_MAX: none */
-    uint32_t *next; /* the point before it in the same cell */
+    uint32_t *next; /* for each point: the point before it in the same cell, or UINT32_MAX */
     size_t head_room;
     uint32_t along;                        /* number of cubes along an axis of the torus */
     uint32_t *cubes;                       /* dim integer coordinates for each cube of the cover */

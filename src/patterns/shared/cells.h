@@ -23,7 +23,7 @@ static inline double koksma__in_cell(double cell, double u, double m)
             1 << 28, NULL, true                                                                                      \
     }
 
-/* The parameter `columns` of patterns on cells that take any n. */
+/* The parameter `columns` of those patterns on grids of cells that accept any n. */
 #define KOKSMA__PARAM_DIVISOR                                                                                        \
     {                                                                                                                \
         "columns", "number of cells along x, a divisor of n; 0: the largest divisor up to the root of n", 0, 0,      \

@@ -29,9 +29,8 @@
 
 #define NONE UINT32_MAX
 
-#define FINEST                                                                                                       \
-    ((uint64_t)1 << 30) /* largest number of squares on a side of the torus; smaller free areas are ignored
-                                      */
+/* The largest number of squares on a side of the torus; free areas smaller than such a square are ignored. */
+#define FINEST ((uint64_t)1 << 30)
 
 static const double far_away = 1e9;
 
@@ -64,9 +63,9 @@ static void look_around(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y
     }
 }
 
-/* Finds the quarters of a tile's squares that have free area, in double arithmetic. It is used for squares so small
-   that the rounding of fixed-point positions matters. Larger squares without free area may be kept, because their
-   quarters are examined later. */
+/* Finds the quarters of a tile's squares that have free area, in double arithmetic. The function is used for squares
+   so small that the rounding of fixed-point positions matters. Larger squares without free area may be kept, because
+   their quarters are examined later. */
 static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, size_t first, size_t end,
                              koksma__square *out)
 {

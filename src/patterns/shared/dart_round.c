@@ -291,7 +291,7 @@ static int earlier(const void *a, const void *b)
     return (d->time > e->time) - (d->time < e->time);
 }
 
-/* The points of this round begin at number `before`. Drops the latest of them until n points are left. */
+/* The points of this round begin at number `before`. Drops those that arrived last until n points are left. */
 static koksma_status drop_last(koksma__disks *s, size_t before, size_t n)
 {
     const size_t count = s->n - before;

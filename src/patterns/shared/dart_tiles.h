@@ -56,7 +56,7 @@ typedef struct koksma__disks {
     size_t n_waiting, waiting_room;
     uint64_t seed, dart; /* the random stream of darts and the next dart's number in it */
     uint32_t words[4 * KOKSMA__DART_WORDS];
-    size_t used, drawn; /* numbers of groups of four words that were used and drawn */
+    size_t used, drawn; /* number of groups of four random words used so far, and number drawn so far */
 } koksma__disks;
 
 /* Prepares an empty set for distance d in (0, 0.75]; koksma__disks_fini frees all memory of `disks`. */

@@ -122,8 +122,8 @@ static void sink(elimination *e, size_t at)
 /* ---- The cells ------------------------------------------------------------------------------------------- */
 
 /* Chooses the number of cells on a side: as many as d_max allows, but no more cells than points. If scaled, d_max
-   does not limit them: the distances within which points are neighbours then differ from point to point. Returns the
-   number of cells. */
+   does not limit this number, because the distances within which points are neighbours then differ from point to
+   point. Returns the number of cells. */
 static size_t size_cells(elimination *e, bool scaled)
 {
     e->grid_dims = e->dim < GRID_DIMS ? e->dim : GRID_DIMS;
@@ -311,7 +311,8 @@ static koksma_status take_out(elimination *e, const koksma_run *run, uint32_t *o
 /* Lists the original numbers of the remaining points in ascending order. */
 static void list_kept(const elimination *e, uint32_t *order)
 {
-    uint32_t *left = e->member_place; /* this array is not needed any more for its first purpose and is reused */
+    uint32_t *left = e->member_place; /* reuses an array that is no longer needed for the places of members: 1 marks a
+                                         remaining point */
     memset(left, 0, e->all * sizeof *left);
     for (size_t at = 0; at < e->keep; at++) {
         left[e->origin[e->heap[at].point]] = 1;
@@ -416,8 +417,9 @@ static koksma_status order_set(size_t n, int dim, double d_max, double d_min, co
     return status;
 }
 
-/* Points of a finished set that are close together should go first: there is no limit of weights. With the limit of 0.65
-   d_max the half of 64 points of gaussian-blue-noise in 6 dimensions had a relative radius of 0.54 in place of 0.66. */
+/* Points of a finished set that are close together should be removed first; therefore weights are not limited (d_min
+   = 0). With d_min = 0.65 d_max the first half of 64 points of gaussian-blue-noise in 6 dimensions had a relative
+   radius of 0.54 in place of 0.66. */
 koksma_status koksma__order_progressively(const koksma_run *run, koksma_points *points)
 {
     const double d_max = koksma__elimination_radius(points->n, points->dim);

@@ -26,9 +26,10 @@ KOKSMA__LAB double koksma__elimination_limit(size_t n, size_t m);
 koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,
                                 const koksma_run *run, uint32_t *order);
 
-/* Does the same for points with different units of distance: `scale` has one unit for each point, and the distance of
-   a pair is divided by the smaller unit of its two points ("smaller disks", Mitchell, Rand, Ebeida & Bajaj 2012). If
-   scale is NULL, all units are 1. If torus is false, distances are measured in the cube [0,1)^dim. */
+/* Does the same as koksma__eliminate for points with different units of distance: `scale` has one unit for each
+   point, and the distance of a pair is divided by the smaller unit of its two points ("smaller disks", Mitchell,
+   Rand, Ebeida & Bajaj 2012). If scale is NULL, all units are 1. If torus is false, distances are measured in the
+   cube [0,1)^dim. */
 KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const double *points, const double *scale,
                                                    bool torus, size_t keep, double d_max, double d_min,
                                                    const koksma_run *run, uint32_t *order);
@@ -36,8 +37,8 @@ KOKSMA__LAB koksma_status koksma__eliminate_scaled(size_t count, int dim, const 
 /* Puts points into Yuksel's progressive order, in which every prefix is blue noise: elimination halves the set again and
    again, and each point comes after those that remain when it is removed.
        volume_dim   dimension of what the points fill: 2 for those on a surface, else dim
-       d_max        that of the whole set
-       d_min        that of the whole set, for all halvings
+       d_max        argument of koksma__eliminate for the whole set; each halving has a larger one
+       d_min        argument of koksma__eliminate for the whole set; all halvings use it
        order[k]     number of the k-th point in progressive order
    Errors: MEMORY, INTERRUPTED. */
 KOKSMA__LAB koksma_status koksma__progressive_order(size_t count, int dim, const double *points, const double *scale,
@@ -47,9 +48,9 @@ KOKSMA__LAB koksma_status koksma__progressive_order(size_t count, int dim, const
 /* Puts a finished set on the torus into progressive order. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__order_progressively(const koksma_run *run, koksma_points *points);
 
-/* Makes n points by elimination from factor * n uniform random points. They are in the order in which they were drawn
-   or, with `progressive`, in Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the name of
-   the pattern in error messages. */
+/* Makes n points by elimination from factor * n uniform random points. The points are in the order in which they were
+   drawn or, with `progressive`, in Yuksel's progressive order, whose prefixes are blue noise, too. `name` is the name
+   of the pattern in error messages. */
 koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, int dim, size_t factor,
                                      bool progressive, const koksma_run *run, double *xs);
 

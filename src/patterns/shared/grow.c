@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Stochastic generation (grow.h): doubles a set level by level. The new point 2^l + i of level l is put into a half of
- * the stratum of its partner: the half that does not contain the partner. The digits below are new random bits. It
- * takes O(n) for each coordinate, and needs no tree and no comparisons of points.
+ * the stratum of its partner: the half that does not contain the partner. The digits below are new random bits. The
+ * method takes O(n) for each coordinate, and needs no tree and no comparisons of points.
  */
 #include "patterns/shared/grow.h"
 
@@ -136,8 +136,9 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
 
 /* ---- Ranges ---------------------------------------------------------------------------------------------- */
 
-/* Computes the points of a part that begin at number `first` of it, in aligned blocks of g->n points, a power of two. The
-   index of a partner is an exclusive or, which maps aligned blocks to aligned blocks. grow_columns computes block 0. */
+/* Computes the points of a part that begin at number `first` of it, in aligned blocks of g->n points, a power of two.
+   The index of a partner is an exclusive or with a constant, which maps aligned blocks to aligned blocks.
+   grow_columns computes block 0. */
 typedef struct range {
     const growth *g; /* its members n and v describe block 0 */
     const koksma__grow_part *part;
@@ -145,15 +146,15 @@ typedef struct range {
     koksma_points *out;
 } range;
 
-/* A block of points, of which a chain of partners is followed: point i of the first block has point i ^ turn of `block`
-   as its ancestor. */
+/* The state of following chains of partners for a whole block of points: the current ancestor of point i of the block
+   in which the chains began is point i ^ turn of the block that begins at `block`. */
 typedef struct ancestors {
     uint64_t block;
     uint32_t turn;
 } ancestors;
 
 /* Follows the chain of column c down to the first 2^32 points. late[i] receives digits 33 to 53 of point i of the block.
-   Those of the ancestor below 2^32 are 0. */
+   At the end of the chain, below point 2^32, these digits are 0. */
 static void grow_late(const range *r, int c, ancestors *chain, uint32_t *late)
 {
     const growth *g = r->g;

@@ -27,16 +27,16 @@ typedef struct koksma__grow_part {
 
 /* Fills `out` with points args->first, args->first + 1, ... of a part of the sequence of koksma__grow, up to the end of
    this part. partners has 32 levels unless args->first is 0.
-     part  NULL: the first 2^32 points, whose coordinates have 32 digits; those of all other points have 53 */
+     part  NULL: the first 2^32 points, whose coordinates have 32 digits; all other points have 53 */
 koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners,
                                  const koksma__grow_part *part, const koksma_args *args, koksma_points *out);
 
-/* The partners of pmj02. The generator matrices of its two coordinates are that of the Stirling numbers of the first
-   kind modulo 2, and this matrix shifted by a row and a column. */
+/* The partners of pmj02. The generator matrix of its coordinate 0 is the matrix of the Stirling numbers of the first
+   kind modulo 2; the matrix of coordinate 1 is the same matrix shifted by a row and a column. */
 extern KOKSMA__LAB const uint32_t koksma__pmj02_partners[2 * 32];
 
-/* Computes coordinate 0 of the first n points as 32-bit fractions: v[i] is 2^32 times that of point i. partners[l] is
-   the partner for level l < 32. */
+/* Computes coordinate 0 of the first n points as 32-bit fractions: v[i] is 2^32 times coordinate 0 of point i.
+   partners[l] is the partner for level l < 32. */
 koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                                   size_t n, uint32_t *v);
 

@@ -6,17 +6,18 @@
 
 #include <koksma/koksma.h>
 
-/* Computes index[i], the index of the point at position first + i in the random order for this seed, where both are
-   numbers within a part (patterns/shared/parts.h). Each part has an order of its own; the parts are not shuffled. */
+/* Computes index[i], the index of the point at position first + i in the random order for this seed; indices and
+   positions are counted from the beginning of the part (patterns/shared/parts.h). Each part has an order of its own;
+   the parts are not shuffled. */
 void koksma__hash_owen_order(uint64_t seed, uint64_t part, uint64_t first, size_t count, uint32_t *index);
 
 /* Scrambles coordinate k of `count` points. v[i] has the coordinate with its bits reversed and is overwritten; xs[i]
    receives the scrambled coordinate. */
 void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v, double *xs);
 
-/* Does the same for points beyond 2^32: v[i] has the first 32 digits within the part, and `sum` the digits that the part
-   adds to all of them (patterns/shared/parts.h). Digits 33 to 53 are scrambled after each string of 32 digits so that 21
-   digits 0 stay 0, as in the points below 2^32. */
+/* Does the same as koksma__hash_owen_scramble for points beyond 2^32: v[i] has the first 32 digits within the part,
+   and `sum` the digits that the part adds to all of them (patterns/shared/parts.h). Digits 33 to 53 are scrambled
+   such that 21 zeros stay zeros after any first 32 digits, as in the points below 2^32. */
 void koksma__hash_owen_scramble_part(uint64_t seed, int k, uint64_t sum, size_t count, uint32_t *v, double *xs);
 
 /* Reverses the bits of the 32 direction numbers, because the hash takes words with bits reversed. */

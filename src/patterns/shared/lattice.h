@@ -15,22 +15,22 @@ koksma_status koksma__range_lattice(const koksma_args *args, const uint64_t *z, 
 /* The searches minimise the mean over i of the product over k of 1 + gamma 2 pi^2 B_2({i z_k / n}), with B_2(x) =
    x^2 - x + 1/6 and gamma = 3/(8 pi^2): 1 plus the worst-case error P_2 with equal weights for all coordinates, and
    1 plus the square of l2-wraparound divided by (4/3)^dim. The sums leave out the term of i = 0, which is equal for
-   all multipliers: it grows as 1.125^dim, so that digits of the other terms would be lost. They also leave out i >
-   n/2, because the terms of i and n - i are equal. */
+   all multipliers: it grows as 1.125^dim, so that digits of the other terms would be lost. The sums also leave out i
+   > n/2, because the terms of i and n - i are equal. */
 enum { KOKSMA__LATTICE_FEW = 64 };
 
 typedef struct koksma__lattice_search {
     size_t n;
     const koksma_run *run;
-    koksma__unit_sums *sums; /* NULL until they are needed */
+    koksma__unit_sums *sums; /* the sums of unit_sums.c; NULL until the search needs them */
     double *product;         /* n numbers: elements 1 .. n/2 are the products of the coordinates so far */
     double *values;          /* n/2 + 1 numbers: the amount that each multiplier would add to the sum, up to rounding
                              */
-    /* only for small n. few: memory of `product` and `values`; kernel[i]: B_2(i / n) */
+    /* used only for small n. few: the memory of `product` and `values`; kernel[i]: B_2(i / n) */
     double few[2 * KOKSMA__LATTICE_FEW], kernel[KOKSMA__LATTICE_FEW];
 } koksma__lattice_search;
 
-/* Prepares a search for n > 1 points. It must be closed even if koksma__lattice_open failed. */
+/* Prepares a search for n > 1 points. The search must be closed even if koksma__lattice_open failed. */
 koksma_status koksma__lattice_open(koksma__lattice_search *search, size_t n, const koksma_run *run);
 void koksma__lattice_close(koksma__lattice_search *search);
 
@@ -56,17 +56,17 @@ koksma_status koksma__lattice_value(koksma__lattice_search *search, double *wind
 void koksma__lattice_units(koksma__lattice_search *search);
 
 /* Returns the last candidate z. Candidates end at n/2, because n - z is the mirror image of z. For even n the
-   smallest unit modulo n above n/2 is a candidate, too. It is the mirror image of a candidate below, but its sum has
-   different rounding errors, which decide for n = 12 and a few other n below 30. Without it the points for these n
-   would change. */
+   smallest unit modulo n above n/2 is a candidate, too. This unit is the mirror image of a candidate below n/2, but
+   its sum has different rounding errors, which decide for n = 12 and a few other n below 30. Without this candidate
+   the points for these n would change. */
 uint64_t koksma__lattice_last(size_t n);
 
 /* Finds the z that adds least to the sum: candidates within the window above the least value are compared by sums in
    order of i; among equal sums the smallest z is taken. */
 koksma_status koksma__lattice_best(koksma__lattice_search *search, uint64_t *best);
 
-/* Finds the best z_1 for z_0 = 1. It does not depend on the weights, because in two dimensions these scale the sums of
-   all candidates by the same factor. */
+/* Finds the best z_1 for z_0 = 1. This z_1 does not depend on the weights, because in two dimensions these scale the
+   sums of all candidates by the same factor. */
 koksma_status koksma__lattice_second(koksma__lattice_search *search, uint64_t *best);
 
 #endif

@@ -14,7 +14,7 @@ typedef koksma_status (*koksma__maximal_try)(void *set, size_t kept, double d, s
 
 /* Extends a maximal set of `kept` < n points with the distance d to one of n points by lowering the distance. dim: the
    free volume grows as the power dim of a length (2 on a surface). Errors: IMPOSSIBLE (the search has ended without n
-   points; another seed would do), and those of attempt. */
+   points; another seed would do), and the errors of `attempt`. */
 KOKSMA__LAB koksma_status koksma__maximal_shrink(int dim, double d, size_t kept, size_t n, const koksma_run *run,
                                                  koksma__maximal_try attempt, void *set);
 

@@ -15,9 +15,9 @@
  *                    with shift and then tent has errors near n^-2 for smooth functions, even if they are not
  *                    periodic (Hickernell 2002)
  *
- * The first 53 digits are scrambled. owen hashes the node of the tree of digits to its random bit: one call of the
- * generator gives the 127 bits of the seven levels below a node. mirror flips all 53 digits, so that half-open strata
- * map to half-open strata.
+ * The first 53 digits are scrambled. owen hashes each node of the tree of digits (a string of leading digits) to a
+ * random bit: one call of the generator gives the 127 bits of the seven levels below a node. mirror flips all 53
+ * digits, so that half-open strata map to half-open strata.
  */
 #include "patterns/shared/modify.h"
 
@@ -51,7 +51,8 @@ static void look_at_first(uint64_t seed, uint32_t k, koksma__words root, size_t 
     }
 }
 
-/* Scrambles one coordinate of all points. The nodes of 0 and of 7 digits, which many points share, are kept. */
+/* Scrambles one coordinate of all points. The random bits of the nodes of 0 and of 7 digits, which many points share,
+   are computed once and stored. */
 static void scramble_column(uint64_t seed, uint32_t k, koksma_points *points)
 {
     enum { BLOCK = 288 }; /* a multiple of the points that the kernel takes at once, for each instruction set */

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Reads files of lines of whole numbers with comments after a #: the output.txt of LatNet Builder, which has a heading
- * among its first comments, the files of the collection LDData, whose first line is their kind (both: L'Ecuyer, Marion,
- * Godin & Puchhammer 2022), and that of Joe & Kuo 2008, which begins with a header of words. The whole file is read at
- * once, but a line is parsed only when it is requested, so that unused dimensions cost little.
+ * Reads files of lines of whole numbers with comments after a #: the output.txt of LatNet Builder, which has a
+ * heading among its first comments; files of the collection LDData, whose first line names their kind; and the file
+ * of Joe & Kuo 2008, which begins with a header of words. The first two formats are from L'Ecuyer, Marion, Godin &
+ * Puchhammer 2022. The whole file is read at once, but a line is parsed only when it is requested, so that unused
+ * dimensions cost little.
  */
 #include "patterns/shared/number_lines.h"
 

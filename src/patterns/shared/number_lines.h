@@ -8,9 +8,9 @@
 
 typedef struct koksma__number_lines {
     char name[KOKSMA_MAX_SPEC + 16]; /* "pattern:PATH", for error messages */
-    /* What the file says that it has: the first of these that applies. If its comments have a heading of LatNet
-       Builder: "lattice", "plattice", "dnet", "soboljk" or "sobol", by the heading. If its first line is "# word":
-       the word. If it begins with Joe & Kuo's header "d s a m_i": "soboljk". Otherwise "". */
+    /* The kind of the file's contents, by the first rule that applies. If its comments have a heading of LatNet
+       Builder: "lattice", "plattice", "dnet", "soboljk" or "sobol", as the heading says. If its first line is a
+       comment "# word": the word. If the file begins with Joe & Kuo's header "d s a m_i": "soboljk". Otherwise "". */
     char kind[16];
     uint64_t base; /* the base that LatNet Builder's output has in its heading; 0 for other files */
     char *text, *at;

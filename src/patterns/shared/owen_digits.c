@@ -29,8 +29,8 @@ enum { FEW = 256, MANY = 4096, MAX_BASE = 38880, SMALL_BASE = 13, BLOCK_NUMBERS 
 typedef struct job {
     uint64_t seed;
     koksma_points *out;
-    size_t block; /* points in a block (the last may be smaller): a power of two, at least 2, because the words of two
-                     numbers are drawn at once */
+    size_t block; /* number of points in a block (the last block may be smaller): a power of two, at least 2, because
+                     the words of two numbers are drawn at once */
     uint32_t *binary; /* the coordinates in base 2, times 2^32 */
 } job;
 

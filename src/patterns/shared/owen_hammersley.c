@@ -3,8 +3,8 @@
  * Owen's nested uniform scrambling (1995) of point sets that combine the coordinate i/n with digital sequences.
  *
  * With n = 2^m, i/n is the radical inverse of i with its m binary digits reversed: the coordinate is the scrambled
- * van der Corput sequence, made by stochastic generation (shared/grow.h), in bit-reversed order. Its random words
- * have a different purpose from those of the other coordinates, so that they are independent.
+ * van der Corput sequence, made by stochastic generation (shared/grow.h), in bit-reversed order. This coordinate uses
+ * random words of another purpose than the other coordinates, so that it is independent of them.
  */
 #include "patterns/shared/owen_hammersley.h"
 

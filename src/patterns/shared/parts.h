@@ -9,7 +9,7 @@
 
 enum {
     KOKSMA__DIGITS = 53,     /* binary digits of a coordinate; a matrix has as many columns */
-    KOKSMA__LATE_DIGITS = 21 /* those after the first 32 */
+    KOKSMA__LATE_DIGITS = 21 /* binary digits of a coordinate after the first 32 */
 };
 
 #define KOKSMA__LATE_MASK (((uint64_t)1 << KOKSMA__LATE_DIGITS) - 1)
@@ -18,7 +18,8 @@ enum {
 typedef koksma_status (*koksma__part)(const void *context, uint64_t part, const koksma_args *args,
                                       koksma_points *out);
 
-/* Returns whether all points of a range have numbers below 2^32. Then a call of its own for part 0 saves time. */
+/* Returns whether all points of a range have numbers below 2^32. Patterns then generate the range at once, without
+   koksma__range_parts, which saves time. */
 static inline bool koksma__in_first_part(const koksma_args *args, const koksma_points *out)
 {
     return args->first + out->n <= (uint64_t)1 << 32;
@@ -27,8 +28,8 @@ static inline bool koksma__in_first_part(const koksma_args *args, const koksma_p
 /* Cuts a range into its parts and calls f for each. */
 koksma_status koksma__range_parts(const koksma_args *args, koksma_points *out, koksma__part f, const void *context);
 
-/* Returns the exclusive or of the columns 32 + b of a matrix over the bits b of `part`. A column is a whole number whose
-   53 bits are its entries, the highest that of row 1. */
+/* Returns the exclusive or of the columns 32 + b of a matrix over the bits b of `part`. A column is a whole number
+   whose 53 bits are its entries; the highest bit is the entry of row 1. */
 uint64_t koksma__part_sum(const uint64_t columns[KOKSMA__DIGITS], uint64_t part);
 
 /* Returns the first 32 digits of a sum of columns. */

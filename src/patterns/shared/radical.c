@@ -65,7 +65,7 @@ static double tail_of(const koksma__radical *r, uint64_t rest)
 /* Computes table[a]: the mirrored low digits of a, as a whole number, times high_scale. */
 static void fill_table(koksma__radical *r)
 {
-    double top = r->high_scale; /* the value of the position of digit 0 */
+    double top = r->high_scale; /* the place value of digit 0 */
     for (int j = 1; j < r->low_digits; j++) {
         top *= r->base;
     }

@@ -31,8 +31,9 @@ typedef struct koksma__radical {
 } koksma__radical;
 
 /* Coordinates of radical inverses. koksma__radicals_init prepares them for the first `count` prime bases and indices
-   below n. It fails with KOKSMA_N if numerators would not be exact: if n is above the largest power of a base up to
-   2^53 or, with mapped digits, above 2^53 / base. All memory is one block, which koksma__radicals_fini frees. */
+   below n. This function fails with KOKSMA_N if numerators would not be exact: if n is above the largest power of a
+   base up to 2^53 or, with mapped digits, above 2^53 / base. All memory is one block, which koksma__radicals_fini
+   frees. */
 typedef struct koksma__radicals {
     koksma__radical few[8];
     double room[4 * KOKSMA__RADICAL_TABLE];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Direction numbers of Sobol' sequences from primitive polynomials and initial numbers (Joe & Kuo 2008; Bratley &
- * Fox 1988; our own), expanded once by the recurrence of Sobol 1967.
+ * Direction numbers of Sobol' sequences from primitive polynomials and initial numbers (those of Joe & Kuo 2008,
+ * those of Bratley & Fox 1988 and our own), expanded once by the recurrence of Sobol 1967.
  */
 #include "patterns/shared/sobol_table.h"
 

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sums of Gaussian forces on the torus in 3 to 6 dimensions. Two methods, by the standard deviation s:
+ * Sums of Gaussian forces on the torus in 3 to 6 dimensions. The standard deviation s selects one of two methods:
  *
- *   s <= 1/10  only the nearest image of a point can be within the cut-off 5 s. Points are sorted into cells 5 s / 2
- *   wide, and 5^dim cells are visited; if fewer than 5 cells fit along an axis, there is only one cell. s > 1/10 all
- *   images act. Their sum is a product over the axes, of the periodic Gaussian
- *                  g(t) = sum over m of exp(-(t + m)^2 / (2 s^2)),
- *              so that the force along axis k is -s^2 g'(t_k) product over j != k of g(t_j), without a cut-off. 1,024
- *              cubic Hermite pieces from 0 to 1/2 replace g; the error of the derivative is below 1e-7 of its
- *              maximum.
+ *   s <= 1/10   Only the nearest image of a point can be within the cut-off 5 s. Points are sorted into cells that are
+ *               5 s / 2 wide, and 5^dim cells are visited; if fewer than 5 cells fit along an axis, there is only one
+ *               cell.
+ *
+ *   s > 1/10    All images act. The sum over the images is a product over the axes of the periodic Gaussian
+ *                   g(t) = sum over m of exp(-(t + m)^2 / (2 s^2)),
+ *               so that the force along axis k is -s^2 g'(t_k) product over j != k of g(t_j), without a cut-off. 1,024
+ *               cubic Hermite pieces from 0 to 1/2 replace g; the error of the derivative is below 1e-7 of its maximum.
  *
  * Sums run in the order of the sorted points for any number of threads. Computing all n forces takes O(n^2) with one
  * cell or with the table, else O(n).

@@ -70,8 +70,8 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double 
     const long cx = koksma__cell_along(x, g->cells), cy = koksma__cell_along(y, g->cells), most = (long)g->cells / 2;
     double best = 1;
     for (long ring = 0; ring <= most && best > enough; ring++) {
-        const double gap = (double)(ring - 1) / g->cells; /* points of this ring, and of all outer rings, are at least
-                                                             this far away */
+        const double gap = (double)(ring - 1) / g->cells; /* the points of this ring, and of all rings outside it, are
+                                                             at least this far from (x, y) */
         if (ring > 1 && gap * gap >= best) {
             break;
         }

@@ -3,8 +3,9 @@
  * Generators of the group of units modulo m. Modulo a power of an odd prime p the units are the powers of a primitive
  * root g of p with g^(p-1) not 1 modulo p^2 (if it is 1, then g + p is taken). Modulo 2^e the units are +-5^x. For a
  * product of such prime powers q, the generator for each q is chosen such that it is 1 modulo the other factors
- * (Chinese remainder theorem). If 4 divides m, identifying u and -u removes the axis of the signs modulo 2^e; else it
- * halves the longest axis. Source: textbooks on number theory, such as Hardy & Wright.
+ * (Chinese remainder theorem). If 4 divides m, identifying u and -u removes the axis of the signs modulo 2^e (the
+ * factor of order 2 that -1 generates); otherwise it halves the longest axis. Source: textbooks on number theory,
+ * such as Hardy & Wright.
  */
 #include "patterns/shared/unit_group.h"
 

@@ -44,7 +44,8 @@ typedef struct block {
     size_t count;   /* number of units modulo m, up to the sign */
     uint32_t *at;   /* the index i of each unit, at most n/2; the exponent of the first axis changes fastest */
     double norm;    /* 2-norm of the kernel */
-    double *matrix; /* count x count, for small blocks; NULL for others, which use the members below */
+    double *matrix; /* for small blocks the matrix of count x count numbers; NULL for other blocks, which use the
+                       members below */
     koksma__unit_axis axes[KOKSMA__MAX_PRIMES];
     koksma__dft chirps[KOKSMA__MAX_PRIMES]; /* transforms along all axes except axis 0 */
     int n_axes;
@@ -124,7 +125,7 @@ static koksma_status make_room(koksma__unit_sums *s)
         }
     }
     longest = padded > longest ? padded : longest;
-    const size_t line = longest > 64 ? longest : 64; /* transforms that are computed by the definition use up to 64
+    const size_t line = longest > 64 ? longest : 64; /* direct transforms, which sum the definition, use up to 64
                                                         numbers */
     const size_t bytes = 2 * (line + several) * sizeof *s->line_re;
     s->line_re = malloc(bytes);

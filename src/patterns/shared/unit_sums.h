@@ -7,8 +7,8 @@
 
 typedef struct koksma__unit_sums koksma__unit_sums;
 
-/* Prepares the sums for n > 2 points. It needs 16 n bytes if n is a power of two, and up to 82 n bytes for other n
-   (the most if n is a prime just above a power of two). The sums must be closed even if opening failed. */
+/* Prepares the sums for n > 2 points. The sums need 16 n bytes if n is a power of two, and up to 82 n bytes for other
+   n (the most if n is a prime just above a power of two). The sums must be closed even if opening failed. */
 koksma_status koksma__unit_sums_open(size_t n, const koksma_run *run, koksma__unit_sums **sums);
 void koksma__unit_sums_close(koksma__unit_sums *sums);
 

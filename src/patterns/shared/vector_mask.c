@@ -5,10 +5,10 @@
  *
  *     E = sum over pairs of pixels p != q of exp(-|p - q|^2 / 2.1^2) exp(-|v_p - v_q|^(dim/2))
  *
- * where the distance of pixels is that on the torus, and that of vectors is not. With distances of vectors on the torus,
- * masks of dim = 2 get worse than white noise for integrands that are not periodic: neighbours come to lie half a
- * torus apart, so that vectors modulo 1/2 vary slowly over the tile (docs/findings/blue-noise.md). Pairs of pixels more
- * than 6 pixels apart along an axis are left out; their first factor is below 3e-4.
+ * where distances between pixels are measured on the torus, and distances between vectors are not. With distances of
+ * vectors on the torus, masks of dim = 2 get worse than white noise for integrands that are not periodic: neighbours
+ * come to lie half a torus apart, so that vectors modulo 1/2 vary slowly over the tile (docs/findings/blue-noise.md).
+ * Pairs of pixels more than 6 pixels apart along an axis are left out; their first factor is below 3e-4.
  *
  * The vectors are a rank-1 lattice of size^2 points with a random shift; its multipliers are those of lattice-rank1.
  *
@@ -45,7 +45,8 @@ enum {
     ENTRIES = ((127 + 4) << 8) - FIRST_ENTRY /* up to 2^4 > KOKSMA_MASK_MAX_DIM */
 };
 
-/* Added to squares of distances; the vector of a pixel and itself have none, and no term. */
+/* Added to the squares of distances, so that a distance of 0 has an entry, too. The term of a pixel with itself has
+   the weight 0. */
 static const float LEAST_SQUARE = 0x1p-34f;
 
 typedef struct vectors {
@@ -56,7 +57,7 @@ typedef struct vectors {
     int64_t weights[SPAN][SPAN];
     uint64_t z[KOKSMA_MASK_MAX_DIM];
     int32_t kernel[ENTRIES];
-    float *coordinates[KOKSMA_MASK_MAX_DIM]; /* of each pixel's vector, with the border */
+    float *coordinates[KOKSMA_MASK_MAX_DIM]; /* coordinate k of each pixel's vector, with the border */
     uint32_t *point;                         /* index of each pixel's point in the lattice; no border */
     double deviation;                        /* standard deviation of the second factor */
 } vectors;
@@ -241,7 +242,7 @@ static void swap(vectors *v, uint32_t p, uint32_t q)
 static koksma_status anneal(vectors *v, uint64_t seed, const koksma_run *run)
 {
     const uint64_t steps = (uint64_t)SWAPS * v->n;
-    const double hot = HOT * v->deviation * ONE; /* deviation has the factor ONE, too */
+    const double hot = HOT * v->deviation * ONE; /* v->deviation contains one factor ONE, energies contain two */
     double temperature = hot;
     for (uint64_t step = 0; step < steps; step++) {
         if (step % STEPS_BETWEEN_CALLS == 0) {
