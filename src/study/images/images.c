@@ -81,7 +81,7 @@ static koksma_status collect(const char *places, const char *pattern, const glob
 
 /* ---- Errors -------------------------------------------------------------------------------------------- */
 
-/* Replaces the mean absolute error by the error in the metric. */
+/* Replaces the mean absolute error in p->error by the error in the metric. */
 static koksma_status apply_metric(const pictures *all, const koksma_image *image, picture *p)
 {
     koksma_metric_spec mae = {.metric = NULL};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Variants: all combinations of the options that a block of images lists. The table `known` has the options with
-   their defaults. The canonical text of a variant, "name=word;...", lists the options that are not at their
-   defaults, in the order of the table; it is part of the key in the store. Only options that change the exact
-   image apply to references. */
+   their defaults. The canonical text of a variant, "name=word;...", lists the options that differ from their
+   defaults, in the order of the table; it is part of the key in the store. Only options that change the exact image
+   apply to references. */
 #include "study/plan/variants.h"
 
 #include <math.h>
@@ -87,9 +87,9 @@ static koksma_status set_adaptive(koksma__variant *variant, const char *word)
     return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
 }
 
-/* The options that studies may vary, one a line. Splatting comes before the filter, so that rows of older
-   versions, which wrote "filter=...;splat=yes" and compared such images with references that were not splatted,
-   are not found. */
+/* The options that studies may vary, one a line. Splatting comes before the filter, so that the rows of older
+   versions are not found: these wrote "filter=...;splat=yes", and compared such images with references that were not
+   splatted. */
 static const option known[] = {
     {"pairing", "shuffled", NEVER, set_pairing}, {"scope", "pixel", NEVER, set_scope},
     {"lights", "all", NEVER, set_lights},        {"splat", "no", UNLESS_BOX, set_splat},
