@@ -260,7 +260,7 @@ static bool leads_incoherent(const koksma__rank_table *table, size_t i)
     return leads;
 }
 
-/* The round after which the last pair of pattern i that counts for the goal was decided. */
+/* The latest round after which a pair of pattern i that counts for the goal was decided. */
 static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
 {
     int round = 0;
@@ -272,10 +272,10 @@ static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_go
     return round;
 }
 
-/* Finds the leader: the pattern that is decided to be no worse than all others. For the goals that leave out patterns
-   with coherent errors, neither the leader nor those others have one. NOBODY if there is no leader. If several equal
-   patterns lead, it is the one that led after the fewest rounds and, among those, the one with the smallest mean error
-   after that round. */
+/* Finds the leader: the pattern that is decided to be no worse than all others. For the goals that leave out
+   patterns with coherent errors, only patterns without them are considered. NOBODY if there is no leader. If several
+   equal patterns lead, it is the one that led after the fewest rounds and, among those, the one with the smallest
+   mean error after that round. */
 static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goal)
 {
     size_t leader = KOKSMA__RANK_NOBODY;
