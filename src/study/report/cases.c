@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Lists the cases of a question and reads their means. A case is a measure with a scene, its options and a number of
- * samples. Blocks of one question may overlap: a case is visited in the first block that renders it (is_before). A
- * pattern's means are read from the block with the most trials (images) or point sets (measures) that has the
- * pattern.
+ * Lists the cases of a question (cases.h) and reads their means. Blocks of one question may overlap: a case is
+ * visited in the first block that renders it (is_before). If several blocks have results of a pattern, its means are
+ * read from the one with the most trials (images) or point sets (measures).
  */
 #include "study/report/cases.h"
 
@@ -182,8 +181,9 @@ koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor v
     return status;
 }
 
-/* Adds the two means of a pattern. Block b is the first block that renders the pattern. A pattern that lacks results
-   of points or of images, or exceeds KOKSMA__CASE_PATTERNS, is counted but not added. */
+/* Adds a pattern's means of the measure and of the image error. Block b is the first block that renders the pattern.
+   A pattern that lacks results of points or of images, or comes after KOKSMA__CASE_PATTERNS others, is counted but
+   not added. */
 static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
                               koksma__pairs *out)
 {

@@ -11,7 +11,7 @@
 typedef struct koksma__combined {
     const char *scene, *variant;
     long long spp;
-    size_t n, n_measures;  /* number of patterns; number of measures so far */
+    size_t n, n_measures;  /* number of patterns; number of measures added so far */
     const char **patterns; /* n names */
     double *ranks;         /* in the layout of koksma__rank_case */
 } koksma__combined;

@@ -95,8 +95,8 @@ static bool is_known_better(const koksma__slopes *of, size_t i, size_t j)
     return x < y || (isnan(y) && !isnan(x)) || (!(y < x) && isnan(x) == isnan(y) && i < j);
 }
 
-/* The next pattern to name after pattern `after` among those that may fall fastest. after = n: the first; returns n
-   if there is none. */
+/* The next pattern to name after pattern `after`, among the patterns that may fall fastest; with after = n, the
+   first one. Returns n if there is none. */
 static size_t next_tied(const koksma__slopes *of, size_t after)
 {
     size_t next = of->n;
