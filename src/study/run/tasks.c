@@ -146,7 +146,8 @@ static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block 
             status = koksma__reference_index(tasks->study, b, scene, task.variant, r,
                                              &tasks->at[tasks->n - 1].references[r]);
         }
-        for (size_t k = b->n_references; !status && k < task.n_series; k++) { /* coherence and metrics: the last one */
+        /* the coherence and the metrics use the last reference */
+        for (size_t k = b->n_references; !status && k < task.n_series; k++) {
             koksma__task *added = &tasks->at[tasks->n - 1];
             added->references[k] = added->references[b->n_references - 1];
         }
