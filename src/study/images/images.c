@@ -31,7 +31,7 @@ typedef struct picture {
     double robust, top_share;
 } picture;
 _Static_assert(sizeof(picture) % sizeof(double) == 0,
-               "the statistics step over an array of pictures in units of doubles");
+               "the stride between pictures must be a whole number of doubles");
 
 typedef struct pictures {
     size_t n;

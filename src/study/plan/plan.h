@@ -30,7 +30,7 @@ typedef struct koksma__discrepancy_block {
     koksma__texts patterns; /* canonical specs of patterns */
     /* canonical specs of measures, then integrands as "error of SPEC" (koksma__integrand_of) */
     koksma__texts measures;
-    koksma__texts warps; /* names of maps from the square onto a domain; if empty, the square itself */
+    koksma__texts warps; /* names of maps from the square onto a domain; if empty, points stay in the square */
     koksma__wholes n;
     koksma__left_out left_out;
     int dim;
@@ -193,11 +193,11 @@ typedef struct koksma__plan {
 /* Options of a run that change a plan's numbers of trials. */
 typedef struct koksma__plan_trials {
     long long trials; /* if > 0, replaces the plan's numbers of trials */
-    bool quick;       /* use the number `quick` of each block that has one */
+    bool quick;       /* whether blocks that have the member `quick` use its number of trials */
 } koksma__plan_trials;
 
-/* Parses a plan; name is what errors call it ("plan 'my.json': line 3: …"). Checks every spec, so that a study
-   does not fail halfway. If trials is NULL, the plan's numbers of trials are used. */
+/* Parses a plan; `name` is its name in error messages ("plan 'my.json': line 3: …"). Checks every spec, so that a
+   study does not fail halfway. If trials is NULL, the plan's numbers of trials are used. */
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan);
 

@@ -3,8 +3,8 @@
  * The metrics of a plan. The member `metric` names the metric that ranks patterns, and `metrics` lists further
  * metrics; a question may name another metric for its ranking. Every image block evaluates the metrics that all
  * studies evaluate (in_all_studies) and all that the plan names, so that any of them can rank the patterns in a
- * later report of the same rows. A metric that takes long beside a render, such as FLIP, is evaluated only if the
- * plan names it.
+ * later report of the same rows. A metric that takes long in comparison with a render, such as FLIP, is evaluated
+ * only if the plan names it.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -94,7 +94,7 @@ size_t koksma_plan_path(const char *text, size_t from)
 static koksma_status from_plan(const koksma__json_node *node, bool is_scene, char **text)
 {
     const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
-    /* the plan is in the current folder, as in "./plan.json" */
+    /* whether the plan is in the current folder, as in "./plan.json" */
     const bool is_here = slash == name + 1 && *name == '.';
     const size_t folder = slash && !is_here ? (size_t)(slash + 1 - name) : 0;
     const bool is_path = is_scene ? strpbrk(*text, "/.") != NULL : strchr(*text, ':') != NULL;

@@ -17,8 +17,8 @@
    sets. */
 enum { MOST_TRIED = 1 << 16 };
 
-/* Interrupts a pattern at its first progress call. By then it has checked its arguments, which is all that is
-   needed. */
+/* Interrupts a pattern at its first progress call. By then the pattern has checked its arguments, which is all that
+   is needed. */
 static bool stop_at_once(void *context, double fraction)
 {
     (void)context;

@@ -176,8 +176,8 @@ void koksma__variant_text(const koksma_integrator *integrator, const koksma_filt
 
 /* ---- Rendering ----------------------------------------------------------------------------------------- */
 
-/* Samples per pixel of the first round: a quarter of the budget, divided by the number of sets with which the
-   method begins. */
+/* Samples per pixel in the first round of an adaptive method: a quarter of the budget, divided by the number of sets
+   with which the method begins. */
 static int first_spp(const koksma_adaptive_options *adaptive, int budget)
 {
     const koksma_param *params = adaptive->method->params;
@@ -227,7 +227,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
         if (status) {
             return koksma__json_fail_in(&item, status);
         }
-        if (scratch.adaptive.method) { /* texts with equal parameters are one variant */
+        if (scratch.adaptive.method) { /* texts with equal parameters become equal */
             char text[KOKSMA_MAX_SPEC];
             koksma_adaptive_text(&scratch.adaptive, text);
             free(words->at[i]);

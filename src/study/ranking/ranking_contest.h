@@ -31,7 +31,7 @@ typedef struct koksma__contestant {
     double *waiting[KOKSMA__RANK_FIRST_ROUND]; /* pixel errors of trials that wait for an earlier trial to be added */
     size_t added;                              /* number of trials added to `sums` */
     koksma_coherence sums;
-    koksma_coherence_values coherence; /* over all trials of round 0; its `images` is 0 until they are complete */
+    koksma_coherence_values coherence; /* of all trials of round 0; `images` in it is 0 until they are complete */
 } koksma__contestant;
 
 typedef struct koksma__contest {

@@ -21,8 +21,8 @@
  * with theta_r the contrast measured against the reference without replicate r, and theta_. the mean of the theta_r,
  *     bias = (k - 1) (theta_. - theta),   v = (k - 1) / k  sum (theta_r - theta_.)^2.
  * If the pattern's error is a smooth function of the reference, the bias is proportional to 1/k and the jackknife
- * removes it. If the pattern is exact, the bias is proportional to 1/sqrt k and the jackknife removes half of it: the
- * term |bias| covers the other half. A reference that is too noisy therefore leaves pairs undecided.
+ * removes it. If the pattern's images are exact, the bias is proportional to 1/sqrt k and the jackknife removes half
+ * of it: the term |bias| covers the other half. A reference that is too noisy therefore leaves pairs undecided.
  *
  * The bounds of the quotient are the zeros q of the bounds of the contrasts A - q B (Fieller 1954), found by
  * bisection, so they agree with the decisions. Student's t needs nearly normal means, which the errors of images

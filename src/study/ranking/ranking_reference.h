@@ -45,7 +45,7 @@ enum {
 koksma_status koksma__rank_reference_compare(const koksma__rank_reference *reference, const koksma_image *image,
                                              double errors[KOKSMA__RANK_ERRORS]);
 
-/* The signed luminance error of each pixel of the image. */
+/* Computes the signed luminance error of each pixel of the image. */
 void koksma__rank_reference_subtract(const koksma__rank_reference *reference, const koksma_image *image,
                                      double *errors);
 

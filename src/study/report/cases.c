@@ -72,7 +72,7 @@ void koksma__cases_close(koksma__cases *cases)
     *cases = (koksma__cases){0};
 }
 
-/* Whether a block measures points of the case. */
+/* Whether a block evaluates the case's measure, without a warp, at the case's dimension and number of points. */
 static bool measures_it(const koksma__discrepancy_block *d, const koksma__case *at)
 {
     return !d->warps.n && d->dim == at->of->dim && has_size(&d->n, at->spp) &&
@@ -109,7 +109,7 @@ static bool same_pictures(const koksma_study *study, const koksma__image_block *
     return width[0] == width[1] && height[0] == height[1] && !strcmp(name, other);
 }
 
-/* Whether a block renders the pictures of the case. */
+/* Whether a block renders the case: its scene, options and number of samples, with the same size and reference. */
 static bool renders_it(const koksma_study *study, const koksma__image_block *i, const koksma__case *at)
 {
     return i == at->image ||

@@ -150,7 +150,7 @@ static void say_chosen(koksma__document *d, const koksma__cases *cases, const fi
     if (pair) {
         koksma__doc_say(d, " with `%s`", cases->measured[of->pair[1]].label);
     }
-    koksma__doc_say(d, " in %zu of %zu) ", times_chosen(f, most, pair), f->n_scenes);
+    koksma__doc_say(d, " in %zu of %zu scenes) ", times_chosen(f, most, pair), f->n_scenes);
 }
 
 static void say_findings(koksma__document *d, const koksma__cases *cases, const findings *f)

@@ -19,7 +19,7 @@ typedef struct koksma__document {
     char style;   /* style of the next words: '`' code, '*' strong, '_' emphasised, '^' superscript; 0: none */
     bool in_text; /* whether a run of words is open */
     bool in_rows; /* whether the open table has rows */
-    bool curves[KOKSMA__CURVE_STYLES]; /* style numbers that series of the open chart use */
+    bool curves[KOKSMA__CURVE_STYLES]; /* which style numbers the series of the open chart use */
 } koksma__document;
 
 /* Appends the content of `part`, and empties `part`. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Counts the jobs that failed alone, for each task, and makes the lines of the list in the store (left_out.c). */
+/* Counts the jobs of each task that failed without ending the run, and makes the lines of the list in the store
+   (left_out.c). */
 #include "study/run/failed_jobs.h"
 
 #include <stdio.h>

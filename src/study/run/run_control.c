@@ -9,8 +9,8 @@
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 
-/* Asks the caller before it compares the time with the limit: after a long job both may demand a stop, and an
-   interruption takes precedence. The clock is read once, for the limit and for the progress. */
+/* Calls the caller's keep_going before comparing the time with the limit: after a long job both may demand a stop,
+   and an interruption by the caller takes precedence. The clock is read once, for the limit and for the progress. */
 static bool look(koksma__run_control *control)
 {
     const bool timed = control->end_s > 0 && !atomic_load(&control->stop);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Answers how options (of renders) and warps (of points) change the means: by the relative difference to the first
- * option or warp, paired by trial, because trials of equal number use the same points. A row is for one pattern and
- * one number of points or samples in a case (a scene or a measure). A sentence for each option sums up its rows by
- * the geometric mean of the ratios.
+ * option or warp, paired by trial, because trials with the same number use the same points. A row is for one pattern
+ * and one number of points or samples in a case (a scene or a measure). A sentence for each option sums up its rows
+ * by the geometric mean of the ratios.
  */
 #include <math.h>
 #include <stdio.h>

@@ -42,7 +42,7 @@ typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
     const char *measure, *warp, *scene, *variant;
-    const char *metric; /* of the error of images */
+    const char *metric; /* metric of the image errors */
 } subject;
 
 static const koksma__wholes *sizes(const subject *s)

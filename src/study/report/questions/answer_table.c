@@ -119,8 +119,8 @@ static bool is_tied(const standing *s, size_t i)
            !(fabs(first->mean - other->mean) > half_of(first, other, s->known - 1));
 }
 
-/* Writes how many trials would separate the first pattern from pattern i of the order, the first that is tied with
-   it. */
+/* Writes how many trials would separate the best pattern from pattern i of the order, the first one that is tied
+   with it. */
 static void say_trials(koksma__document *d, const subject *c, const standing *s, size_t i)
 {
     const koksma__summary *a = &s->means[s->by[0]], *b = &s->means[s->by[i]];
@@ -236,7 +236,7 @@ static koksma_status say_bands(koksma_study *study, koksma__document *d, const s
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
-/* *gaps: whether a cell has no mean. */
+/* Adds the rows. *gaps: whether some cell has no mean. */
 static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *c, const standing *s,
                               bool *gaps)
 {
