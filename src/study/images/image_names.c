@@ -31,17 +31,17 @@ static void keep(koksma__image_name *p, const char *place, const char *text, siz
     }
 }
 
-/* The state of a match. `failed` marks the pairs of a place (a name in braces) and a position in the path from which
-   the rest of the template does not fit the rest of the path, so that each pair is tried only once. */
+/* The state of a match. A flag in `failed` tells that the rest of the template, from a certain placeholder (a name
+   in braces) on, does not match the rest of the path, from a certain position on; it is not tried there twice. */
 typedef struct trial_fit {
     const char *path;
     size_t length;
     unsigned char *failed;      /* (MAX_PLACES + 1) x (length + 1) flags */
-    size_t lengths[MAX_PLACES]; /* length of the text that each place (a name in braces) stands for */
+    size_t lengths[MAX_PLACES]; /* length of the text that matches each placeholder */
 } trial_fit;
 
-/* Whether the path from `at` on fits the rest of the template. Longer texts are tried first for each place. The
-   depth of recursion is the number of places. */
+/* Whether the path from `at` on matches `places`, the rest of the template. For each placeholder longer texts are
+   tried first. The depth of recursion is the number of placeholders. */
 static bool fit_from(trial_fit *t, const char *places, int place, size_t at)
 {
     while (*places && *places != '{') {

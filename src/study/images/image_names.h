@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Images identified by their file names: a path with places (names in braces), as in out_{spp}_{trial}.exr. */
+/* Images identified by their file names, which match a template with placeholders: out_{spp}_{trial}.exr. */
 #ifndef KOKSMA_STUDY_IMAGES_IMAGE_NAMES_H
 #define KOKSMA_STUDY_IMAGES_IMAGE_NAMES_H
 
@@ -7,17 +7,19 @@
 
 #include <koksma/study.h>
 
-/* The texts at the places of a path: {spp} and {trial} are numbers; all others form the group, "name=text
-   name=text". */
+/* What a path has in place of the template's placeholders: {spp} and {trial} are numbers; the texts of all others
+   form the group, "name=text name=text". */
 typedef struct koksma__image_name {
     char group[KOKSMA_IMAGES_GROUP];
     long long spp, trial;
 } koksma__image_name;
 
-/* Writes the pattern for glob() that finds all paths that could match. Errors: ARGUMENT (no {name}, or too long). */
+/* Writes the pattern for glob() that finds all paths that could match the template `places`. Errors: ARGUMENT (the
+   template has no {name}, or the pattern is longer than size). */
 koksma_status koksma__image_names_pattern(const char *places, char *pattern, size_t size);
 
-/* Whether a path fits a template for which koksma__image_names_pattern succeeded. Errors: MEMORY. */
+/* Matches a path with a template for which koksma__image_names_pattern succeeded; *fits: whether they match. Errors:
+   MEMORY. */
 koksma_status koksma__image_name_read(const char *places, const char *path, koksma__image_name *out, bool *fits);
 
 #endif

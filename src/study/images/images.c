@@ -31,7 +31,7 @@ typedef struct picture {
     double robust, top_share;
 } picture;
 _Static_assert(sizeof(picture) % sizeof(double) == 0,
-               "the statistics step over an array of pictures in units of doubles");
+               "the stride between pictures must be a whole number of doubles");
 
 typedef struct pictures {
     size_t n;
@@ -81,7 +81,7 @@ static koksma_status collect(const char *places, const char *pattern, const glob
 
 /* ---- Errors -------------------------------------------------------------------------------------------- */
 
-/* Replaces the mean absolute error by the error in the metric. */
+/* Replaces the mean absolute error in p->error by the error in the metric. */
 static koksma_status apply_metric(const pictures *all, const koksma_image *image, picture *p)
 {
     koksma_metric_spec mae = {.metric = NULL};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The report of koksma study images, in the format and on the page of a study's report (docs/report-format.md):
- * which group has the least error at each number of samples and how certain that is, how errors fall with the
- * number of samples, the first image of each group beside the reference, and the command.
+ * The report of `koksma study images`, in the format and on the page of a study's report (docs/report-format.md):
+ * which group has the least error at each number of samples and how certain that is, how errors fall with the number
+ * of samples, the first image of each group beside the reference, and the command.
  */
 #include "study/images/images_report.h"
 
@@ -19,8 +19,8 @@
 /* The maximum number of bytes of floats on a page, before base64 encoding, and the maximum number of images shown. */
 enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
 
-/* Writes the texts of a group without their names, such as "sobol ball" for "sampler=sobol scene=ball", so that the
-   chart recognises the pattern's name and uses its colour. */
+/* Writes a group as its texts alone, such as "sobol ball" for "sampler=sobol scene=ball", so that the chart
+   recognises the pattern's name and uses its colour. */
 static const char *label_of(const koksma_images_row *row, char label[KOKSMA_IMAGES_GROUP])
 {
     char *to = label;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The sampling patterns of a block of images in a plan. One text either names a single pattern for all sample
-   dimensions or lists "use=pattern" pairs, as on the command line; uses that the text leaves out have n-rooks.
-   Plans keep the text in its canonical form, which is part of a row's key in the store. */
+   dimensions or lists "use=pattern" pairs, as on the command line; uses that the text leaves out get the pattern
+   n-rooks. Plans keep the text in its canonical form, which is part of a row's key in the store. */
 #include "study/plan/image_patterns.h"
 
 #include <string.h>

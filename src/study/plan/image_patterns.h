@@ -6,7 +6,7 @@
 
 #include <koksma/render.h>
 
-/* Sets the patterns of options from text; a use that the text does not name has n-rooks. */
+/* Sets the patterns in options from text; a use that the text does not name gets the pattern n-rooks. */
 koksma_status koksma__image_pattern_set(const char *text, koksma_render_options *options);
 
 /* Writes the canonical form of text. Errors: those of koksma_render_patterns; ARGUMENT: the result has
@@ -17,7 +17,7 @@ koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_S
    require. */
 bool koksma__image_pattern_is_one(const char *text);
 
-/* Whether each pattern of the text can make n points. Errors: those of the patterns. */
+/* Fails unless each pattern of the text can make n points. Errors: those of the patterns. */
 koksma_status koksma__image_pattern_try(const char *text, size_t n, const koksma_run *run);
 
 #endif

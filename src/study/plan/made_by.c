@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lists the revisions of the code that makes a row: "random 0" for points, "renderer 0, n-rooks 0, sobol 0" for
-   an image with two patterns. Each generator of a row is listed once. When the revision of one of them changes,
-   so does the text, and with it the key of the row. Filters and integrators have no revisions: the renderer's
-   revision covers them. */
+/* Lists the revisions of the code that makes a row of the store: "random 0" for points, "renderer 0, n-rooks 0,
+   sobol 0" for an image with two patterns. Each pattern, measure, metric or warp is listed once. When one of their
+   revisions changes, so does the text, and with it the key of the row. Filters and integrators have no revisions:
+   the renderer's revision covers them. */
 #include "study/plan/made_by.h"
 
 #include <stdio.h>
@@ -17,8 +17,8 @@
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan.h"
 
-/* Appends "name revision" unless the text has it. The text has capacity for the patterns of all uses of an image
-   (KOKSMA_MAX_PATTERNS_TEXT). */
+/* Appends "name revision" unless the text contains it already. The text has capacity for the patterns of all uses of
+   an image (KOKSMA_MAX_PATTERNS_TEXT). */
 static void add(char text[KOKSMA__MADE_BY], const char *name, int revision)
 {
     char word[KOKSMA_MAX_SPEC + 16];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The revisions of the patterns, measures, warps and renderer that make a row. They are part of the row's key in
-   the store: a row stays valid when another generator changes, and a row of an older revision is not mistaken for one
-   of the present revision. */
+/* The revisions of the patterns, measures, warps and renderer that make a row. They are part of the row's key in the
+   store: a row stays valid when code that it does not depend on changes, and a row of an older revision is not
+   mistaken for one of the present revision. */
 #ifndef KOKSMA_STUDY_PLAN_MADE_BY_H
 #define KOKSMA_STUDY_PLAN_MADE_BY_H
 
@@ -16,14 +16,14 @@ enum { KOKSMA__RENDERER_REVISION = 1 };
 /* Revisions as texts of the form "name revision, name revision". */
 typedef struct koksma__made_by {
     char points[KOKSMA__MADE_BY]; /* revisions of the pattern; for an image, of the renderer and all patterns */
-    /* Revisions of the measure and the warp; for an image, of the renderer and patterns of its reference, and before
-       them that of the metric if the row is of one. */
+    /* Revisions of the measure and the warp. For an image: the metric's revision, if the row's value is in a metric,
+       and then the revisions of the renderer and of the patterns that made its reference. */
     char value[KOKSMA__MADE_BY];
 } koksma__made_by;
 
 /* Writes the revisions of all code that makes a row of the series that the texts describe. For a reference, pattern
-   is ""; metric is "" unless the row is of a metric. If `first`, every revision is written as 0, otherwise as it is in
-   this program. Errors: those of the specs. */
+   is ""; metric is "" unless the row's value is in a metric. If `first`, writes every revision as 0, otherwise as it
+   is in this program. Errors: those of the specs. */
 koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what,
                                    const char *metric, bool first, koksma__made_by *out);
 

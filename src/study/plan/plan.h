@@ -30,15 +30,15 @@ typedef struct koksma__discrepancy_block {
     koksma__texts patterns; /* canonical specs of patterns */
     /* canonical specs of measures, then integrands as "error of SPEC" (koksma__integrand_of) */
     koksma__texts measures;
-    koksma__texts warps; /* names of maps from the square onto a domain; if empty, the square itself */
+    koksma__texts warps; /* names of maps from the square onto a domain; if empty, points stay in the square */
     koksma__wholes n;
     koksma__left_out left_out;
     int dim;
     long long trials;
 } koksma__discrepancy_block;
 
-/* How a reference image is made: the mean of `replicates` renders. With 2 or more, the spread of the renders
-   gives an estimate of the reference's own error. */
+/* How a reference image is made: the mean of `replicates` renders. With 2 or more replicates, their spread gives an
+   estimate of the reference's own error. */
 typedef struct koksma__reference {
     char *name, *pattern;
     long long spp, replicates;
@@ -49,7 +49,7 @@ typedef struct koksma__reference {
 typedef struct koksma__image_block {
     char *id;
     koksma__texts scenes, patterns;
-    /* canonical texts of the options; at least one text, which is "" if the plan names no options */
+    /* canonical texts of the variants (variants.h); a plan that names no options has one, which is "" */
     koksma__texts variants;
     koksma__wholes spp;
     koksma__left_out left_out;
@@ -57,16 +57,16 @@ typedef struct koksma__image_block {
     long long trials;
     size_t n_references;
     koksma__reference *references;
-    /* canonical specs of the metrics by which every image is compared with the last reference: those of all studies,
-       then those that the plan names */
+    /* canonical specs of the metrics by which every image is compared with the last reference: the metrics that all
+       studies evaluate, then those that the plan names */
     koksma__texts metrics;
 } koksma__image_block;
 
 /* Maximum number of metrics of a block. */
 enum { KOKSMA__MOST_METRICS = 32 };
 
-/* The metric that ranks patterns unless a plan names another. It is the value of a row of kind "image", so that every
-   store has it. */
+/* The metric that ranks patterns unless a plan names another. Every store has it, because it is the value of rows of
+   kind "image". */
 #define KOKSMA__DEFAULT_METRIC "mae"
 
 /* A number printed in a paper; NaN and "" where the paper prints none. */
@@ -81,7 +81,7 @@ enum { KOKSMA__TABLE_PRINTED = 8 };
 typedef struct koksma__table_row {
     char *pattern, *label;
     size_t n_published;
-    /* printed mean, SD and maximum; in a table over several n, the means */
+    /* printed mean, SD and maximum; in a table over several n, the mean for each n */
     koksma__printed published[KOKSMA__TABLE_PRINTED];
     /* exponent of n that theory predicts for the row's pattern; NaN: unknown */
     double rate;
@@ -123,7 +123,7 @@ typedef struct koksma__figure {
     long long detail[4];  /* x, y, width and height of the part of the image that is shown; width 0: all of it */
     long long strata[2];  /* the pixel whose strata are shown; -1: none */
     koksma__texts spaces; /* names of the sample spaces whose strata are shown; if empty, all of them */
-    double exposure;      /* in a figure of a scene: factor on the image's values */
+    double exposure;      /* in a figure of a scene: factor by which the image's values are multiplied */
     bool cells;           /* whether to draw the grid cells, or the rows and columns, of the pattern */
     bool lines, dual;     /* lines: show random lines; dual: show each as its point (slope, intercept) */
 } koksma__figure;
@@ -170,7 +170,7 @@ typedef struct koksma__plan_part {
     /* order: the overall order of the patterns as the paper prints it; either text may be NULL */
     char *about, *order;
     char *metric;            /* canonical spec of the metric that ranks patterns */
-    bool asks;               /* whether the part has tables or questions */
+    bool asks;               /* whether the part's plan has tables or questions */
     size_t discrepancies[2]; /* indices of the part's blocks: the index of the first, and 1 + the index of the last */
     size_t images[2];
     size_t figures[2];
@@ -193,26 +193,26 @@ typedef struct koksma__plan {
 /* Options of a run that change a plan's numbers of trials. */
 typedef struct koksma__plan_trials {
     long long trials; /* if > 0, replaces the plan's numbers of trials */
-    bool quick;       /* use the number `quick` of each block that has one */
+    bool quick;       /* whether blocks that have the member `quick` use its number of trials */
 } koksma__plan_trials;
 
-/* Parses a plan; name is what errors call it ("plan 'my.json': line 3: …"). Checks every spec, so that a study
-   does not fail halfway. If trials is NULL, the plan's numbers of trials are used. */
+/* Parses a plan; `name` is its name in error messages ("plan 'my.json': line 3: …"). Checks every spec, so that a
+   study does not fail halfway. If trials is NULL, the plan's numbers of trials are used. */
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan);
 
 /* Returns the text of a plan that is built into the library, or NULL. */
 const char *koksma__plan_shipped(const char *name, size_t *size);
 
-/* The measures of a block, and results, contain integrands as "error of SPEC": the value is the absolute error of
-   the mean over the points. Returns SPEC, or NULL if the text is that of a measure. */
+/* Among the measures of a block and of results, the text "error of SPEC" stands for an integrand: the value is the
+   absolute error of its mean over the points. Returns SPEC, or NULL if the text is that of a measure. */
 static inline const char *koksma__integrand_of(const char *measure)
 {
     static const char head[] = "error of ";
     return strncmp(measure, head, sizeof head - 1) ? NULL : measure + sizeof head - 1;
 }
 
-/* Whether size number k, of `sizes`, is left out for pattern number p. */
+/* Whether size number k is left out for pattern number p. sizes: the number of sizes of the block. */
 static inline bool koksma__is_left_out(const koksma__left_out *of, size_t p, size_t sizes, size_t k)
 {
     return of->is && of->is[p * sizes + k];

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The metrics of a plan. `metric` names the one that ranks patterns, `metrics` further ones, and a question may have a
- * `metric` for itself. Every image block evaluates the metrics that all studies evaluate (in_all_studies) and all that
- * the plan names, so that any of them can rank the patterns in a later report of the same rows. A metric that takes
- * long beside a render, such as FLIP, is evaluated only if the plan names it.
+ * The metrics of a plan. The member `metric` names the metric that ranks patterns, and `metrics` lists further
+ * metrics; a question may name another metric for its ranking. Every image block evaluates the metrics that all
+ * studies evaluate (in_all_studies) and all that the plan names, so that any of them can rank the patterns in a
+ * later report of the same rows. A metric that takes long in comparison with a render, such as FLIP, is evaluated
+ * only if the plan names it.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +46,7 @@ koksma_status koksma__plan_metrics(const koksma__json_node *root, koksma__plan *
     return status;
 }
 
-/* Appends a metric to a list that has capacity for it, unless the list has it. */
+/* Appends a metric to a list with free capacity, unless the list contains it already. */
 static koksma_status add(koksma__texts *to, const char *metric)
 {
     if (koksma__texts_have(to, metric)) {

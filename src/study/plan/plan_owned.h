@@ -5,7 +5,8 @@
 
 #include "study/plan/plan.h"
 
-/* Makes a newly read plan consist of one part, which has its title, text and all its blocks. Errors: MEMORY. */
+/* Makes a newly read plan consist of one part, which gets the plan's title, text and all its blocks. Errors:
+   MEMORY. */
 koksma_status koksma__plan_own(koksma__plan *plan);
 
 /* Moves everything in `from` to the end of `plan`, and joins the names as "a+b"; `from` is empty afterwards. */

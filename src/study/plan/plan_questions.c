@@ -54,7 +54,7 @@ static koksma_status parse_kind(const koksma__json_node *node, koksma__question 
     return status ? status : koksma__json_fail(node, "kind '%s': it takes %s", name, names);
 }
 
-/* Whether the question has the members that its kind needs, and no others. */
+/* Fails unless the question has the members that its kind needs, and no member that its kind does not take. */
 static koksma_status check_fields(const koksma__json_node *node, const koksma__question *q)
 {
     const bool points = q->kind->fields & KOKSMA__NEEDS_POINTS, images = q->kind->fields & KOKSMA__NEEDS_IMAGES;

@@ -59,8 +59,9 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return length < KOKSMA_MAX_SPEC ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "%.64s...: too long", text);
 }
 
-/* Whether `text`, up to `end`, ends with a word that stands at its start or after "=" or ";" and names a pattern whose
-   operand is a path. Only the operand that is a list of numbers has a colon in its name, "Z1:Z2:..". */
+/* Whether the text before `end` ends with the name of a pattern whose operand is a path; the name must begin at the
+   start of the text or after "=" or ";". An operand that is a list of numbers, not a path, has a name with colons,
+   "Z1:Z2:..". */
 static bool ends_with_pattern(const char *text, const char *end)
 {
     char name[KOKSMA_MAX_SPEC];
@@ -87,12 +88,13 @@ size_t koksma_plan_path(const char *text, size_t from)
     return colon ? (size_t)(colon + 1 - text) : 0;
 }
 
-/* Makes a relative path relative to the current folder instead of the plan's: writes the plan's folder before the
-   path in *text, a scene's name or a pattern. Names of scenes in the library have neither '/' nor '.'. */
+/* Changes a path in *text, a scene's name or a pattern, from relative to the plan's folder to relative to the
+   current folder, by writing the plan's folder before it. Names of scenes in the library have neither '/' nor
+   '.'. */
 static koksma_status from_plan(const koksma__json_node *node, bool is_scene, char **text)
 {
     const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
-    /* the plan is in the current folder, as in "./plan.json" */
+    /* whether the plan is in the current folder, as in "./plan.json" */
     const bool is_here = slash == name + 1 && *name == '.';
     const size_t folder = slash && !is_here ? (size_t)(slash + 1 - name) : 0;
     const bool is_path = is_scene ? strpbrk(*text, "/.") != NULL : strchr(*text, ':') != NULL;

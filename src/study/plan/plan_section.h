@@ -53,8 +53,8 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
                                 size_t *n);
 
 /* koksma__plan_metrics reads the members "metric" and "metrics" of the plan; call it when the image blocks have been
-   read. koksma__plan_set_metrics lists the metrics of all image blocks; call it when the questions have been read, too
-   (plan_metrics.c). */
+   read. koksma__plan_set_metrics lists the metrics of all image blocks; call it when the questions, which may name
+   metrics, have been read (plan_metrics.c). */
 koksma_status koksma__plan_metrics(const koksma__json_node *root, koksma__plan *plan);
 koksma_status koksma__plan_set_metrics(const koksma__json_node *root, koksma__plan *plan);
 

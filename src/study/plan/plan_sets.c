@@ -13,12 +13,12 @@
 #include "study/plan/plan_section.h"
 #include "study/plan/variants.h"
 
-/* The largest sets are not tried, because that takes time and a pattern that cannot make some n fails at smaller
-   sets, too. */
+/* Larger sets are not tried, because that takes time, and a pattern that supports only some n is found at smaller
+   sets. */
 enum { MOST_TRIED = 1 << 16 };
 
-/* Interrupts a pattern at its first progress call. By then it has checked its arguments, which is all that is
-   needed. */
+/* Interrupts a pattern at its first progress call. By then the pattern has checked its arguments, which is all that
+   is needed. */
 static bool stop_at_once(void *context, double fraction)
 {
     (void)context;
@@ -47,7 +47,7 @@ static koksma_status try_image_set(const char *pattern, long long n)
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
-/* Tries whether a pattern can make n points in a block. */
+/* Fails unless a pattern can make n points in a block. */
 typedef koksma_status (*set_trial)(const void *block, const char *pattern, long long n);
 
 static koksma_status try_points(const void *block, const char *pattern, long long n)
@@ -137,7 +137,7 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     if (!text) {
         return koksma__fail_memory(size);
     }
-    /* the reason may begin with the pattern's name, too, which is then not repeated */
+    /* the line begins with the pattern's name; if the reason begins with it too, it is cut from the reason */
     const size_t name = strcspn(t->patterns->at[p], ":");
     const bool twice = !strncmp(reason, line, name) && !strncmp(reason + name, ": ", 2);
     snprintf(text, size, "%s: %s", line, reason + (twice ? name + 2 : 0));
@@ -177,7 +177,7 @@ koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__dis
     return check(&t, &block->left_out);
 }
 
-/* Whether a measure or integrand supports the dimension of the point. */
+/* Fails unless a measure or integrand supports the dimension of the point. */
 static koksma_status serves(const char *measure, const koksma_points *point)
 {
     const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
@@ -216,8 +216,8 @@ koksma_status koksma__plan_check_measures(const koksma__json_node *node, const k
     return status;
 }
 
-/* Whether patterns make sets of spp points. Adaptive methods, and scopes other than the pixel, need sets of other
-   sizes; native pairing needs sets of another dimension. */
+/* Whether images of a variant need sets of spp points from their patterns. Adaptive methods, and scopes other than
+   the pixel, need sets of other sizes; native pairing needs sets of another dimension. */
 static bool takes_spp_points(const char *variant)
 {
     koksma__variant v = {0};

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reads and checks the published tables of a plan. A table has one number of points, and each row a printed mean,
- * SD and maximum; or it has several numbers of points, and each row a printed mean for each. Printed numbers may
- * be JSON strings, because these keep trailing zeros: rounding may have changed a number by half a unit of its
- * last digit.
+ * SD and maximum; or it has several numbers of points, and each row a printed mean for each. Printed numbers may be
+ * JSON strings, which keep trailing zeros: the number of digits tells how precise the number is (rounding changed it
+ * by at most half a unit of the last digit).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -166,7 +166,8 @@ static bool makes_image(const koksma__image_block *i, const koksma__table *t, co
 }
 
 /* Finds the first image block that makes all rows of a table, so that all rows are compared with the same references
-   at one size. If there is none, *row is the first row that the best block lacks. */
+   at one size. If there is none, *row is the first row that is missing from the block that makes the most rows
+   before it. */
 static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
 {
     *row = 0;

@@ -13,8 +13,8 @@
 #include "core/read_file.h"
 #include "patterns/shared/file_names.h"
 
-/* Finds the path in a pattern or in the name of a reference; *length is its length without modifiers. NULL: no
-   path. */
+/* Finds the path in a pattern or in the name of a reference; *length is the path's length without modifiers. NULL:
+   no path. */
 static const char *path_in(const char *spec, size_t *length)
 {
     const koksma_pattern *p;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Hashes of the files of points that a study's patterns and references name. They are part of the keys of rows,
-   as the hashes of scenes are: when a file's contents change, results with it get new rows. */
+   as the hashes of scenes are: when a file's contents change, results that depend on it get new rows. */
 #ifndef KOKSMA_STUDY_PLAN_POINT_FILES_H
 #define KOKSMA_STUDY_PLAN_POINT_FILES_H
 

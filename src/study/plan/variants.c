@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Variants: all combinations of the options that a block of images lists. The table `known` has the options with
-   their defaults. The canonical text of a variant, "name=word;...", lists the options that are not at their
-   defaults, in the order of the table; it is part of the key in the store. Only options that change the exact
-   image apply to references. */
+   their defaults. The canonical text of a variant, "name=word;...", lists the options that differ from their
+   defaults, in the order of the table; it is part of the key in the store. Only options that change the exact image
+   apply to references. */
 #include "study/plan/variants.h"
 
 #include <math.h>
@@ -87,9 +87,9 @@ static koksma_status set_adaptive(koksma__variant *variant, const char *word)
     return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
 }
 
-/* The options that studies may vary, one a line. Splatting comes before the filter, so that rows of older
-   versions, which wrote "filter=...;splat=yes" and compared such images with references that were not splatted,
-   are not found. */
+/* The options that studies may vary, one a line. Splatting comes before the filter, so that the rows of older
+   versions are not found: these wrote "filter=...;splat=yes", and compared such images with references that were not
+   splatted. */
 static const option known[] = {
     {"pairing", "shuffled", NEVER, set_pairing}, {"scope", "pixel", NEVER, set_scope},
     {"lights", "all", NEVER, set_lights},        {"splat", "no", UNLESS_BOX, set_splat},
@@ -176,8 +176,8 @@ void koksma__variant_text(const koksma_integrator *integrator, const koksma_filt
 
 /* ---- Rendering ----------------------------------------------------------------------------------------- */
 
-/* Samples per pixel of the first round: a quarter of the budget, divided by the number of sets with which the
-   method begins. */
+/* Samples per pixel in the first round of an adaptive method: a quarter of the budget, divided by the number of sets
+   with which the method begins. */
 static int first_spp(const koksma_adaptive_options *adaptive, int budget)
 {
     const koksma_param *params = adaptive->method->params;
@@ -227,7 +227,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
         if (status) {
             return koksma__json_fail_in(&item, status);
         }
-        if (scratch.adaptive.method) { /* texts with equal parameters are one variant */
+        if (scratch.adaptive.method) { /* texts with equal parameters become equal */
             char text[KOKSMA_MAX_SPEC];
             koksma_adaptive_text(&scratch.adaptive, text);
             free(words->at[i]);

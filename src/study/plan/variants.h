@@ -19,7 +19,7 @@ enum { KOKSMA__VARIANT_TEXT = 1024 };
 /* The options that a variant sets. */
 typedef struct koksma__variant {
     koksma_render_options render;
-    koksma_adaptive_options adaptive; /* method NULL: every pixel has equally many samples */
+    koksma_adaptive_options adaptive; /* method NULL: every pixel has the same number of samples */
 } koksma__variant;
 
 /* Reads {"option": ["word", ...], ...} and writes the texts of all combinations, the last option changing
@@ -30,8 +30,8 @@ koksma_status koksma__variants_parse(const koksma__json_node *node, koksma__text
    such as the pairing of samples, do not apply to a reference. Errors: ARGUMENT. */
 koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__variant *variant);
 
-/* Renders a scene. With an adaptive method spp is the total budget, a quarter of it for the first round, so that
-   variants are compared at equal samples. Allocates out. */
+/* Renders a scene. With an adaptive method spp is the budget of all rounds (the first gets a quarter of it), so that
+   variants are compared at equal numbers of samples. Allocates out. */
 koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
                                      koksma_image *out);
 

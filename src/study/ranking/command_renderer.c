@@ -35,8 +35,8 @@ enum { OUT = 6, N_WORDS = sizeof words / sizeof *words };
 
 /* ---- The command ---------------------------------------------------------------------------------------- */
 
-/* Appends a text in single quotes, within which only the quote is special to the shell. false: the command is
-   full. */
+/* Appends a text in single quotes, within which only the quote is special to the shell. Returns false if the command
+   has no room for it. */
 static bool append_quoted(char *command, size_t *length, const char *text)
 {
     command[(*length)++] = '\'';
@@ -142,7 +142,7 @@ static void last_line(const char *log, char *line, size_t size)
 {
     FILE *file = fopen(log, "r");
     char read[KOKSMA_RANK_REASON];
-    bool begins = true; /* `read` is the beginning of a line */
+    bool begins = true; /* whether `read` holds the beginning of a line */
     line[0] = 0;
     while (file && fgets(read, sizeof read, file)) {
         const bool ends = strchr(read, '\n');
@@ -159,7 +159,7 @@ static void last_line(const char *log, char *line, size_t size)
 
 static koksma_status explain(const char *log, int outcome)
 {
-    char line[KOKSMA_RANK_REASON - 48]; /* which leaves room for the words before it */
+    char line[KOKSMA_RANK_REASON - 48]; /* leaves room in the reason for the words before it */
     last_line(log, line, sizeof line);
     const bool killed = WIFSIGNALED(outcome);
     return koksma__fail(KOKSMA_IMPOSSIBLE, "the command ended with %s %d%s%s", killed ? "signal" : "exit code",

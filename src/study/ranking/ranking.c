@@ -2,7 +2,8 @@
 /*
  * Finds the pattern that leaves the least error in a scene. The ranking works in three steps:
  *     1. a contest of all patterns at the requested image size, until the best pattern is decided, and then until the
- *        best pattern whose error is not coherent (the advised pattern) is decided;
+ *        advised pattern is decided: the best one whose error is not coherent, that is, has no bands or other visible
+ *        pattern (koksma_coherence_values in image.h);
  *     2. a contest at half and one at twice the size. Each compares the best three patterns whose error is not
  *        coherent and the best three of all patterns. It runs until the best pattern whose error is not coherent is
  *        decided, and then until the best pattern is decided (only the latter if every error is coherent);
@@ -95,7 +96,7 @@ static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHE
     size_t all[CHECKED];
     size_t n = first_patterns(c, checked(c), true, patterns);
     const size_t n_all = first_patterns(c, c->table.leader, false, all);
-    for (size_t k = n_all; k-- > 0;) { /* all[0], the leader, is looked up last */
+    for (size_t k = n_all; k-- > 0;) { /* the last one looked up is all[0], the leader */
         *leader = 0;
         while (*leader < n && patterns[*leader] != all[k]) {
             ++*leader;
@@ -416,7 +417,8 @@ static void choose_size(const koksma_rank_options *options, koksma__study_scene 
     }
 }
 
-/* Finds the size of another renderer's pictures by rendering one if the options give no size. */
+/* Finds the size of another renderer's pictures: that of the options, or the size of a picture rendered for this
+   purpose. */
 static koksma_status ask_size(const koksma_rank_options *options, koksma__run_control *control,
                               koksma__study_scene *scene)
 {
@@ -501,7 +503,7 @@ koksma_status koksma_rank_patterns(const koksma_rank_options *options, const kok
         .scene = {.name = options->scene, .render = options->render, .render_context = options->render_context},
         .start_s = koksma__now_s()};
     koksma__run_control_begin(run, options->time_limit_s, &r.control);
-    r.control.by_time = true; /* nobody knows how many rounds will decide the order */
+    r.control.by_time = true; /* progress counts time, because the number of rounds is unknown */
     *out = (koksma_ranking){.reference_error = NAN};
     koksma__variant_text(options->integrator, options->filter, r.variant);
     koksma_status status = open_scene(options, &r.control, &r.scene);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The contest always makes the lowest round that matters: of the patterns with an undecided pair that bears on the
- * goal, those with the fewest complete rounds make their next round together. Only the decisions determine which
- * patterns make a round. The clock has two effects only: the time limit may end the contest, and a pattern whose
- * first round takes more thread time than its share (the time left times the threads, divided by the number of
- * patterns) is postponed. The other patterns continue without a postponed one until their leader is decided; the
- * postponed patterns get the time that is left. Because the decision about a pair after a round depends only on the
- * errors, the clock changes how far the ranking gets, but never a decision.
+ * Runs the rounds of a contest (ranking_contest.h). Of the patterns with an undecided pair that bears on the goal,
+ * those with the fewest complete rounds make their next round together: only the decisions determine which patterns
+ * make a round. The clock has two effects only: the time limit may end the contest, and a pattern whose first round
+ * takes more thread time than its share (the time left times the threads, divided by the number of patterns) is
+ * postponed. The other patterns continue without a postponed one until their leader is decided; the postponed
+ * patterns get the time that is left. Because the decision about a pair after a round depends only on the errors,
+ * the clock changes how far the ranking gets, but never a decision.
  *
  * The coherence of a pattern's error is measured on the trials of round 0, however long the ranking runs, because
  * the noise of a coherence depends on the number of trials. The trials are added in their order, whichever thread
@@ -66,8 +66,8 @@ static koksma_run run_in_share(timed *t)
     return (koksma_run){.threads = 1, .keep_going = keep_in_share, .context = t};
 }
 
-/* A failure that concerns only this contestant excludes or postpones it, and OK is returned; other failures are
-   returned unchanged. */
+/* Excludes or postpones the contestant after a failure that concerns only this contestant, and returns OK; returns
+   other failures unchanged. */
 static koksma_status take_out(const timed *t, size_t trial, koksma_status status)
 {
     koksma__contest *c = t->contest;

@@ -24,13 +24,14 @@ typedef struct koksma__contestant {
     /* whether `first` has the errors of trial t of round 0 */
     atomic_bool done[KOKSMA__RANK_FIRST_ROUND];
     size_t n; /* number of trials summed in the next fields; trials are added in their order */
-    /* The mean error of the trials; the sum of their squared deviations; then sums over the trials. */
+    /* mean: the mean error of the trials; squares: the sum of their squared deviations; the others: sums over the
+       trials */
     double mean, squares, robust, top_share, without[KOKSMA__RANK_REPLICATES];
     pthread_mutex_t lock;                      /* guards the next four fields until round 0 is complete */
     double *waiting[KOKSMA__RANK_FIRST_ROUND]; /* pixel errors of trials that wait for an earlier trial to be added */
     size_t added;                              /* number of trials added to `sums` */
     koksma_coherence sums;
-    koksma_coherence_values coherence; /* over all trials of round 0; its `images` is 0 until they are complete */
+    koksma_coherence_values coherence; /* of all trials of round 0; `images` in it is 0 until they are complete */
 } koksma__contestant;
 
 typedef struct koksma__contest {
@@ -47,7 +48,7 @@ typedef struct koksma__contest {
     koksma__rank_table table; /* entrant i is contestant i */
     koksma__rank_reference reference;
     unsigned long long share_ns; /* thread time allowed for a pattern's first round; 0: no limit */
-    pthread_mutex_t lock;        /* guards the contestants' reasons */
+    pthread_mutex_t lock;        /* guards `reason` of all contestants */
 } koksma__contest;
 
 /* The contest must not be moved in memory. Errors: MEMORY. koksma__contest_fini also accepts a zeroed contest and

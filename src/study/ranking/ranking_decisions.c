@@ -21,8 +21,8 @@
  * with theta_r the contrast measured against the reference without replicate r, and theta_. the mean of the theta_r,
  *     bias = (k - 1) (theta_. - theta),   v = (k - 1) / k  sum (theta_r - theta_.)^2.
  * If the pattern's error is a smooth function of the reference, the bias is proportional to 1/k and the jackknife
- * removes it. If the pattern is exact, the bias is proportional to 1/sqrt k and the jackknife removes half of it: the
- * term |bias| covers the other half. A reference that is too noisy therefore leaves pairs undecided.
+ * removes it. If the pattern's images are exact, the bias is proportional to 1/sqrt k and the jackknife removes half
+ * of it: the term |bias| covers the other half. A reference that is too noisy therefore leaves pairs undecided.
  *
  * The bounds of the quotient are the zeros q of the bounds of the contrasts A - q B (Fieller 1954), found by
  * bisection, so they agree with the decisions. Student's t needs nearly normal means, which the errors of images
@@ -260,7 +260,7 @@ static bool leads_incoherent(const koksma__rank_table *table, size_t i)
     return leads;
 }
 
-/* The round after which the last pair of pattern i that counts for the goal was decided. */
+/* The latest round after which a pair of pattern i that counts for the goal was decided. */
 static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
 {
     int round = 0;
@@ -272,10 +272,10 @@ static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_go
     return round;
 }
 
-/* Finds the leader: the pattern that is decided to be no worse than all others. For the goals that leave out patterns
-   with coherent errors, neither the leader nor those others have one. NOBODY if there is no leader. If several equal
-   patterns lead, it is the one that led after the fewest rounds and, among those, the one with the smallest mean error
-   after that round. */
+/* Finds the leader: the pattern that is decided to be no worse than all others. For the goals that leave out
+   patterns with coherent errors, only patterns without them are considered. NOBODY if there is no leader. If several
+   equal patterns lead, it is the one that led after the fewest rounds and, among those, the one with the smallest
+   mean error after that round. */
 static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goal)
 {
     size_t leader = KOKSMA__RANK_NOBODY;

@@ -14,7 +14,7 @@
 #include "stats/statistics.h"
 
 enum {
-    KOKSMA__RANK_REPLICATES = 16, /* replicates of the reference */
+    KOKSMA__RANK_REPLICATES = 16, /* number of replicates of the reference */
     KOKSMA__RANK_FIRST_ROUND = 8, /* trials of a pattern after round 0; each round doubles them */
     KOKSMA__RANK_ROUNDS = 14,     /* 8 to 65,536 trials */
     KOKSMA__RANK_NOBODY = 0x7fffffff
@@ -86,7 +86,8 @@ typedef struct koksma__rank_table {
     koksma__rank_pair *pairs; /* pair (i, j) at i * n + j */
     /* the pattern decided to be the best, which never changes; KOKSMA__RANK_NOBODY before the decision */
     size_t leader;
-    size_t advised; /* the same for the best pattern whose error is not coherent */
+    /* the pattern decided to be the best of those whose error is not coherent, or KOKSMA__RANK_NOBODY likewise */
+    size_t advised;
 } koksma__rank_table;
 
 /* What the rounds of a ranking are to decide: the pattern of smallest error, the best of the patterns whose error is
@@ -94,7 +95,7 @@ typedef struct koksma__rank_table {
 typedef enum koksma__rank_goal {
     KOKSMA__RANK_FIND_LEADER,
     KOKSMA__RANK_FIND_ADVISED,
-    KOKSMA__RANK_ORDER_ALL, /* the goal is reached when no pair needs another round */
+    KOKSMA__RANK_ORDER_ALL, /* reached when no pair needs another round */
 } koksma__rank_goal;
 
 /* Errors: MEMORY. koksma__rank_table_fini also accepts a zeroed table. */

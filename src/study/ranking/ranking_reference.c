@@ -2,9 +2,9 @@
 /*
  * The reference of a ranking is the mean of sixteen replicates. Each has 16 times as many samples as the patterns,
  * and at least 64: together 256 times as many, as far as KOKSMA_MAX_SPP allows. Where errors fall as slowly as
- * 1/sqrt N, the reference's error is 1/16 of the error of jittered samples; with the power -3/4 of jittered samples
- * at edges it is 1/32. The mean without replicate r is computed as mean - (replicate r - mean) / (k - 1) for k
- * replicates, so that equal replicates give exactly equal means.
+ * 1/sqrt N, the reference's error is 1/16 of that of an image with jittered samples; where they fall as N^-3/4, as
+ * with jittered samples at edges, it is 1/32. The mean without replicate r is computed as mean - (replicate r -
+ * mean) / (k - 1) for k replicates, so that equal replicates give exactly equal means.
  */
 #include "study/ranking/ranking_reference.h"
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The reference image that a ranking measures errors against, for one metric: the mean of independent replicates of
- * jittered samples. The means over all replicates but one are stored, too, for the jackknife estimate of the
- * reference's own error (ranking_decisions.c). The samples depend only on the scene, the size and the samples per
- * pixel.
+ * jittered samples. For the jackknife estimate of the reference's own error (ranking_decisions.c), the means over
+ * all replicates but one are also stored. The samples depend only on the scene, the size and the samples per pixel.
  */
 #ifndef KOKSMA_STUDY_RANKING_RANKING_REFERENCE_H
 #define KOKSMA_STUDY_RANKING_RANKING_REFERENCE_H
@@ -46,7 +45,7 @@ enum {
 koksma_status koksma__rank_reference_compare(const koksma__rank_reference *reference, const koksma_image *image,
                                              double errors[KOKSMA__RANK_ERRORS]);
 
-/* The signed luminance error of each pixel of the image. */
+/* Computes the signed luminance error of each pixel of the image. */
 void koksma__rank_reference_subtract(const koksma__rank_reference *reference, const koksma_image *image,
                                      double *errors);
 

@@ -3,22 +3,22 @@
  * koksma_optimise_scene: searches for a point set that gives the image of one scene a small error if every pixel uses
  * it as file:FILE.
  *
- * 1. Weights. In every pixel the radiance is sampled once at 8 x 8 positions and analysed as a two-way layout (analysis
- * of variance). This gives the variance along x, along y, and of the interaction of both (which includes the noise of
- * lights and lenses), summed over the pixels.
+ * 1. Weights. In every pixel the radiance is sampled once at 8 x 8 positions and analysed as a two-way layout
+ *    (analysis of variance). This gives the variance along x, along y, and of the interaction of both (which includes
+ *    the noise of lights and lenses), summed over the pixels.
  *
  * 2. Candidates. koksma_optimise minimises an L2 discrepancy (l2-star, l2-periodic, l2-extreme in turn) of the
- * projections on x, on y and on the plane. The weight of a projection is its share of the variance, divided
- *    by the discrepancy of random points. The first three candidates have these weights; the others have these
- *    weights times random factors from 1/4 to 4, because many sets have the same low discrepancy. Each candidate
- *    comes in several phases: shifted on the torus by multiples of a vector of the R2 sequence.
+ *    projections on x, on y and on the plane. The weight of a projection is its share of the variance, divided by the
+ *    discrepancy of random points. The first three candidates have these weights; the others have these weights times
+ *    random factors from 1/4 to 4, which lead to other sets of low discrepancy. Each candidate is tried at several
+ *    phases, which are shifts on the torus by multiples of a vector of the R2 sequence.
  *
  * 3. Elimination. koksma_rank_patterns renders the scene with all candidates until it is decided which one has the
  *    least error. A candidate is rendered no further once its confidence interval shows a larger error.
  *
- * 4. Evaluation. The chosen set is compared with the listed patterns (options->against), in the scene itself with other
- *    random numbers, and in held-out scenes, which took no part in steps 1 to 3. A gain that only the first scene shows
- *    is due to chance, not to better points.
+ * 4. Evaluation. The chosen set is compared with the listed patterns (options->against), in the scene itself with
+ *    other random numbers, and in held-out scenes, which took no part in steps 1 to 3. A gain in the scene itself that
+ *    the held-out scenes do not show comes from the fit to that scene, not from better points.
  *
  * The renderer reads the candidates through `set_pattern`, a pattern outside the library's table whose path is the
  * address of a set, so that several searches may run at once.
@@ -64,8 +64,8 @@ typedef struct search {
     const char *const *against;
     size_t n_held_out, n_against;
     const koksma_run *caller;
-    double begin, share; /* the part of the whole work that the current step is */
-    double done;         /* the largest fraction reported so far: a ranking begins again at 0 with every round */
+    double begin, share; /* of the current step: the fraction of all work before it, and its own */
+    double done;         /* the largest fraction reported so far, because a ranking reports 0 again at every round */
     koksma_run run;      /* reports the progress of a step to `caller` */
     koksma_scene *open;  /* the scene that is being rendered */
     uint64_t salt;
@@ -84,7 +84,7 @@ static bool keep_going(void *context, double fraction)
     return koksma__keep_going(s->caller, s->done);
 }
 
-/* The next step is part i of n equal parts of the work. */
+/* Begins part i of the work, which has n equal parts. */
 static void begin_part(search *s, size_t i, size_t n)
 {
     s->begin = (double)i / (double)n;
@@ -209,8 +209,8 @@ static void add_pixel(const double *f, size_t pixels, double *variances)
     variances[2] += rest;
 }
 
-/* Renders sample position i of the SIDE x SIDE ones in all pixels, and stores the luminances in f, which the first
-   position allocates. */
+/* Renders all pixels with sample position i of the SIDE x SIDE positions, and stores their luminances in f, which is
+   allocated at the first position. */
 static koksma_status sample_position(search *s, koksma_render_options *o, size_t i, double **f, size_t *pixels)
 {
     koksma_image image;
@@ -244,7 +244,7 @@ static koksma_status find_shares(search *s)
         add_pixel(f + p, pixels, variances);
     }
     free(f);
-    /* shares below 0.01 become 0.01, because the samples may have missed the variance */
+    /* shares below 0.01 become 0.01, because the samples may have missed a source of variance */
     for (int k = 0; k < 3; k++) {
         sum += fmax(variances[k], 0);
     }
@@ -384,8 +384,8 @@ static koksma_status choose(search *s)
 
 /* ---- Evaluation -------------------------------------------------------------------------------------------- */
 
-/* Compares the chosen set with the listed patterns in one scene. In a ranking, 1 + behind is the error of a pattern
-   divided by that of row 0. */
+/* Compares the chosen set with the listed patterns in one scene. A ranking's `behind` is a pattern's error divided
+   by the error of row 0, minus 1. */
 static koksma_status judge(search *s, koksma_scene_gain *g)
 {
     const char *patterns[KOKSMA_MAX_AGAINST + 1];
@@ -443,7 +443,7 @@ static koksma_status judge_all(search *s)
 
 /* ---- The search -------------------------------------------------------------------------------------------- */
 
-/* Takes the patterns to compare with, or those of the library. */
+/* Stores the patterns to compare with: those of the options, or, by default, the table `listed`. */
 static koksma_status take_against(search *s)
 {
     const koksma_scene_search *o = s->options;
@@ -460,7 +460,8 @@ static koksma_status take_against(search *s)
     return KOKSMA_OK;
 }
 
-/* Takes the held-out scenes, or the first N_HELD_OUT of the library that are not the scene itself. */
+/* Stores the held-out scenes: those of the options, or, by default, the first N_HELD_OUT in the table `scenes` that
+   are not the scene itself. */
 static koksma_status take_held_out(search *s)
 {
     const koksma_scene_search *o = s->options;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Lists the cases of a question and reads their means. A case is a measure with a scene, its options and a number of
- * samples. Blocks of one question may overlap: a case is visited in the first block that renders it (is_before). A
- * pattern's means are read from the block with the most trials (images) or point sets (measures) that has the
- * pattern.
+ * Lists the cases of a question (cases.h) and reads their means. Blocks of one question may overlap: a case is
+ * visited in the first block that renders it (is_before). If several blocks have results of a pattern, its means are
+ * read from the one with the most trials (images) or point sets (measures).
  */
 #include "study/report/cases.h"
 
@@ -73,7 +72,7 @@ void koksma__cases_close(koksma__cases *cases)
     *cases = (koksma__cases){0};
 }
 
-/* Whether a block measures points of the case. */
+/* Whether a block evaluates the case's measure, without a warp, at the case's dimension and number of points. */
 static bool measures_it(const koksma__discrepancy_block *d, const koksma__case *at)
 {
     return !d->warps.n && d->dim == at->of->dim && has_size(&d->n, at->spp) &&
@@ -110,7 +109,7 @@ static bool same_pictures(const koksma_study *study, const koksma__image_block *
     return width[0] == width[1] && height[0] == height[1] && !strcmp(name, other);
 }
 
-/* Whether a block renders the pictures of the case. */
+/* Whether a block renders the case: its scene, options and number of samples, with the same size and reference. */
 static bool renders_it(const koksma_study *study, const koksma__image_block *i, const koksma__case *at)
 {
     return i == at->image ||
@@ -182,8 +181,9 @@ koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor v
     return status;
 }
 
-/* Adds the two means of a pattern. Block b is the first block that renders the pattern. A pattern that lacks results
-   of points or of images, or exceeds KOKSMA__CASE_PATTERNS, is counted but not added. */
+/* Adds a pattern's means of the measure and of the image error. Block b is the first block that renders the pattern.
+   A pattern that lacks results of points or of images, or comes after KOKSMA__CASE_PATTERNS others, is counted but
+   not added. */
 static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
                               koksma__pairs *out)
 {

@@ -16,7 +16,7 @@ enum { KOKSMA__CASE_PATTERNS = 256 };
 typedef struct koksma__measured {
     const char *measure;
     int dim;
-    bool larger;                      /* larger values are better */
+    bool larger;                      /* whether larger values of the measure are better */
     char label[KOKSMA_MAX_SPEC + 16]; /* "l2-star", "l2-star (3D)" */
 } koksma__measured;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Collects the ranks of a question's cases, one measure at a time, and reports the results of rank_regression.c: for
-   each scene, the single measure, the pair of measures and the combination of all measures that fit the other scenes
-   best, and how well each of them orders this scene's errors. */
+   each scene it chooses the single measure, the pair of measures and the combination of all measures that fit the
+   errors of the other scenes best, and finds how well each of the three orders the errors of the scene itself. */
 #include "study/report/combinations.h"
 #include "stats/correlation.h"
 
@@ -65,7 +65,7 @@ koksma_status koksma__combinations_add(koksma__combinations *c, const koksma__ca
     return KOKSMA_OK;
 }
 
-/* Whether a case has all measures, and its errors are not all equal. */
+/* Whether a case has ranks of all measures, and its errors are not all equal. */
 static bool is_complete(const koksma__combinations *c, const koksma__combined *of)
 {
     bool differ = false;
@@ -150,7 +150,7 @@ static void say_chosen(koksma__document *d, const koksma__cases *cases, const fi
     if (pair) {
         koksma__doc_say(d, " with `%s`", cases->measured[of->pair[1]].label);
     }
-    koksma__doc_say(d, " in %zu of %zu) ", times_chosen(f, most, pair), f->n_scenes);
+    koksma__doc_say(d, " in %zu of %zu scenes) ", times_chosen(f, most, pair), f->n_scenes);
 }
 
 static void say_findings(koksma__document *d, const koksma__cases *cases, const findings *f)
@@ -185,9 +185,9 @@ static void say_findings(koksma__document *d, const koksma__cases *cases, const 
     say_difference(d, &gain_of_all);
     koksma__doc_say(
         d,
-        ". The measure that is best in the scene left out, which is known only in hindsight, has %+.2f on average. "
-        "Intervals are by Student's t over the scenes; they are approximate, because the fits share scenes "
-        "and all share the patterns.",
+        ". The measure that is best in the scene left out has %+.2f on average, but it is known only in hindsight. "
+        "Intervals are by Student's t over the scenes; they are approximate, because any two fits "
+        "have scenes in common, and all scenes have the same patterns.",
         best.mean);
     koksma__doc_paragraph_end(d);
 }

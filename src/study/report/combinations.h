@@ -11,9 +11,9 @@
 typedef struct koksma__combined {
     const char *scene, *variant;
     long long spp;
-    size_t n, n_measures;  /* number of patterns; number of measures so far */
+    size_t n, n_measures;  /* number of patterns; number of measures added so far */
     const char **patterns; /* n names */
-    double *ranks;         /* in the layout of koksma__rank_case */
+    double *ranks;         /* ranks of the measures, in the layout of koksma__rank_case */
 } koksma__combined;
 
 typedef struct koksma__combinations {

@@ -17,9 +17,9 @@
 typedef struct koksma__document {
     koksma__json_writer json;
     char style;   /* style of the next words: '`' code, '*' strong, '_' emphasised, '^' superscript; 0: none */
-    bool in_text; /* a run of words is open */
-    bool in_rows; /* the open table has rows */
-    bool curves[KOKSMA__CURVE_STYLES]; /* style numbers that series of the open chart use */
+    bool in_text; /* whether a run of words is open */
+    bool in_rows; /* whether the open table has rows */
+    bool curves[KOKSMA__CURVE_STYLES]; /* which style numbers the series of the open chart use */
 } koksma__document;
 
 /* Appends the content of `part`, and empties `part`. */
@@ -82,7 +82,7 @@ typedef enum koksma__column_type {
     KOKSMA__COLUMN_NUMBER,
     KOKSMA__COLUMN_INTERVAL, /* a value with its 95 % interval */
     KOKSMA__COLUMN_SPREAD,   /* a value with its standard deviation */
-    KOKSMA__COLUMN_VERDICT   /* whether a published number agrees with ours */
+    KOKSMA__COLUMN_VERDICT   /* whether a published number agrees with the computed one */
 } koksma__column_type;
 
 typedef struct koksma__column {
@@ -131,7 +131,7 @@ void koksma__doc_table_end(koksma__document *d);
 typedef struct koksma__chart {
     const char *title, *x_title, *y_title; /* title: the title, which is also the chart's text alternative */
     bool log_x, log_y;
-    /* which y is better: -1 smaller, 1 larger, 0 neither. A page that cannot draw all lines begins with the best */
+    /* which y is better: -1 smaller, 1 larger, 0 neither; of too many lines, the page first draws the best */
     int better;
 } koksma__chart;
 

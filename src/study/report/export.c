@@ -24,7 +24,7 @@ static const char *const whole_names[N_WHOLES] = {"n", "dim", "width", "height"}
 static const char *const value_names[N_VALUES] = {"value",       "sd",          "max",    "rmse",     "p",
                                                   "frequency_x", "frequency_y", "robust", "top_share"};
 
-/* The columns of a kind of rows: `value`, and then n from column `first` on. */
+/* The numeric columns that a kind of rows fills: `value`, and then the n columns from value_names[first] on. */
 static const struct {
     const char *kind;
     int first, n;
@@ -34,7 +34,7 @@ typedef struct writer {
     FILE *stream;
     koksma__sha256 *hash; /* receives the CSV instead of the stream, unless it is NULL */
     long long series;     /* the id of the series to which `before` and `after` belong; 0: no series */
-    char *before, *after; /* the columns of a CSV row before the trial, and the columns after the values */
+    char *before, *after; /* the text of a CSV row before its trial, and the text after its values */
     koksma__json_writer json;
     size_t rows, widths[N_TEXTS]; /* NPY: number of rows; lengths of the byte strings */
 } writer;
@@ -52,7 +52,7 @@ static long long whole_of(const koksma__series *s, int k)
     return wholes[k];
 }
 
-/* Puts the values of a result into the columns of its kind, and NaN into the other columns. */
+/* Puts the values of a result into the columns that its kind fills, and NaN into the other columns. */
 static void values_of(const koksma__series *s, const koksma__result *result, double values[N_VALUES])
 {
     for (int k = 0; k < N_VALUES; k++) {

@@ -34,8 +34,8 @@ koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result
                                                   : koksma__summarize(results->values, n, KOKSMA__RESULT_STRIDE);
 }
 
-/* sets: whether the series has the results of point sets. A deterministic pattern has one point set, whose value is
-   exact, but its images differ between trials. */
+/* sets: whether the results of the series are those of point sets. A deterministic pattern has one point set, whose
+   value is exact, but its images differ between trials. */
 static koksma_status mean_of(koksma_study *study, const koksma__series *series, bool sets, long long trials,
                              koksma__result **results, koksma__summary *mean)
 {
@@ -94,7 +94,7 @@ koksma_status koksma__image_mean_by(koksma_study *study, const koksma__image_mea
                                     koksma__result **results, koksma__summary *mean)
 {
     char name[KOKSMA__REFERENCE_NAME];
-    const bool in_image = !strcmp(metric, KOKSMA__DEFAULT_METRIC); /* the row of the image has it as its value */
+    const bool in_image = !strcmp(metric, KOKSMA__DEFAULT_METRIC); /* mae is the value of rows of kind "image" */
     const koksma__series series = series_of(study, of, in_image ? "image" : "metric", in_image ? "" : metric, name);
     return mean_of(study, &series, false, of->block->trials, results, mean);
 }

@@ -17,8 +17,8 @@ koksma_status koksma__series_results(koksma_study *study, const koksma__series *
 /* The summary of the values of a pattern's point sets; exact for a deterministic pattern, which has only one set. */
 koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n);
 
-/* The mean of a measure of a block's points. Unless `results` is NULL, *results gets the single results, which the
-   caller frees. */
+/* The mean of a measure of a block's points. Unless `results` is NULL, *results gets the result of each trial; the
+   caller frees them. */
 koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discrepancy_block *block, const char *warp,
                                        const char *pattern, long long n, const char *measure,
                                        koksma__result **results, koksma__summary *mean);
@@ -35,8 +35,8 @@ typedef struct koksma__image_mean {
 koksma_status koksma__image_mean_by(koksma_study *study, const koksma__image_mean *of, const char *metric,
                                     koksma__result **results, koksma__summary *mean);
 
-/* Means over the images of the members of koksma_metric_value. n is 0 where the store has no rows: an upgraded store has
-   values of the default metric alone. */
+/* Means of the members of koksma_metric_value over the images. A summary's n is 0 if the store has no rows for it:
+   an upgraded store has only values of the default metric. */
 typedef struct koksma__metric_means {
     koksma__summary value, robust, top_share;
 } koksma__metric_means;

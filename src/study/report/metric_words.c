@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads the means of a topic's images by the metric that ranks its patterns, one for each scene, combination of options,
-   pattern and number of samples, and writes what a reader must know of the metric before the answers. */
+/* Reads the mean errors of a topic's images in the metric that ranks its patterns (one mean for each scene,
+   combination of options, pattern and number of samples), and writes what a reader must know of the metric before
+   the answers. */
 #include "study/report/metric_words.h"
 
 #include <string.h>
@@ -70,10 +71,11 @@ void koksma__metric_say(koksma__document *d, const char *metric, const koksma__m
     koksma__doc_say(d, "Images are compared, and patterns ranked, by `%s`: %s.", metric,
                     koksma_metric_parse(metric, &spec) ? "" : spec.metric->title);
     if (facts->measured < facts->images) {
-        koksma__doc_say(d,
-                        " It is not measured in %zu of %zu images, which have rows of before the plan named it; the "
-                        "next run renders these again and adds it.",
-                        facts->images - facts->measured, facts->images);
+        koksma__doc_say(
+            d,
+            " It is not measured in %zu of %zu images, whose rows are older than its mention in the plan; the "
+            "next run renders these again and adds it.",
+            facts->images - facts->measured, facts->images);
     }
     koksma__doc_paragraph_end(d);
     if (facts->few) {

@@ -2,9 +2,9 @@
 /*
  * The parts that all published tables of a report have in common: a row has its label, the published numbers, each
  * with the number of its note, and then our numbers with the verdict on the published mean. Below the table are its
- * notes, and a joint test of its k values of z: if the differences are due to chance only, the sum of the values
- * divided by sqrt k has a standard normal distribution, and the sum of their squares a chi-squared distribution with
- * k degrees of freedom.
+ * notes, and a joint test of its k values of z, one for each compared mean: if the differences are due to chance
+ * only, the sum of the values divided by sqrt k has a standard normal distribution, and the sum of their squares a
+ * chi-squared distribution with k degrees of freedom.
  */
 #include "study/report/published_columns.h"
 

@@ -28,8 +28,8 @@ koksma_status koksma__table_image(koksma_study *study, const koksma__table *tabl
 /* A published mean of discrepancies, which was taken over 100 sets, agrees if |z| is below this limit. */
 static const double KOKSMA__AGREEMENT_Z = 2.6;
 
-/* The largest relative difference between our mean of an image table and the published one; it is large because our
-   scenes only approximate the paper's. */
+/* The largest relative difference at which our mean of image errors agrees with the published one; the limit is
+   large because our scenes only approximate the paper's. */
 static const double KOKSMA__IMAGE_TOLERANCE = 0.25;
 
 typedef struct koksma__verdict {

@@ -25,7 +25,7 @@ static const struct {
 #undef SECTION
 };
 
-/* Appends the sections that are written for each plan, or those of the whole study. */
+/* Appends the sections that every plan has (of_each_plan), or those that the whole study has once. */
 static koksma_status add_sections(const koksma__report_scope *scope, bool of_each_plan, koksma__document *d)
 {
     koksma_status status = KOKSMA_OK;

@@ -19,7 +19,7 @@ typedef struct koksma__section {
     bool of_each_plan; /* the section is written once for every plan of the study */
     bool (*is_shown)(const koksma__report_scope *scope);
     koksma_status (*write)(const koksma__report_scope *scope,
-                           koksma__document *d); /* writes the content below the heading */
+                           koksma__document *d); /* writes the section's content, below its heading */
 } koksma__section;
 
 /* The plan that a section with of_each_plan is about. */

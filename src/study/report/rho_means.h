@@ -8,9 +8,9 @@
 #include "stats/statistics.h"
 
 /* KOKSMA__RHO_VARIANTS: the number of combinations of options that have a column in a table. KOKSMA__RHO_SAMPLES:
-   the number of bootstrap resamples. Holm's correction over the 45 pairs of ten measures compares p with .0011.
-   With 4,000 resamples two or three of them decide whether p is below that, and which differences were significant
-   changed with the resamples' seed; with 20,000 eleven of them decide. */
+   the number of bootstrap resamples. With ten measures, Holm's correction compares the smallest p-value of the 45
+   pairs with 0.05 / 45 = .0011. With 4,000 resamples, two or three resamples decide whether p is below this limit,
+   and which differences were significant changed with the seed; with 20,000 resamples, eleven decide. */
 enum { KOKSMA__RHO_VARIANTS = 24, KOKSMA__RHO_SAMPLES = 20000 };
 
 /* Sums over the cases of a measure in one scene with one number of samples. */
@@ -53,7 +53,7 @@ typedef struct koksma__rho_source {
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns);
 
 /* Adds a case: rho from koksma__rho_shown, and its resamples. For a measure that is better when larger, the caller
-   changes the sign of both. Errors: MEMORY. */
+   reverses the sign of rho and of its resamples. Errors: MEMORY. */
 koksma_status koksma__rho_add(koksma__rho_means *s, const koksma__rho_source *source, const koksma__estimate *rho,
                               const double draws[KOKSMA__RHO_SAMPLES]);
 

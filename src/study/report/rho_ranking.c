@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rankings of measures by their mean rank correlation with the image error. A measure's mean over the chosen cases
- * is computed from sums of cells, also in each resample. Two means differ significantly where the p-value of their
- * difference, from the resamples and adjusted by Holm's method, is at most 0.05. Holm's method counts all pairs of
- * measures, not only those with the best measure, because the same data determine which measure is the best. A
- * statement about all scenes is made only if it also holds when any single scene is left out. These subsets are those
- * of the jackknife (Efron 1982), used here as a check, not to estimate a variance.
+ * Rankings of measures by their mean rank correlation with the image error. A measure's mean over the chosen cases,
+ * and its mean in each resample, are computed from sums of cells (rho_means.h). Two means differ significantly where
+ * the p-value of their difference, from the resamples and adjusted by Holm's method, is at most 0.05. Holm's method
+ * counts all pairs of measures, not only those with the best measure, because the same data determine which measure
+ * is the best. A statement about all scenes is made only if it also holds when any single scene is left out. The
+ * jackknife (Efron 1982) uses the same subsets, but to estimate a variance.
  */
 #include "study/report/rho_ranking.h"
 #include "stats/bootstrap.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Writes which measures predict the image error over all cases. Every statement is checked on the ranking over all
- * scenes and on those without one scene (koksma__rho_always_...). A statement that fails when some scene is left out
- * is not made; the text then says that the result depends on that scene.
+ * scenes and on the rankings without one scene (koksma__rho_always_...). A statement that fails when some scene is
+ * left out is not made; the text then says that the result depends on that scene.
  */
 #include "study/report/rho_words.h"
 #include "stats/bootstrap.h"
@@ -101,7 +101,7 @@ static void say_predictors(koksma__document *d, const koksma__rho_means *s, cons
     }
     koksma__doc_say(d, "%s", always ? "." : "");
     if (sure > always) {
-        koksma__doc_say(d, " %zu more are surely above 0 over all scenes, but not without one of them.",
+        koksma__doc_say(d, " %zu more are surely above 0 over all scenes, but not if some scene is left out.",
                         sure - always);
     }
 }
@@ -140,7 +140,7 @@ static void say_pairs(koksma__document *d, const koksma__rho_means *s, const kok
     }
     koksma__doc_say(d, "%s", always ? "." : "");
     if (sure > always) {
-        koksma__doc_say(d, " %zu more differences are sure over all scenes, but not without one of them.",
+        koksma__doc_say(d, " %zu more differences are sure over all scenes, but not if some scene is left out.",
                         sure - always);
     }
 }
@@ -153,7 +153,7 @@ void koksma__rho_sentence(koksma__document *d, const koksma__rho_means *s, const
     koksma__doc_answer_begin(d, !too_few && (j->n == 1 || koksma__rho_always_first(j, first)));
     if (too_few) {
         koksma__doc_say(d,
-                        "*Undecided:* %d patterns or more would give a rank correlation an interval. The largest "
+                        "*Undecided:* a rank correlation needs %d patterns or more for an interval. The largest "
                         "correlation, over fewer patterns, is that of `%s` (",
                         KOKSMA__LEAST_PAIRS, s->of[first].measure);
         say_cases(d, &s->of[first]);

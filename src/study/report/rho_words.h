@@ -6,8 +6,8 @@
 #include "study/report/document.h"
 #include "study/report/rho_ranking.h"
 
-/* Writes the answer. It states only results that hold over all scenes and whichever one scene is left out, and
-   counts those that do not. */
+/* Writes the answer. The answer states only results that hold over all scenes and whichever one scene is left out,
+   and counts the results that hold over all scenes but not if some scene is left out. */
 void koksma__rho_sentence(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *jackknife);
 
 /* Writes the table of all measures, with their means over all cases. */

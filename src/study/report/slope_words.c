@@ -95,8 +95,8 @@ static bool is_known_better(const koksma__slopes *of, size_t i, size_t j)
     return x < y || (isnan(y) && !isnan(x)) || (!(y < x) && isnan(x) == isnan(y) && i < j);
 }
 
-/* The next pattern to name after pattern `after` among those that may fall fastest. after = n: the first; returns n
-   if there is none. */
+/* The next pattern to name after pattern `after`, among the patterns that may fall fastest; with after = n, the
+   first one. Returns n if there is none. */
 static size_t next_tied(const koksma__slopes *of, size_t after)
 {
     size_t next = of->n;
@@ -116,7 +116,7 @@ static void say_trials(koksma__document *d, const koksma__slopes *of, size_t a, 
     const koksma__estimate *x = &of->trends[a].slope, *y = &of->trends[b].slope;
     const double factor = koksma__trials_factor(x->value - y->value, hypot(half(x), half(y)));
     if (!koksma__compare(x->value, y->value)) {
-        koksma__doc_say(d, "; those of %s and %s are equal", of->patterns[a], of->patterns[b]);
+        koksma__doc_say(d, "; the slopes of %s and %s are equal", of->patterns[a], of->patterns[b]);
     } else if (koksma__has_one_set(of->patterns[a]) || koksma__has_one_set(of->patterns[b])) {
         koksma__doc_say(d, "; more sizes might tell %s from %s, more trials would not", of->patterns[a],
                         of->patterns[b]);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The audit of a study: rows of the store are drawn at random, computed again from their keys, and compared bit for
- * bit. For the series whose results this program can compute again (audit_series.c says which), blocks of a plan are
- * made. The jobs run as those of a study do, on threads or MPI ranks, but their results are
- * compared and not stored. Rows are drawn without replacement, in the order of their ids, by selection sampling
- * (Knuth, TAOCP 2, 3.4.2, algorithm S).
+ * bit. A plan is made of the series whose results this program can compute again (audit_series.c). The jobs run as
+ * those of a study do, on threads or MPI ranks, but their results are compared and not stored. Rows are drawn
+ * without replacement, in the order of their ids, by selection sampling (Knuth, TAOCP 2, 3.4.2, algorithm S).
  *
  * If k of n drawn rows are wrong, the proportion of wrong rows in the store is below the Clopper & Pearson limit
  * with 95 % confidence: the p for which k or fewer wrong rows among n have the probability 5 % by the binomial
@@ -34,7 +33,7 @@ typedef struct audit {
     koksma_audit *out;
     koksma_study *study;
     koksma__audit_list list;
-    pthread_mutex_t lock; /* guards *out and the caller's function */
+    pthread_mutex_t lock; /* guards *out, and calls of the caller's function */
     long long seen;       /* number of rows that the draw has considered */
 } audit;
 
@@ -136,7 +135,7 @@ static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__a
     return status;
 }
 
-/* Marks all jobs as done, except the jobs of the drawn rows. */
+/* Marks all jobs as done, except the jobs of the drawn rows, so that only these are run. */
 static koksma_status look_up(void *context, koksma__tasks *tasks)
 {
     audit *a = context;

@@ -20,7 +20,8 @@ static const long long MOST_HOLES = 100000;
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
-enum { N_TEXTS = 9, KEY_TEXTS = 6 }; /* KEY_TEXTS: the first texts, up to `what`, are the key of an image */
+/* KEY_TEXTS: the number of texts up to `what`. An image's key consists of these without the kind, and of numbers. */
+enum { N_TEXTS = 9, KEY_TEXTS = 6 };
 
 /* Stores the addresses of a key's strings, so that the caller can copy or free them. */
 static void texts_of(koksma__series *key, const char **texts[N_TEXTS])
@@ -184,7 +185,7 @@ static koksma_status set_whole(koksma__wholes *wholes, long long value)
     return KOKSMA_OK;
 }
 
-/* Adds a zeroed block to the plan, and its group; returns the block, or NULL without memory. */
+/* Adds a zeroed block to the plan, and a group for its series; returns the block, or NULL without memory. */
 static void *add_block(void **blocks, size_t *n, size_t size, koksma__audit_group **groups)
 {
     size_t n_groups = *n;
@@ -245,8 +246,8 @@ static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, con
     return status ? status : r->name && r->pattern ? KOKSMA_OK : koksma__fail_memory(strlen(pattern));
 }
 
-/* Orders images by their keys; the rows of one image are equal. The revisions need no comparison, because all rows are
-   of this program's. */
+/* Orders images by their keys; series of one image (of its error, coherence and metrics) compare as equal. The
+   revisions need no comparison, because all rows are of this program's. */
 static int compare_images(const void *a, const void *b)
 {
     koksma__series s = (*(koksma__audit_series *const *)a)->key, t = (*(koksma__audit_series *const *)b)->key;

@@ -15,7 +15,7 @@ typedef enum koksma__audit_state {
 
 typedef struct koksma__audit_series {
     koksma__series key;      /* the key, with its own copies of the strings */
-    long long id, rows, end; /* end: 1 + the largest trial number of the series */
+    long long id, rows, end; /* rows: number of its rows; end: 1 + its largest trial number */
     koksma__audit_state state;
     unsigned char *drawn; /* one bit per trial, which tells whether the trial was drawn for the audit */
 } koksma__audit_series;

@@ -4,7 +4,8 @@
  * assumed to cost what the nearest timed task of its block and scene costs, scaled by a power of n: the power that
  * the pattern showed between two timed values of n or, before two are timed, 1 for renders and 2 for point sets.
  * distance() defines the nearest task by n, pattern and variant. First the smallest n of every block and scene is
- * timed; then, repeatedly, the task with the largest uncertain cost among those that fit into the remaining time.
+ * timed; then, repeatedly, of the tasks whose timing fits into the remaining time, the one whose cost is most
+ * uncertain.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -42,7 +43,7 @@ static int by_n(const void *a, const void *b)
     return s->n != t->n ? (s->n > t->n) - (s->n < t->n) : (s->place > t->place) - (s->place < t->place);
 }
 
-/* Whether the time of one task is used to estimate that of the other. */
+/* Whether the time of one task may be used to estimate the time of the other. */
 static bool same_block(const koksma__task *s, const koksma__task *t)
 {
     return s->image == t->image && s->discrepancy == t->discrepancy && s->scene == t->scene;
@@ -143,7 +144,7 @@ static koksma_status time_job(koksma_study *study, const koksma__task *task, con
     for (; !status && n < MOST_LOOKS && (n == 0 || all < LONG_JOB); n++) {
         const double start = koksma__thread_s();
         status = koksma__task_do(study, task, n % task->trials, job, results);
-        status = status == KOKSMA_IMPOSSIBLE ? KOKSMA_OK : status; /* a job that fails takes time, too */
+        status = status == KOKSMA_IMPOSSIBLE ? KOKSMA_OK : status; /* the time of a job that fails counts as well */
         looks[n] = koksma__thread_s() - start;
         all += looks[n];
     }
@@ -246,8 +247,8 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
         qsort(g.at, g.n, sizeof *g.at, by_n);
         status = time_tasks(study, &g, run, budget_s);
     }
-    /* Tasks of large n come first: the time of a reference is estimated from the first task that uses it, and the
-       number of samples of a reference is large, too. */
+    /* Tasks of large n come first: the time of a reference is estimated from the first task that uses it, and a
+       reference also has many samples. */
     for (size_t i = g.n; !status && i-- > 0;) {
         add_task(g.at[i].task, g.at[i].seconds, cost);
         add_references(study, g.at[i].task, g.at[i].seconds, counted, cost);

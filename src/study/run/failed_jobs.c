@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Counts the jobs that failed alone, for each task, and makes the lines of the list in the store (left_out.c). */
+/* Counts the jobs of each task that failed without ending the run, and makes the lines of the list in the store
+   (left_out.c). */
 #include "study/run/failed_jobs.h"
 
 #include <stdio.h>
@@ -23,7 +24,8 @@ static bool may_skip(const koksma__task *t)
     return t->image ? t->image->left_out.skip : t->discrepancy->left_out.skip;
 }
 
-/* The reason in an error text that may begin with the job's name, and then with that of the pattern. */
+/* Returns the reason in an error text: what follows the job's name and the pattern's name, if the text begins with
+   them. */
 static const char *reason_of(const koksma_study *study, const koksma__task *t, long long trial, const char *text)
 {
     char name[KOKSMA__JOB_NAME];
@@ -58,7 +60,7 @@ koksma_status koksma__failures_count(const koksma__tasks *tasks, size_t job, con
     return KOKSMA_OK;
 }
 
-/* What the jobs of a task are, but for n: "PATTERN", and the warp, or the scene and its options. */
+/* Writes the label of a task, which tells all but n: the pattern and the warp, or the pattern, scene and options. */
 static void put_label(FILE *f, const koksma__task *t)
 {
     fputs(t->pattern, f);
@@ -80,7 +82,7 @@ static koksma_status add_line(koksma__texts *lines, const koksma__task *t, const
     const size_t label = size;
     fprintf(f, "\t%lld\t%zu\t%lld\t%s", t->n, failed->n, t->trials, failed->reason);
     koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
-    for (size_t i = 0; !status && i < size; i++) { /* a path may have any character; tabs and lines separate */
+    for (size_t i = 0; !status && i < size; i++) { /* blanks replace tabs and ends of lines, which separate fields */
         const bool separates = text[i] == '\n' || text[i] == '\r' || (text[i] == '\t' && i < label);
         text[i] = separates ? ' ' : text[i];
     }

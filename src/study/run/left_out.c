@@ -2,8 +2,8 @@
 /*
  * The list of failed jobs in a store, and its form for readers. The store has a text "failed" with one line for each task
  * that has failed jobs: label, n, number of failed trials, number of trials and reason, separated by tabs. For readers,
- * lines of equal label become one: "poisson-disk:d=0.3, N = 64 (100 of 100 trials), 256 (100 of 100 trials): reason". The
- * text "left-out" has these lines, behind those of the plan's blocks with `skip`.
+ * lines of equal label become one: "poisson-disk:d=0.3, N = 64 (100 of 100 trials), 256 (100 of 100 trials):
+ * reason". The text "left-out" has the lines on the plan's blocks with `skip`, followed by these.
  */
 #include "study/run/left_out.h"
 
@@ -31,7 +31,7 @@ koksma_status koksma__texts_add(koksma__texts *texts, const char *text)
 
 /* ---- The list for readers ------------------------------------------------------------------------------ */
 
-/* The fields of a line; false if it is not one. */
+/* The fields of a line of the text "failed". */
 typedef struct fields {
     const char *label, *reason;
     int label_length;
@@ -114,7 +114,7 @@ koksma_status koksma__left_out_recall(koksma__store *store, koksma__texts *store
     return status;
 }
 
-/* Writes a text unless the store has it; a store without the text is as one with an empty text. */
+/* Writes a text into the store unless its present value is the same; a missing text counts as empty. */
 static koksma_status set_text(koksma__store *store, const char *key, const char *value)
 {
     char *before = NULL;
@@ -124,7 +124,7 @@ static koksma_status set_text(koksma__store *store, const char *key, const char 
     return same ? KOKSMA_OK : koksma__store_set_text(store, key, value);
 }
 
-/* Writes the lines as one text. */
+/* Writes the lines into the store as one text. */
 static koksma_status set_lines(koksma__store *store, const char *key, const koksma__texts *lines)
 {
     char *text = NULL;

@@ -38,8 +38,8 @@ enum {
 
 enum { KOKSMA__PHASES = 2 };
 
-/* Seconds after which a rank sends its results. If the rank is lost, so is the work of this time, or of one job that
-   takes longer. */
+/* Seconds after which a rank sends its results. If the rank is lost, the results of so many seconds are lost with
+   it, or of one job if that takes longer. */
 #define KOKSMA__SEND_S 0.02
 
 typedef struct koksma__request {

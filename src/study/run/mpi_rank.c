@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Finds this process's rank and the number of ranks. MPI is loaded only if the environment shows that mpirun or srun
-   started this process. If rank 0 exits early, it aborts the other ranks, which would otherwise wait for it. */
+   started this process. If rank 0 exits before the others are released, it aborts them, because they would wait for
+   it. */
 #include "study/run/mpi_rank.h"
 
 #include <stdlib.h>

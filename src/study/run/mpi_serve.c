@@ -18,8 +18,8 @@
 #include "study/run/mpi_rank.h"
 #include "study/run/run_state.h"
 
-/* Pause between two polls for messages. An answer may take this long, because ranks request a batch while they still
-   work on another. */
+/* Pause between two polls for messages. Ranks may wait this long for an answer, because they request a batch while
+   they still work on another. */
 static const double REST_S = 1e-3;
 /* How long rank 0 waits at the end of a phase for ranks that send nothing. */
 static const double GOODBYE_S = 30;
@@ -29,7 +29,7 @@ typedef struct server {
     const koksma__transport *mpi;
     int size, number; /* number of ranks; number of the phase (KOKSMA__PHASES) */
     koksma__run_state state;
-    double exec_s; /* the time limit for programs that the caller's thread has set (koksma_allow_exec) */
+    double exec_s; /* the caller's time limit for programs (koksma_allow_exec) */
     /* The next two fields are used by the serving thread only. */
     koksma__request *requests; /* the most recent request of each rank */
     bool *ended;               /* whether each rank knows that the phase is over */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The ranks of an MPI run other than rank 0. A rank requests the next batch when it begins with one, so that the
+/* The ranks of an MPI run other than rank 0. A rank requests the next batch when it begins a batch, so that the
    answer can arrive while it works. Results are sent back together, at least every KOKSMA__SEND_S. Each rank has the
    plan, makes the same list of jobs as rank 0, fetches the reference images that its jobs need from rank 0, and
    stores no results. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The renders of a study. A picture's pattern and variant become options of the renderer; variants.c calls the
-   renderer, for adaptive methods, too. A picture's seed is the hash of a text that names everything the picture
-   depends on, so that a job has the same random numbers in every run, on any thread, and in any plan. */
+   renderer or the adaptive method. A picture's seed is the hash of a text that names everything the picture depends
+   on, so that a job has the same random numbers in every run, on any thread, and in any plan. */
 #include "study/run/picture.h"
 
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 #include "core/status.h"
 #include "study/plan/image_patterns.h"
 
-enum { LONGEST_KEY = 8192 }; /* characters of a key: a path, a pattern, options */
+enum { LONGEST_KEY = 8192 }; /* capacity for a key: a path, a pattern, options */
 
 uint64_t koksma__job_seed(const char *format, ...)
 {

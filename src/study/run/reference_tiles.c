@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Cuts the missing references into tiles of whole rows. The number of tiles depends on the size of the reference,
    not on the number of threads. A tile is rendered as the sum of all replicates of its rows, added in their order;
-   the sums of a reference's tiles are put together, and its last tile completes it. So the bits of a reference do
-   not depend on which thread or rank renders which tile. */
+   when the sums of all tiles of a reference have been copied into one array, the reference is complete. So the bits
+   of a reference do not depend on which thread or rank renders which tile. */
 #include "study/run/reference_tiles.h"
 
 #include <stdio.h>
@@ -42,8 +42,8 @@ static koksma_status add_tiles(koksma__reference_tiles *tiles, size_t reference)
     return status;
 }
 
-/* Whether the study has the reference's file, and its store the row with the file's hash and the reference's own error.
-   If the database was removed, or predates the hashes, the reference is rendered again. */
+/* Whether the study's folder has the reference's file, and its store has the row with the file's hash and the
+   reference's own error. If the database was removed, or predates the hashes, the reference is rendered again. */
 static bool is_kept(const koksma_study *study, const koksma__reference_image *reference)
 {
     char name[KOKSMA__REFERENCE_NAME];

@@ -56,7 +56,7 @@ static koksma_status record_run(koksma_study *study, const char *started, const 
 
 /* ---- The whole run ------------------------------------------------------------------------------------- */
 
-/* If `before` is not OK, the jobs are only counted. */
+/* If `before`, the status of an earlier kind of jobs, is not OK, the jobs are only counted. */
 koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
                                koksma_study_summary *summary, koksma__failures *failures)
 {
@@ -83,8 +83,8 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
     return before ? before : status ? status : added;
 }
 
-/* A rough estimate of the work of one kind of jobs: the samples of all images, or the points of all sets times their
-   measures; 0 when unknown. */
+/* A rough estimate of the work of one kind of jobs: the number of samples of all images, or of points of all sets
+   times the number of their measures; 0: unknown. */
 static double work_of(koksma_study *study, bool images)
 {
     koksma__tasks tasks;

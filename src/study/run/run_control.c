@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Deadline, interruption and progress of a run. The functions keep_running and keep_at_job are the keep_going
    callbacks of the run and of its jobs. Only the caller's thread calls the caller's keep_going and reads the clock;
-   jobs on other threads read the flag that it sets, so that the caller's function needs no lock. */
+   jobs on other threads read a flag that this thread sets, so that the caller's function needs no lock. */
 #include "study/run/run_control.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 
-/* Asks the caller before it compares the time with the limit: after a long job both may demand a stop, and an
-   interruption takes precedence. The clock is read once, for both. */
+/* Calls the caller's keep_going before comparing the time with the limit: after a long job both may demand a stop,
+   and an interruption by the caller takes precedence. The clock is read once, for the limit and for the progress. */
 static bool look(koksma__run_control *control)
 {
     const bool timed = control->end_s > 0 && !atomic_load(&control->stop);

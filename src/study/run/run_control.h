@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The time limit, interruption and progress of a run. Only the caller's thread reads the clock and calls the
- * caller's keep_going, between jobs and within its own jobs; the jobs on other threads read a flag that it sets. So
- * when the time limit is reached, every thread abandons its current job.
+ * caller's keep_going, between jobs and within its own jobs; the jobs on other threads read a flag that this thread
+ * sets. So when the time limit is reached, every thread abandons its current job.
  */
 #ifndef KOKSMA_STUDY_RUN_RUN_CONTROL_H
 #define KOKSMA_STUDY_RUN_RUN_CONTROL_H
@@ -18,7 +18,7 @@ typedef struct koksma__run_control {
     double start_s, end_s;   /* the start, and the deadline or 0 if there is none, as times of koksma__now_s */
     double fraction;         /* completed fraction of the run, as last reported on the caller's thread */
     double begin, share;     /* the current phase covers the fractions begin .. begin + share of the run */
-    bool by_time;            /* whether the caller gets the fraction of the time limit that has passed instead */
+    bool by_time;            /* whether the progress is the elapsed fraction of the time limit */
     atomic_bool stop;        /* whether all work must end */
     atomic_bool is_up;       /* whether the time limit was reached */
     atomic_bool interrupted; /* whether the caller's keep_going has returned false, before or after the time limit */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The state of a phase: two queues (work_queue.h) under one lock. One holds tiles of reference images; the other
    holds jobs, which are ready when the references that they are compared with are complete. An assignment counts as
-   taken until some thread or rank delivers its result first; a second result is discarded. So the assignment of a
-   lost rank can be handed out again. */
+   taken until its result arrives. The assignment of a lost rank can be handed out again: if two results arrive, the
+   second is discarded. */
 #include "study/run/run_state.h"
 
 #include <stdio.h>

@@ -39,7 +39,7 @@ typedef struct koksma__phase {
     bool last; /* whether this is the last phase of the run */
     koksma__failures failures;
     atomic_size_t done;
-    atomic_ullong busy_ns; /* time that all workers spent on tiles and jobs */
+    atomic_ullong busy_ns; /* time that all workers together spent on tiles and jobs */
     double others_s;       /* processor time of the other ranks */
 } koksma__phase;
 
@@ -72,8 +72,8 @@ double koksma__run_state_fraction(koksma__run_state *state);
 /* Returns the first failure, as this thread's error, or OK. The work must have ended before the call. */
 koksma_status koksma__run_state_status(const koksma__run_state *state);
 
-/* Takes an assignment: tiles first, because jobs wait for them. Returns false if none is ready now. If `lost` is true
-   and all are taken, it returns one whose result has not arrived. */
+/* Takes an assignment: tiles first, because jobs wait for them. Returns false if none is ready now. If `lost` is
+   true and all assignments are taken, takes one again whose result has not arrived. */
 bool koksma__run_state_take(koksma__run_state *state, bool lost, koksma__assignment *assignment);
 
 /* Takes a batch of assignments for one of `ranks` ranks and returns their number: jobs of about KOKSMA__BATCH_S
@@ -92,7 +92,7 @@ void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma
 size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile);
 
 /* Takes and does assignments until the phase is over or has failed. On the thread of the run's caller, asks the
-   caller's keep_going between assignments. If `redo`, it also does assignments of other ranks whose results are
+   caller's keep_going between assignments. If `redo`, also does assignments of other ranks if their results are
    overdue. */
 void koksma__work(koksma__run_state *state, bool redo);
 

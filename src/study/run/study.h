@@ -11,15 +11,15 @@
 struct koksma__tasks;
 struct koksma__task;
 
-/* Receives the results of a run instead of the store; an audit uses it to compare results with the store. Every
-   function may be called on any thread. */
+/* Receives the results of a run instead of the store; an audit uses it to compare results with the store. A run with
+   a sink renders all references again. Every function may be called on any thread. */
 typedef struct koksma__sink {
     void *context;
-    /* NULL, or marks the jobs that need not be done */
+    /* marks the jobs that need not be done, as if they were done before */
     koksma_status (*look_up)(void *context, struct koksma__tasks *tasks);
     koksma_status (*put_job)(void *context, const struct koksma__task *task, const koksma__result *results);
     koksma_status (*put_reference)(void *context, const koksma__reference_image *reference,
-                                   const koksma__reference_row *row); /* whether all references are rendered again */
+                                   const koksma__reference_row *row);
 } koksma__sink;
 
 struct koksma_study {
@@ -31,7 +31,7 @@ struct koksma_study {
     koksma__study_scene *scenes;
     size_t n_references;
     koksma__reference_image *references;
-    koksma__texts failed;     /* for readers: the jobs that failed alone (failed_jobs.h) */
+    koksma__texts failed;     /* lines for readers on the jobs that failed alone (failed_jobs.h) */
     const koksma__sink *sink; /* NULL: results go into the store */
 };
 

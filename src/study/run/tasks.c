@@ -25,7 +25,7 @@
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
-/* The maximum number of jobs in a plan. With this number, two bits per job (done; in the store) take 256 MiB. */
+/* The maximum number of jobs in a plan. For so many jobs, two bits for each (done; in the store) take 256 MiB. */
 static const long long MOST_JOBS = 1 << 30;
 
 /* A job's seed is the hash of the task's key and the trial. The options are not part of the seed, so that different
@@ -118,7 +118,7 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
         const size_t before = tasks->n;
         status = find_seeds(&task);
         status = status ? status : add_task(tasks, &task);
-        if (tasks->n == before) { /* the list does not own them */
+        if (tasks->n == before) { /* the list does not own the seeds */
             free(task.seeds);
         }
     }
@@ -146,7 +146,8 @@ static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block 
             status = koksma__reference_index(tasks->study, b, scene, task.variant, r,
                                              &tasks->at[tasks->n - 1].references[r]);
         }
-        for (size_t k = b->n_references; !status && k < task.n_series; k++) { /* all others use the last reference */
+        /* the coherence and the metrics use the last reference */
+        for (size_t k = b->n_references; !status && k < task.n_series; k++) {
             koksma__task *added = &tasks->at[tasks->n - 1];
             added->references[k] = added->references[b->n_references - 1];
         }

@@ -42,7 +42,7 @@ typedef struct koksma__rounds {
 typedef struct koksma__tasks {
     koksma_study *study;
     size_t n, n_jobs;
-    long long wanted; /* number of jobs of the tasks added so far */
+    long long wanted; /* total number of jobs of the tasks that were added so far */
     koksma__task *at; /* sorted by descending number of trials */
     size_t n_rounds;
     koksma__rounds *rounds;
@@ -86,8 +86,8 @@ koksma_status koksma__task_put(const koksma_study *study, const koksma__task *ta
 /* Whether a failure is caused by the machine or the caller, not by one job; the run then ends. */
 bool koksma__ends_all(koksma_status status);
 
-/* Whether the other jobs continue after a job has failed with this status. They continue if the job is impossible
-   and, in an audit, after any failure that does not end all jobs. */
+/* Whether the other jobs continue after a job has failed with this status: they do if the job is impossible and, in
+   an audit, after any failure that does not end all jobs. */
 bool koksma__task_failed_alone(const koksma_study *study, koksma_status status);
 
 #endif

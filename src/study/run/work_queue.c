@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The queue has two bits for each number: whether it is taken, and whether it was put back. A cursor skips the taken
-   numbers, so that taking is O(1) unless numbers are not ready; a second cursor cycles through the numbers that are
-   taken but not put back when all are taken. */
+   numbers, so that taking is O(1) unless numbers are not ready. When all numbers are taken, a second cursor cycles
+   through those that are not put back. */
 #include "study/run/work_queue.h"
 
 #include <stdlib.h>

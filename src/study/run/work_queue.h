@@ -17,8 +17,8 @@ typedef bool (*koksma__work_queue_ready)(const void *context, size_t i);
 koksma_status koksma__work_queue_open(size_t n, koksma__work_queue *queue);
 void koksma__work_queue_close(koksma__work_queue *queue);
 
-/* Takes the first number that is ready and not taken, among the next `reach` numbers; false if there is none. If
-   `ready` is NULL, every number is ready. */
+/* Takes the first number that is ready and not taken, among the next `reach` numbers; returns false if there is
+   none. If `ready` is NULL, every number is ready. */
 bool koksma__work_queue_take(koksma__work_queue *queue, size_t reach, koksma__work_queue_ready ready,
                              const void *context, size_t *i);
 

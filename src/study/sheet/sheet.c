@@ -14,8 +14,8 @@
 
 /* ---- Progress ---------------------------------------------------------------------------------------------- */
 
-/* Reports progress. A part may take several passes, each of which reports fractions from 0 to 1; a pass counts as the
-   fraction pass_share of what remained of the part. */
+/* Reports progress. A part may take several passes, each of which reports fractions from 0 to 1; each pass accounts
+   for the fraction pass_share of what remained of the part before it. */
 static bool keep_going(void *context, double fraction)
 {
     koksma__sheet *sheet = context;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The state of a datasheet while it is made: samplers, measures, results, progress, notes and commands.
- * datasheet.c has the order of work, sheet_samplers.c chooses samplers, sizes and seeds; the other files make one
- * part of the sheet each.
+ * datasheet.c runs the parts in their order, sheet_samplers.c chooses samplers, sizes and seeds; each other file
+ * makes one part of the sheet.
  */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_H
 #define KOKSMA_STUDY_SHEET_SHEET_H
@@ -64,9 +64,9 @@ typedef struct koksma__sheet_ranking {
 typedef struct koksma__sheet {
     const koksma_datasheet_options *options;
     const koksma_run *run;
-    /* as fractions of the whole work: the parts before the current one, and the current part */
+    /* fractions of the whole work: of all parts before the current one, and of the current part */
     double done, share;
-    double passed, pass_share, fraction; /* as fractions of the current part (koksma__sheet_part) */
+    double passed, pass_share, fraction; /* fractions of the current part (koksma__sheet_part) */
     koksma__sheet_sampler all[KOKSMA__SHEET_SAMPLERS];
     koksma__sheet_sampler *samplers[KOKSMA__SHEET_SAMPLERS];
     size_t n_samplers;
@@ -85,13 +85,13 @@ typedef struct koksma__sheet {
     koksma__document notes; /* notes for a list: what is left out, and why */
     size_t n_notes;
     koksma__sheet_values plane;
-    koksma__sheet_ranking *rankings; /* scene i with the k-th number of samples: i * n_spp + k */
+    koksma__sheet_ranking *rankings; /* index i * n_spp + k: scene i with the k-th number of samples */
     size_t n_rankings;
 } koksma__sheet;
 
 /* Returns the run for the next part, whose work is `share` of the whole. A part may consist of several passes; a new
-   pass begins when the reported fraction falls. A finished pass counts as the fraction pass_share of what remained of
-   the part (1 for a part of one pass). The returned run's context is the sheet. */
+   pass begins when the reported fraction falls. Each pass accounts for the fraction pass_share of what remained of
+   the part before it (1 for a part of one pass). The returned run's context is the sheet. */
 koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_share);
 
 /* Appends a note: `what`, then the text of this thread's last error. */

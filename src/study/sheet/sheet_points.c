@@ -71,7 +71,8 @@ koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *
             status = draw_set(sheet->samplers[0], sheet->sizes[i], true, d);
         }
     }
-    koksma__doc_paragraph(d, "Above: the sampler's first set of each size. Below: the first set of every other one.");
+    koksma__doc_paragraph(
+        d, "Above: the sampler's first set of each size. Below: the first set of every other sampler.");
     for (size_t s = 1; s < sheet->n_samplers && !status; s++) {
         status = draw_set(sheet->samplers[s], common, false, d);
     }
@@ -203,7 +204,7 @@ static koksma_status draw_pairs(const koksma__sheet_sampler *sampler, size_t n, 
     return status;
 }
 
-/* Finds the samplers that have sets of n points in `dim` dimensions; false if samplers[0] has none. */
+/* Finds the samplers that have sets of n points in `dim` dimensions; returns false if samplers[0] has none. */
 static bool choose_deep(koksma__sheet *sheet, size_t n, int dim, bool note, koksma__sheet_sampler **samplers,
                         size_t *count)
 {

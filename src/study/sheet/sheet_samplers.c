@@ -95,7 +95,7 @@ static size_t thin(size_t *sizes, size_t n)
 
 /* Chooses the sizes (numbers of points) of a family of files. A size needs at least half as many sets as the size with the
    most sets. The smallest such size is always chosen, larger ones only if they have few enough points to be measured
-   quickly; of many sizes KOKSMA__SHEET_SIZES are kept. */
+   quickly; of these at most KOKSMA__SHEET_SIZES are kept. */
 static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_sampler *sampler,
                                             const koksma__file_set *sets, size_t count)
 {
@@ -128,8 +128,8 @@ static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_
     return KOKSMA_OK;
 }
 
-/* Sets the seed of the first set of a sampler that the sheet's sampler is compared with. Lowers its number of sets so
-   that every size of the sheet has that many sets, whose seeds are consecutive from the first one on. */
+/* Sets the seed of the first set of a sampler that the sheet's sampler is compared with. Lowers its number of sets
+   so that it has that many sets of every size of the sheet, with consecutive seeds from the first seed on. */
 static void count_sets(const koksma__sheet *sheet, koksma__sheet_sampler *sampler, const koksma__file_set *sets,
                        size_t count)
 {
@@ -163,8 +163,8 @@ static koksma_status size_of_file(koksma__sheet *sheet, koksma__sheet_sampler *s
     return status;
 }
 
-/* Finds seeds and numbers of sets of a sampler whose points are in files; for samplers[0] it finds the sheet's sizes,
-   too. */
+/* Finds seeds and numbers of sets of a sampler whose points are in files; for samplers[0] it also finds the sheet's
+   sizes. */
 static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *sampler)
 {
     koksma__file_set *sets = NULL;
@@ -295,7 +295,7 @@ static void choose_spp(koksma__sheet *sheet)
             sheet->spp[sheet->n_spp++] = usual[k];
         }
     }
-    const bool none = sheet->n_spp == 0; /* if the sampler has none of these numbers of points */
+    const bool none = sheet->n_spp == 0; /* the sampler has no sets of 4, 16 or 64 points */
     for (size_t i = 0; i < sheet->n_sizes && none && sheet->n_spp < (sheet->options->quick ? 1 : KOKSMA__SHEET_SPP);
          i++) {
         if (sheet->sizes[i] <= MOST_SPP) {

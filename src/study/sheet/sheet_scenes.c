@@ -214,14 +214,13 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
                                  "and the sampler has no set of 4, 16, 64 or any other number of up to 256 points.");
     } else {
         koksma__doc_metric_begin(d, sheet->metric_text);
-        koksma__doc_say(d,
-                        "Error of an image: %s (%s). Samplers as a renderer uses them: a set for each pixel "
-                        "and use. "
-                        "Behind: relative difference to the first. Bands: the error has a pattern, which "
-                        "eyes notice more than noise. "
-                        "Intervals and decisions of a scene hold together with 95 %%; coherence and "
-                        "decisions are in the CSV files.",
-                        sheet->metric_text, sheet->metric.metric->title);
+        koksma__doc_say(
+            d,
+            "Error of an image: %s (%s). Samplers are used as in a renderer: one set for each pixel and each use "
+            "(lens, light, ...). Behind: the relative difference of the error to that of the first sampler. "
+            "Bands: the error has a pattern, which eyes notice more than noise. Intervals and decisions of a scene "
+            "hold together with 95 %%; coherence and decisions are in the CSV files.",
+            sheet->metric_text, sheet->metric.metric->title);
         koksma__doc_paragraph_end(d);
     }
     if (sheet->samplers[0]->sets != SIZE_MAX && sheet->n_spp) {

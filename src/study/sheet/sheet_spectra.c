@@ -117,7 +117,7 @@ static koksma_status put_radial(const spectra *all, size_t n, koksma__document *
 static void put_pairs(const spectra *all, size_t n, koksma__document *d)
 {
     koksma__doc_chart_begin(d, &(koksma__chart){"Pair correlation", "distance on the torus × sqrt(n)",
-                                                "pairs, of random points", false, false, 0});
+                                                "pairs, relative to random points", false, false, 0});
     for (size_t s = 0; s < n; s++) {
         koksma__doc_series_begin(d, all[s].sampler->text, KOKSMA__SERIES_LINE);
         for (size_t b = 0; b < BINS; b++) {

@@ -83,8 +83,8 @@ static void say_count(koksma__document *d, size_t measures, size_t of_measures, 
     }
 }
 
-/* Writes a list item with the measures that have this outcome (for the outcome LOST only those that `winner` wins);
-   writes nothing if there are none. */
+/* Writes a list item with the measures that have this outcome (for the outcome LOST, only the measures by which
+   sampler `winner` is the best); writes nothing if there are none. */
 static void put_measures(const koksma__sheet_values *v, const score *result, outcome which, size_t winner,
                          const char *head, koksma__document *d)
 {

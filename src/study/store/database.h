@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* An SQLite file, independent of studies; only database.c includes SQLite. The caller must let only one thread at a
    time call these functions. Errors of those that return a status: IO (the file can't be written, or another run
-   holds it), MALFORMED (it is not a database, or is damaged), MEMORY. */
+   uses it), MALFORMED (it is not a database, or is damaged), MEMORY. */
 #ifndef KOKSMA_STUDY_STORE_DATABASE_H
 #define KOKSMA_STUDY_STORE_DATABASE_H
 

@@ -62,7 +62,7 @@ koksma_status koksma__store_close(koksma__store *store);
 /* Commits all results so far to disk. */
 koksma_status koksma__store_commit(koksma__store *store);
 
-/* Processor time spent so far in calls of this store, in seconds, without the copying of rows into memory. */
+/* Seconds of processor time spent so far in calls of this store, except those that only copy rows into memory. */
 double koksma__store_seconds(koksma__store *store);
 
 /* Writes or replaces a text of table meta; reads one. The caller frees *value, which is NULL if there is no such
@@ -70,7 +70,7 @@ double koksma__store_seconds(koksma__store *store);
 koksma_status koksma__store_set_text(koksma__store *store, const char *key, const char *value);
 koksma_status koksma__store_get_text(koksma__store *store, const char *key, char **value);
 
-/* Finds the id of a series. If the series does not exist, `add` creates it; otherwise *id is 0. */
+/* Finds the id of a series. If the series does not exist, creates it if `add`, and otherwise sets *id to 0. */
 koksma_status koksma__store_series(koksma__store *store, const koksma__series *series, bool add, long long *id);
 
 /* Writes results, each to its series, unless the series already has a result of that trial. Results are gathered
@@ -87,10 +87,10 @@ koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context
 koksma_status koksma__store_row(koksma__store *store, long long group, long long trial, uint64_t *seed,
                                 double values[KOKSMA__RESULT_VALUES], bool *found);
 
-/* Whether the rows match the seal, and so are those that runs wrote; call it after a scan. */
+/* Whether the rows that the last scan read match the seal, so that they are those that runs wrote. */
 bool koksma__store_is_sealed(const koksma__store *store);
 
-/* Call `visit` for all series, and for all references, with key.made_by. */
+/* The first function calls `visit` for all series, the second for all references; key.made_by is set. */
 koksma_status koksma__store_visit_series(koksma__store *store,
                                          koksma_status (*visit)(void *context, const koksma__series *key,
                                                                 long long id),

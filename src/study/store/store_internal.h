@@ -83,7 +83,7 @@ struct koksma__store {
     bool in_transaction, failed; /* failed: whether a write has failed, so that nothing more is written */
     koksma__seal seal, sealed;   /* seal: seal of all rows written so far; sealed: the seal in table meta */
     koksma__seal found;          /* seal of the rows that the last scan read */
-    bool for_audit;              /* whether it is accepted that `found` differs from `seal` */
+    bool for_audit;              /* whether `found` may differ from `seal` without an error */
     double began_s, entered_s, seconds;
     koksma__rows spare;
     size_t n_known;              /* length of `known`, which is indexed by the ids of series */
@@ -92,7 +92,7 @@ struct koksma__store {
     koksma__kept_rows kept;
     pthread_mutex_t gather_lock; /* guards the members below; may be taken while `lock` is held */
     koksma__rows gathered;
-    double written_s; /* when rows were last written, in seconds */
+    double written_s; /* time of the last write of rows (koksma__now_s) */
     koksma__point_files files;
     char hash[KOKSMA__HASH_TEXT]; /* the hash and made_by are bound to statements, and so must outlive them */
     koksma__made_by made_by;

@@ -105,9 +105,8 @@ static koksma_status build(const char *path, const koksma__database *old, int sc
     return status;
 }
 
-/* Marks the file as one with a write-ahead log in bytes 18 and 19 of the header
-   (https://sqlite.org/fileformat.html). SQLite itself would change the header in place, with a journal that a
-   kill may leave behind. */
+/* Sets bytes 18 and 19 of the header, which mark a file with a write-ahead log (https://sqlite.org/fileformat.html).
+   SQLite itself would change the header in place, with a journal that a kill may leave behind. */
 static koksma_status mark_as_logged(const char *temporary, const char *path)
 {
     FILE *stream = fopen(temporary, "r+be");
@@ -127,7 +126,7 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
     koksma__atomic_temporary(&file, temporary);
     koksma_status status = build(temporary, old, schema, &store);
     if (!status && old && !koksma__store_is_sealed(store)) {
-        status = koksma__seal_fail(store); /* the old file is damaged, and stays as it is */
+        status = koksma__seal_fail(store); /* the old file is damaged, and is not replaced */
     }
     const koksma_status closed = koksma__store_close(store);
     status = status ? status : closed;
@@ -141,7 +140,8 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
     return status ? status : placed;
 }
 
-/* Upgrades a file. Opening the file moves the write-ahead log of an older, killed run into it and locks it. */
+/* Upgrades a file. Opening the file locks it, and moves into it the write-ahead log of an earlier run that was
+   killed. */
 static koksma_status upgrade_file(const char *path, int schema)
 {
     koksma__database *old;
@@ -171,8 +171,8 @@ static koksma_status check_plan(koksma__store *store, const char *name)
     return status;
 }
 
-/* Opens a store to read and checks its header and tables before anything can write to it; *exists is false for an
-   empty file, too. */
+/* Opens a store to read and checks its header and tables before anything can write to it; *exists is false also for
+   an empty file. */
 static koksma_status look(const char *path, bool *exists, int *schema, koksma__database **out)
 {
     koksma__database_header header;
@@ -275,7 +275,7 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
     if (!status) {                      /* damage must be reported before any byte is written */
-        (*out)->in_transaction = false; /* no scan here, because it would end the open transaction */
+        (*out)->in_transaction = false; /* else the scan would end the open transaction */
         status = koksma__store_scan(*out, pass, NULL);
         (*out)->in_transaction = true;
     }

@@ -11,7 +11,7 @@
 /* 24 MiB */
 enum { MOST_KEPT = 1 << 19 };
 
-/* Keeps a row in memory; false if there are too many rows, or no memory is left. */
+/* Keeps a row in memory; returns false if there are too many rows, or no memory is left. */
 static bool keep(koksma__kept_rows *kept, const koksma__row *row)
 {
     if (kept->rows.n == kept->capacity) {
@@ -162,7 +162,7 @@ static koksma_status each_in_database(koksma__store *store, const wanted *w, boo
     return status;
 }
 
-/* The first kept row from `low` on whose id is not below `id`. */
+/* The index of the first row, from `low` on, with an id of at least `id`. */
 static size_t find_kept(const koksma__rows *rows, size_t low, long long id)
 {
     for (size_t high = rows->n; low < high;) {

@@ -75,8 +75,8 @@ static koksma_status put_one(koksma__store *store, const koksma__row *from)
     return koksma__statement_run(store->database, store->queries[KOKSMA__PUT_ROW]);
 }
 
-/* Writes up to ROWS_AT_ONCE rows; *done is their number. The statement stops at a row that exists, which is rare:
-   put_one merges this row, because it may lack values of other series in its group. */
+/* Writes up to ROWS_AT_ONCE rows; *done is their number. The statement stops at a row that exists already, which is
+   rare: put_one merges this row, because it may lack values of other series in its group. */
 static koksma_status put_many(koksma__store *store, const koksma__row *from, size_t *done)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_ROWS];
@@ -105,7 +105,7 @@ koksma_status koksma__store_write_rows(koksma__store *store)
     store->spare.at = taken.at;
     store->written_s = koksma__now_s();
     pthread_mutex_unlock(&store->gather_lock);
-    if (taken.n) { /* what was read about series before is now out of date */
+    if (taken.n) { /* what was read about series earlier is now out of date */
         koksma__store_forget(store);
     }
     koksma_status status = taken.n || store->in_transaction ? koksma__store_begin(store) : KOKSMA_OK;

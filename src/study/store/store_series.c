@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Finds and creates the ids of series, and records which series have rows of their own (images, coherences and
-   metrics) and which share rows with up to three others. */
+   metrics) and which share rows with up to three other series. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,8 +10,8 @@
 /* The maximum number of series: more would not fit into memory, which must also hold a plan's tasks. */
 static const long long MOST_SERIES = 1 << 26;
 
-/* Binds the part of the key that all series of a group share: everything up to the height, and the points'
-   revisions. */
+/* Binds the part of the key that all series of a group share: all columns up to the height, and the revisions of the
+   points. */
 static void bind_group(koksma__statement *s, int *column, const koksma__series *key)
 {
     koksma__bind_text(s, column, key->kind);

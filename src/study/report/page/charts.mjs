@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts of a report. A chart is as wide as the page and shows at most eight lines at once, which the reader chooses; where the
-// data say which values are better, the first eight are those that are best at the right end. A label names the point under the mouse, or the point chosen by arrow keys, with its values. Series of marks without lines,
-// such as those of a scatter plot, are all shown. Shown lines have different colours and marks.
+// Charts of a report. A chart is as wide as the page and shows at most eight lines at once, which the reader chooses. If the data
+// say which values are better, it first shows the eight lines that are best at the right end. A label names the point under the
+// mouse, or the point chosen by arrow keys, with its values. Series of marks without lines, such as those of a scatter plot, are
+// all shown. The lines that are shown have different colours and marks.
 import { chart, shape } from "../../../../explorer/page/chart.mjs";
 import { element, short, svg } from "../../../../explorer/page/dom.mjs";
 
@@ -12,7 +13,7 @@ export function redraw(most = widest) {
   drawn.forEach(draw => draw(most));
 }
 
-// As long as one period of every dash pattern, and with the mark of the chart.
+// A key of the legend: a line that is as long as one period of every dash pattern, with the mark of the series.
 const swatch = (className, mark, line) => svg("svg", { class: "swatch", width: 46, height: 12, "aria-hidden": "true" },
   svg("g", { class: `series ${className}` }, line ? svg("path", { class: "line", d: "M1 6h44" }) : null,
     mark === undefined ? null : svg("g", { class: "dots" }, shape(mark, 23, 6))));
@@ -70,8 +71,8 @@ export function chartFigure(block) {
   const plot = element("div", { class: "plot" }), tip = element("output", { class: "tip", hidden: true }), legend = element("ul", { class: "legend" });
   const stage = element("div", { class: "stage", tabindex: 0, role: "group", "aria-label": `${block.title}: arrow keys name its points` }, plot, tip);
   const choice = element("div", { class: "boxes" }), count = element("summary", {}), boxes = new Map();
-  // A look is a colour, a dash and a mark, as numbers of koksma_plot_colours are: of what is shown, the first series of a
-  // family of patterns has the family's colour, the others the next that no series has. A series keeps its look while it is shown.
+  // A look is a number that stands for a colour, a dash and a mark, as in koksma_plot_colours. The first series of a family of
+  // patterns that is shown has the family's look, each other series the next look that is free, and keeps it while it is shown.
   const family = new Map(named.filter(s => s.style !== "hollow").map(s => [s.label, s.colour]));
   const take = label => {
     const taken = new Set(looks.values()), own = family.get(label) ?? 0;

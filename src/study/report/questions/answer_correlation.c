@@ -29,14 +29,14 @@ typedef struct listing {
     size_t most_patterns; /* largest number of patterns in a case */
 } listing;
 
-/* A correlation with the other sign, for a measure that is better when larger. */
+/* Reverses the sign of a correlation and its interval, for a measure that is better when larger. */
 static koksma__estimate turned(const koksma__estimate *of)
 {
     return (koksma__estimate){-of->value, -of->high, -of->low};
 }
 
-/* Computes Spearman's rho with its resamples, and Kendall's tau. As tau is only shown, a quarter of the resamples
-   suffices. */
+/* Computes Spearman's rho with its resamples, and Kendall's tau. For tau a quarter of the resamples suffices,
+   because its interval is only shown and enters no significance test. */
 static koksma_status correlate(const koksma__case *p, const koksma__pairs *found, double draws[KOKSMA__RHO_SAMPLES],
                                koksma__estimate *rho, koksma__estimate *tau)
 {
@@ -114,7 +114,8 @@ typedef struct plots {
     size_t left;
 } plots;
 
-/* Adds a scatter plot of a case if it is of the best measure and of the block's middle number of samples. */
+/* Adds a scatter plot of a case if its measure is the best one and its number of samples is the block's middle
+   one. */
 static koksma_status add_scatter(const koksma__cases *cases, void *context, const koksma__case *p)
 {
     plots *to = context;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Answers how options (of renders) and warps (of points) change the means: by the relative difference to the first
- * option or warp, paired by trial, because trials of equal number use the same points. A row is for one pattern and
- * one number of points or samples in a case (a scene or a measure). A sentence for each option sums up its rows by
- * the geometric mean of the ratios.
+ * option or warp, paired by trial, because trials with the same number use the same points. A row is for one pattern
+ * and one number of points or samples in a case (a scene or a measure). A sentence for each option sums up its rows
+ * by the geometric mean of the ratios.
  */
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +27,7 @@ typedef struct side {
     koksma__summary mean;
 } side;
 
-/* Collects the values of the trials that both sides have: *n values of `base`, then *n of `other`. */
+/* Collects the values of the trials that both sides have: *n values of `base`, followed by *n values of `other`. */
 static koksma_status pair(const side *base, const side *other, double **values, size_t *n)
 {
     const size_t room = base->mean.n < other->mean.n ? base->mean.n : other->mean.n;
@@ -106,7 +106,7 @@ static void say_change(koksma__document *d, const char *base, const char *other,
 /* A case whose rows (one per pattern and n) have the first option's mean and the other options' relative
    differences. */
 typedef struct option_case {
-    const char *name, *measure, *metric; /* metric: of the error of images */
+    const char *name, *measure, *metric; /* metric: metric of the image errors */
     const koksma__texts *patterns, *options;
     const koksma__wholes *n;
     const koksma__image_block *image;

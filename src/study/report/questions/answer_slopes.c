@@ -42,7 +42,7 @@ typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
     const char *measure, *warp, *scene, *variant;
-    const char *metric; /* of the error of images */
+    const char *metric; /* metric of the image errors */
 } subject;
 
 static const koksma__wholes *sizes(const subject *s)
@@ -168,7 +168,8 @@ static void add_row(koksma__document *d, const subject *s, const char *pattern, 
     }
 }
 
-/* Adds the row and the line of a bound. The line begins at a quarter of the height of the first pattern's curve. */
+/* Adds the row and the line of a bound. `scale` makes the line begin at a quarter of the first value of the first
+   pattern's curve. */
 static void add_bound(koksma__document *d, koksma__document *chart, const char *who, const curve *bound, double scale)
 {
     char text[96];

@@ -2,11 +2,11 @@
 /*
  * Tables of the means of every pattern, with their intervals: one for each measure (and warp) of a block of points,
  * and one for each scene and options of a block of images. The patterns are sorted by the last column, the best
- * first. A sentence reports whether the best pattern differs from all others in that column, which the intervals of
- * the differences decide, at 95 % for all of them together (Bonferroni). If it does not, the sentence says how many
- * trials might separate it from the next. A table of images has the numbers of samples at which a pattern's error is
- * in visible bands (coherence_rows.h), and the sentence names the best pattern without bands. Below it the same images
- * are compared by all metrics of the block, with the largest number of samples.
+ * first. A sentence reports whether the best pattern differs from all others in that column, by the intervals of the
+ * differences, which hold together at 95 % (Bonferroni). If the best pattern does not differ from some other, the
+ * sentence says how many trials might separate the two. A table of images has the numbers of samples at which a
+ * pattern's error is in visible bands (coherence_rows.h), and the sentence names the best pattern without bands.
+ * Below it a second table compares the images with the largest number of samples by all metrics of the block.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +30,7 @@ typedef struct subject {
     const koksma__texts *patterns;
     const koksma__wholes *n;
     const char *name, *last; /* heading of the table; head of its last column */
-    bool larger;             /* larger means are better */
+    bool larger;             /* whether larger means are better */
 } subject;
 
 /* The patterns by their means in the last column, the best first. */
@@ -119,8 +119,8 @@ static bool is_tied(const standing *s, size_t i)
            !(fabs(first->mean - other->mean) > half_of(first, other, s->known - 1));
 }
 
-/* Writes how many trials would separate the first pattern from pattern i of the order, the first that is tied with
-   it. */
+/* Writes how many trials would separate the best pattern from pattern i of the order, the first one that is tied
+   with it. */
 static void say_trials(koksma__document *d, const subject *c, const standing *s, size_t i)
 {
     const koksma__summary *a = &s->means[s->by[0]], *b = &s->means[s->by[i]];
@@ -236,7 +236,7 @@ static koksma_status say_bands(koksma_study *study, koksma__document *d, const s
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
-/* *gaps: whether a cell has no mean. */
+/* Adds the rows. *gaps: whether some cell has no mean. */
 static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *c, const standing *s,
                               bool *gaps)
 {

@@ -39,7 +39,7 @@ static const char *verb(size_t n)
 }
 
 /* Writes how many published means of a group of tables agree, unless the group has no means to compare. If some differ
-   for an unknown reason, their number follows in a sentence of its own, marked as an undecided answer. */
+   for an unknown reason, a second sentence gives their number and is marked as an undecided answer. */
 static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
 {
     const size_t agree = counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED],

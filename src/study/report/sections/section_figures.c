@@ -88,7 +88,7 @@ static const koksma_space *find_space(const koksma_strata *strata, const char *n
     return NULL;
 }
 
-/* Adds one picture for each space of the strata; the page shows them side by side if they fit. */
+/* Adds one picture for each sample space that has strata; the page shows the pictures side by side if they fit. */
 static koksma_status add_strata(koksma__document *d, const koksma__figure *f, koksma_strata *strata)
 {
     koksma_status status = KOKSMA_OK;
@@ -200,7 +200,8 @@ static koksma_status add_scene(const koksma_study *study, koksma__document *d, c
 
 static const double MOST_SLOPE = 3; /* largest |m| of the lines that are shown as points (m, b) */
 
-/* Finds the two points where the line a x + b y = c meets the border of the unit square; false if there are fewer. */
+/* Finds the two points where the line a x + b y = c meets the border of the unit square; returns false if there are
+   fewer. */
 static bool meet_square(double a, double b, double c, double ends[2][2])
 {
     int n = 0;

@@ -17,8 +17,8 @@
 #include "study/report/published_columns.h"
 #include "study/report/report.h"
 
-/* The next image table of the scope's plan, from table *i on; advances *i. NULL: the plan
-   has no further image table. */
+/* The next image table of the scope's plan, from table *i on; *i becomes the index after it. NULL: the plan has no
+   further image table. */
 static const koksma__table *next_table(const koksma__report_scope *scope, size_t *i)
 {
     const koksma__plan *plan = &scope->study->plan;

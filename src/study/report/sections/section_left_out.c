@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lists what has no results, or fewer trials: what blocks with `skip` left out, and the jobs that failed when they ran.
-   Each line has the pattern, the numbers of points or samples, and the reason. */
+/* Lists combinations without results or with failed trials: the sizes that blocks with `skip` leave out, and the
+   jobs that failed when they ran. Each line has the pattern, the numbers of points or samples, and the reason. */
 #include <koksma/study.h>
 
 #include "study/report/report.h"
@@ -13,7 +13,7 @@ static bool is_shown(const koksma__report_scope *scope)
 static koksma_status write(const koksma__report_scope *scope, koksma__document *d)
 {
     const char *line;
-    koksma__doc_paragraph(d, "These combinations have no results, or fewer trials where their number is given:");
+    koksma__doc_paragraph(d, "These combinations have no results; where trials are counted, only those failed:");
     koksma__doc_list_begin(d, NULL, false);
     for (size_t i = 0; (line = koksma_study_left_out_at(scope->study, i)); i++) {
         koksma__doc_item(d);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The published tables of discrepancies. A table of one number of points (Shirley 1991) has one row per pattern: the
- * published numbers, our mean, SD and largest of 100 with the verdict on the published mean, and the means of a
+ * published numbers, our mean (with the verdict on the published mean), SD and largest of 100, and the means of a
  * second measure. A table over several numbers of points (Mitchell 1992) has two or three rows per pattern: the
- * published means, our means with their verdicts, and our means of a second measure. Each of these rows ends with its
- * log-log slope, which is computed from the first and the last published mean, or from our means by least squares
- * over all columns (koksma__trend_of), and with the exponent that theory predicts. A chart of the means follows.
+ * published means, our means with their verdicts, and our means of a second measure. Each of these rows ends with
+ * its log-log slope, which is computed from the first and the last published mean, or from our means by least
+ * squares over all columns (koksma__trend_of), and with the exponent that theory predicts. A chart of the means
+ * follows.
  */
 #include <math.h>
 #include <stdio.h>
