@@ -15,8 +15,6 @@ koksma_status koksma_local_discrepancy(const koksma_points *points, const double
     KOKSMA__REQUIRE(points, x, out);
     double volume = 1;
     size_t inside = 0;
-    KOKSMA__FAIL_IF(!points || !x || !out, KOKSMA_ARGUMENT,
-                    "koksma_local_discrepancy: points, x and out must not be NULL");
     KOKSMA__TRY(koksma__points_check(points));
     for (int k = 0; k < points->dim; k++) {
         KOKSMA__FAIL_IF(!(x[k] >= 0 && x[k] <= 1), KOKSMA_ARGUMENT, "the corner has a coordinate outside [0,1]");
@@ -48,7 +46,7 @@ static size_t first_corner(double coordinate, size_t side)
 koksma_status koksma_local_discrepancy_grid(const koksma_points *points, size_t side, double *out)
 {
     KOKSMA__REQUIRE(points, out);
-    KOKSMA__FAIL_IF(!points || !out || side < 1 || side > KOKSMA_MAX_LOCAL_GRID, KOKSMA_ARGUMENT,
+    KOKSMA__FAIL_IF(side < 1 || side > KOKSMA_MAX_LOCAL_GRID, KOKSMA_ARGUMENT,
                     "a grid of local discrepancies has a side of 1 to %d", KOKSMA_MAX_LOCAL_GRID);
     KOKSMA__TRY(koksma__points_check(points));
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM,
