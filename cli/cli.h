@@ -65,7 +65,7 @@ const cli_command *cli_command_find(const char *name);
 #define CLI_RUN_OPTIONS                                                                                              \
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
         {0, "progress", "auto|always|never", "show progress (default: auto, when stderr is a terminal)"},            \
-        {0, "allow-exec", NULL, "run the programs and libraries that exec:PROGRAM and plugin:LIBRARY name"},         \
+        {0, "allow-exec", NULL, "allow the patterns exec:PROGRAM and plugin:LIBRARY to run code of others"},         \
         {0, "exec-seconds", "S", "with --allow-exec: seconds a program may take for one set (default: 60)"},         \
     {                                                                                                                \
         'q', "quiet", NULL, "print only errors to stderr"                                                            \

@@ -19,7 +19,7 @@ def paragraphs(text):
         for part in re.split(r"\n\s*\*?\s*\n", re.sub(r"^\s*\*(?=\s)", "", comment, flags=re.M)):
             # A row of a table is a name and, two blanks later, its meaning; a row begins a paragraph.
             yield from re.split(r"\n(?=\s{3,}\S+(?: \S+)?\s{2,}\S)|\n(?=\s*(?:Errors|Source|Cost|Limits|Formula):)", part)
-    bare = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+    bare = re.sub(r"/\*.*?\*/|^#include.*?$", "", text, flags=re.S | re.M)
     for strings in re.findall(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', bare):
         literal = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', strings))
         yield from re.split(r"\\n\\n", literal.replace(r"\"", '"'))

@@ -142,7 +142,8 @@ koksma_status koksma__spec_split(const char *text, char *name, const char **rest
     return KOKSMA_OK;
 }
 
-/* Writes the shortest decimal that reads back to the same double; whole numbers have no exponent. */
+/* Writes the shortest decimal that reads back to the same double; whole numbers below 1e15 have no
+   exponent. */
 static void shortest(double value, char *text, size_t size)
 {
     if (value == floor(value) && fabs(value) < 1e15) {

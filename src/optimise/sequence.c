@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Digital sequences in base 2. Points are the first 2^m of a digital sequence if and only if point 0 is the origin
- * and, for 0 < r < 2^c, the digits of point 2^c + r are the sums modulo 2 of the digits of points 2^c and r: point
- * 2^c is column c of the generator matrices (Niederreiter 1992). So searches exchange only points; the matrices can
- * be recovered from the points.
+ * Digital sequences in base 2. 2^m points are the first points of a digital sequence if and only if point 0 is the
+ * origin and, for every c < m and 0 < r < 2^c, the digits of point 2^c + r are the sums modulo 2 of the digits of
+ * points 2^c and r (Niederreiter 1992). The digits of coordinate k of point 2^c are then column c of the generator
+ * matrix of coordinate k. So searches exchange only points; the matrices can be recovered from the points.
  */
 #include "optimise/sequence.h"
 

@@ -17,9 +17,9 @@
  * about 4,000 points on, the points crowd at the ends of their strata, and the measured error of a step edge was 1.8
  * times that of pmj02. This file uses another freedom: in each of the 2^d strata of an axis a scrambling may flip the
  * bit of weight 2^-(d+1). A flip moves 2^d of 4^d points by half the spacing. The masks are chosen bit by bit, the
- * coarsest first: for d = 1 .. levels each of the 2 * 2^d strata is flipped if this lowers the energy of the first
- * 4^d points. This is repeated until nothing changes, at most SWEEPS times. Each cell of side 2^-d always contains
- * one point. Energies are sums of whole numbers and thus the same on all machines.
+ * coarsest first: for d = 1 .. levels a sweep flips each of the 2 * 2^d strata if this lowers the energy of the first
+ * 4^d points. Each d has at most SWEEPS sweeps, the last of which may flip nothing. Each cell of side 2^-d always
+ * contains one point. Energies are sums of whole numbers and thus the same on all machines.
  *
  * docs/findings/blue-noise.md lists the mean distance to the nearest point over 16 seeds, in units of the densest
  * packing's distance. For any n the time is the time of pmj02 plus a time proportional to 4^levels.

@@ -40,8 +40,9 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
 void koksma__film_fini(koksma__film *film);
 
 /* Moves the samples of a group, drawn on the unit square of each pixel, to film positions that the filter selects,
-   and sets their weights. If `all`, the group has all samples of its pixels, and the weights are those of the pixels'
-   means (film.c); otherwise the weights are those of the single draws (filters/filter_table.h). */
+   and sets their weights. Without `all`, the weight of a sample is what the filter gives for its position. With `all`,
+   the group must have all samples of its pixels, and the weights of each pixel are balanced so that a constant image
+   stays constant (film.c). */
 void koksma__film_place(const koksma__frame *frame, const koksma__group *group, bool all, koksma__values *values);
 
 /* Prepares the splats of a task. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A homogeneous medium, along one ray and at one point: transmittance, sampled distances, and the phase function as a
-   material. medium.c has the formulas. */
+/* A homogeneous medium: its transmittance along a ray, the sampling of the distance at which a ray scatters, and its
+   phase function in the form of a material. medium.c has the formulas. */
 #ifndef KOKSMA_RENDER_MEDIUM_H
 #define KOKSMA_RENDER_MEDIUM_H
 

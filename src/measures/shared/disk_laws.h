@@ -15,18 +15,18 @@ extern const char *const koksma__disk_laws[]; /* the values of the parameter `la
    1/2 for the other laws. */
 double koksma__disk_radius(koksma__disk_law law, double r);
 
-/* Returns the mean over the law of the overlap of two disks whose centres are sqrt(distance2) apart; it is 0 for
-   distances of 2r and more. */
+/* Returns the area of the overlap of two equal disks whose centres are sqrt(distance2) apart, averaged over their
+   radius, which has the given law; it is 0 for distances of 2r and more. */
 double koksma__disk_overlap(koksma__disk_law law, double r, double distance2);
 
 /* Returns the derivative of the mean overlap of two disks (dim = 2) or balls (dim = 3) by the distance of their
    centres. */
 double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double distance);
 
-/* Returns the mean over the law of the squared area of a disk. */
+/* Returns the squared area of a disk, averaged over its radius. */
 double koksma__disk_square(koksma__disk_law law, double r);
 
-/* Return the mean over the law of the overlap of two balls, and of the squared volume of a ball. */
+/* Return the volume of the overlap of two equal balls, and the squared volume of a ball, averaged over the radius. */
 double koksma__ball_overlap(koksma__disk_law law, double r, double distance2);
 double koksma__ball_square(koksma__disk_law law, double r);
 

@@ -310,7 +310,8 @@ static void correlate_lines(koksma__unit_sums *s, const block *b, double *re, do
     transform_axes(s, b, im, re);
 }
 
-/* Computes the sums of one block; returns the bound on their rounding error. */
+/* Computes the part of the sums that comes from one block (see the top): values[i] for each i of the block. Returns
+   a bound on the rounding error of these values. */
 static double find_block(koksma__unit_sums *s, const block *b, const double *product, double *values)
 {
     double weights[MATRIX];

@@ -85,7 +85,8 @@ typedef struct koksma__light_kind {
     float (*met)(const koksma__shading_light *light, uint32_t triangle, const float uv[2], float radiance[3]);
     /* NULL, or, for an environment, computes its radiance along w. */
     void (*radiance)(const koksma__shading_light *light, const float w[3], float out[3]);
-    /* NULL, or converts a light that rays do not see to the form that lambert_lanes.c reads. */
+    /* NULL, or writes a light as the rectangle that lambert_lanes.c reads. That pipeline runs only if all kinds of
+       the scene's lights have this function and rays meet none of the lights. */
     void (*lanes)(const koksma__light *from, koksma__batch_light *out);
 } koksma__light_kind;
 
@@ -101,7 +102,7 @@ typedef struct koksma__lights {
     koksma__shading_light *lights;
     float *cdf;                      /* cumulative powers, n + 1 numbers */
     koksma__batch_lights *estimates; /* data from which each light's contribution at a point is estimated */
-    koksma__batch_light *rectangles; /* for lambert_lanes.c; set only if the kinds of all lights have lanes() */
+    koksma__batch_light *rectangles; /* for lambert_lanes.c; entry i is set if the kind of light i has lanes() */
     size_t first_around;             /* index of the first environment, or n */
 } koksma__lights;
 

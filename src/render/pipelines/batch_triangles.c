@@ -4,7 +4,7 @@
  * computed from the corners, (1 - u - v) a + u b + v c, and not from the ray, so that it is as exact as the corners.
  *
  * The origin of a ray that starts on a triangle is moved along the normal, to the side to which the ray goes, by
- * 2^-20 of the largest coordinate of the triangle. That is 16 units in the last place of that coordinate, more than
+ * 2^-20 of the largest coordinate of the triangle. That is 8 to 16 units in the last place of that coordinate, more than
  * the error of a position on the triangle, so the ray hits neither its own triangle nor those that share its edges.
  * (The idea is from Waechter & Binder 2019, but not the size of the offset.)
  */

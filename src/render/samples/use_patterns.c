@@ -69,8 +69,7 @@ static koksma_status check_group(const koksma_use_group *group)
                         "use number %d in a group: the number must be 0 to %d", group->uses[i], KOKSMA_N_USES - 1);
     }
     koksma_use_group_text(group, name);
-    KOKSMA__FAIL_IF(!group->pattern.pattern, KOKSMA_ARGUMENT,
-                    "the options' pattern for '%s' is not the spec of a pattern", name);
+    KOKSMA__FAIL_IF(!group->pattern.pattern, KOKSMA_ARGUMENT, "the options name no pattern for '%s'", name);
     const int dim = dimensions(group);
     return dim < group->pattern.pattern->min_dim || dim > group->pattern.pattern->max_dim ? fail_dimensions(group)
                                                                                           : KOKSMA_OK;
@@ -110,14 +109,14 @@ static koksma_status check_native(const koksma_render_options *options)
 koksma_status koksma__check_use_patterns(const koksma_render_options *options)
 {
     koksma_status status = KOKSMA_OK;
-    KOKSMA__FAIL_IF(!options->pattern.pattern, KOKSMA_ARGUMENT, "the options' pattern is not the spec of a pattern");
+    KOKSMA__FAIL_IF(!options->pattern.pattern, KOKSMA_ARGUMENT, "the options name no pattern");
     for (int g = 0; !status && g < KOKSMA_MAX_USE_GROUPS; g++) {
         status = check_group(&options->groups[g]);
     }
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const char *name = koksma_use_at((size_t)u)->name;
         KOKSMA__FAIL_IF(!options->patterns[u].pattern && options->patterns[u].measure, KOKSMA_ARGUMENT,
-                        "the options' pattern for '%s' is the spec of a measure", name);
+                        "the options name a measure for the use '%s'; it must be a pattern", name);
         KOKSMA__FAIL_IF(patterns_of(options, u) > 1, KOKSMA_ARGUMENT,
                         "use %s has two patterns: a use takes one, alone or in one group", name);
     }

@@ -32,7 +32,8 @@ typedef struct koksma__picture {
     uint64_t seed;
 } koksma__picture;
 
-/* Sets the options of a render from the picture's pattern, variant, samples, size and seed. */
+/* Sets *variant to the options for rendering the picture: those of the scene, changed as picture->variant says, with
+   the picture's pattern, samples, size and seed. */
 koksma_status koksma__picture_set(const koksma__study_scene *scene, const koksma__picture *picture,
                                   koksma__variant *variant);
 

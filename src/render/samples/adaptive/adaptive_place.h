@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Places the samples of a pixel in strata that are split. A stratum is a cell in the unit square of every use at
- * once: the cells of the uses are paired one to one, and splitting a stratum quarters its cell in each use. A stratum
- * has one sample.
+ * Places the samples of a pixel in strata that are split. A use is what two numbers of a sample decide, such as the
+ * position in the pixel or a point on a light. A stratum is a cell in the unit square of every use at once: the cells
+ * of the uses are paired one to one, and splitting a stratum quarters its cell in each use. A stratum has one sample.
  *
  * At first there are m x m strata. Stratum i has cell i of the base use, which is the pixel or the use that causes
  * most of the variance, and one cell of every other use. Aligned pairing takes cell i in every use, so that all uses
@@ -68,7 +68,7 @@ typedef struct koksma__strata {
     atomic_size_t total; /* number of strata in all trees */
 } koksma__strata;
 
-/* The cells of the strata of a pixel in one use. */
+/* How the cells of a pixel's strata lie in the unit square of one use. */
 typedef struct koksma__use_cells {
     uint32_t use;
     uint64_t seed;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The questions of the plans, with their answers from the rows of the store. A plan without tables and questions
+ * The section of a report that answers the questions of the study's plans (files that say what a study computes and
+ * asks) from the results that the study has stored. A plan without tables and questions
  * gets every answer that its blocks can give, in the order of questions.def. An answer is first written into a
  * separate document; if that stays empty, the report says what the answer would need.
  */
