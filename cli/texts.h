@@ -5,7 +5,7 @@
 
 #include "cli.h"
 
-/* Returns command i of the table, with the placeholders in its texts replaced; texts.c lists the placeholders. Later
+/* Returns `command`, which is command i of the table, with the placeholders in its texts replaced; texts.c lists the placeholders. Later
    calls for the same i return the same pointer. */
 const cli_command *cli_expand(const cli_command *command, size_t i);
 

@@ -104,7 +104,8 @@ static int draw(cli_curves *c)
 
 const cli_curve cli_curve_points = {
     .name = "points",
-    .meaning = "the points, optionally with cells, the witness of a measure or the local discrepancy",
+    .meaning =
+        "the points; on request with cells, the region where a measure has its supremum, or the local discrepancy",
     .cite = "-",
     .plot = {.options = "columns rows grid rooks witness warp local-discrepancy", .draw = draw},
 };

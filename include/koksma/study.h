@@ -353,7 +353,7 @@ typedef struct koksma_rank_row {
     char reason[KOKSMA_RANK_REASON];        /* the reason why the pattern is not ranked; empty if it is ranked */
 } koksma_rank_row;
 
-/* The result of a check at another size. */
+/* The outcome of checking the best pattern of a ranking at another image size. */
 typedef enum koksma_rank_check_state {
     KOKSMA_RANK_UNCHECKED,  /* no check was made: it was left out, no pattern was decided to be best, or the time
                                limit ended the work */

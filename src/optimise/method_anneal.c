@@ -8,9 +8,9 @@
  * the swap is accepted if the squared discrepancy grows by less than a random threshold, whose mean falls from round
  * to round. Half of the swaps are between points that are close to each other in the order along another axis. After
  * each round a few iterations of L-BFGS fit the coordinates to the new orders. The last rounds accept only swaps that
- * reduce the value. Then the search tries single swaps with a descent after each, because a swap that raises the
- * value a little at fixed coordinates can reduce it after the descent: with 64 points this lowers l2-star from .00691
- * to .00677. Half of the searches start from random orders of the centres (i + 1/2)/n, the others from the best set
+ * reduce the value. Finally the search tries single swaps that raise the squared value by at most 2 %, runs L-BFGS
+ * after each, and keeps a swap if the value is then lower than before it. With 64 points this lowers l2-star from
+ * .00691 to .00677. Half of the searches start from random orders of the centres (i + 1/2)/n, the others from the best set
  * at a lower threshold.
  *
  * A swap of coordinate k of points p and q changes n^2 times the squared discrepancy by (Jin, Chen & Sudjianto 2005)

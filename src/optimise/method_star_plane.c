@@ -284,8 +284,8 @@ static void raise(plane *s, double *F)
     }
 }
 
-/* Moves node `to` to `value` because of node `from`. Returns false if `to` is among the causes of `from`; the cycle is
-   then in s->traced. */
+/* Sets node `to`, which is an X_i or a Y_j (see the top), to `value`, as its constraint with node `from` requires.
+   Returns false if `to` is among the causes of `from`: these constraints cannot all hold, and s->traced has them. */
 static bool set(plane *s, uint32_t from, uint32_t to, double value)
 {
     if (s->stamps[to] == s->stamp) {

@@ -15,8 +15,8 @@
  *
  * Bounds are in double precision, but batch_shapes.c computes hits in floats. Shapes are therefore enlarged by more
  * than the rounding errors of these hits: a position at distance R from the eye has an error of about 10 units in the
- * last place of R across the ray, and along a flat shape that error divided by the sine |n.e| / R. The film's
- * rectangle is enlarged by the effect of rounding d.
+ * last place of R across the ray, and along a flat shape that error divided by the sine |n.e| / R. The
+ * rectangle on the film is enlarged by as much as rounding d to floats can move a ray there.
  */
 #include "render/frustum_cull.h"
 

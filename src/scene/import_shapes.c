@@ -6,8 +6,8 @@
  * sides). A mesh is stored once and placed by a matrix as often as the scene contains it. A placement whose matrix
  * mirrors, or whose front and back sides are swapped, uses a copy of the mesh that is turned inside out, as glTF 2.0,
  * section 3.7.4, explains. A light whose surface reflects also becomes a mesh, because Koksma's own lights do not
- * reflect. A round light remains one of Koksma's own and loses its reflection, with a warning, because a mesh with
- * flat sides would emit less light than the round shape.
+ * reflect. But a sphere or disk that emits and reflects remains a light of Koksma's own, with a warning that it does not
+ * reflect, because a mesh with flat sides would emit less light than the round shape.
  */
 #include "scene/import_shapes.h"
 

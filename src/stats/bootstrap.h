@@ -35,7 +35,8 @@ typedef struct koksma__draws {
     const double *values;
 } koksma__draws;
 
-/* Computes the difference of two values, with an interval from resamples of the same pairs. Errors: MEMORY. */
+/* Computes the difference a - b and its interval. Entry s of both arrays of values must come from the same resample,
+   as koksma__bootstrap_pairs gives it for equal seeds. Errors: MEMORY. */
 koksma_status koksma__bootstrap_difference(const koksma__draws *a, const koksma__draws *b, size_t samples,
                                            koksma__estimate *out);
 

@@ -176,7 +176,7 @@ static void try_pair(pencil *p, size_t i, size_t j, double dx, double dy)
     for (int closed = 0; closed < 2; closed++) {
         p->closed = closed;
         fill(p, i, j);
-        if (closed) { /* try also the smallest closed disk, or the two largest open disks */
+        if (closed) { /* also try, if closed, the smallest disk; if open, the two largest */
             add_event(p, 0, 0);
         } else {
             add_event(p, -p->top, 0);

@@ -267,7 +267,8 @@ static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sig
     /* Rounding can lower a bound by at most this much: at most n additions compute it, and each rounds a number of at
        most 2n. */
     const double slack = 0x1p-51 * (double)n * (double)n;
-    /* If more bounds than this are tested for each point, a tournament would have been as fast. */
+    /* If on average more bounds than this are tested for each point, a kinetic tournament (see the top) is as fast, and
+       the tree becomes one. */
     const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks);
     *best = (best_box){-INFINITY, from};
     start(t, w, from, sign);

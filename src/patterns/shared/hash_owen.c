@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Hashed Owen scrambling of digital sequences (Laine & Karras 2011, Burley 2020) for blocks of points, with the
-   seeds and the order of koksma/sampler.h. The order is a nested uniform shuffle of the index by the same hash; an
-   exclusive or with a constant then makes indices below 2^16 map to indices below 2^16, so that koksma/sampler.h needs
-   only a small table. */
+   seeds and the order of koksma/sampler.h. Position i of the order has the index to which a nested uniform shuffle
+   by the same hash maps i; the upper 16 bits of this index are combined, by an exclusive or, with those of the index to
+   which 0 is mapped. So positions below 2^16 have indices below 2^16, and koksma/sampler.h computes their points from
+   four rows of its tables instead of eight. */
 #include "patterns/shared/hash_owen.h"
 
 #include <koksma/sampler.h>

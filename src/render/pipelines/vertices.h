@@ -35,7 +35,7 @@ typedef struct koksma__surfaces {
     const koksma__hits *hits;
     const koksma__shading_material *materials; /* indexed by hits->material */
     const koksma__lane_materials *table;       /* the materials as arrays of their properties */
-    unsigned traits;                           /* the bitwise "or" of the traits of all lanes */
+    unsigned traits;                           /* the bitwise "or" of the traits of all materials that were hit */
     KOKSMA__LANES(int32_t, form);
     _Alignas(64) koksma__lanes out[3];
     _Alignas(64) koksma__lanes albedo[3];

@@ -48,8 +48,8 @@ typedef struct koksma__rho_source {
     size_t n_patterns;
 } koksma__rho_source;
 
-/* Returns a correlation over n_patterns patterns as it is shown and counted: an interval from too few patterns, or of
-   width 0, is meaningless and becomes NaN. */
+/* Returns a correlation over n_patterns patterns as tables show it: its interval becomes NaN if it has no meaning,
+   because there are fewer than KOKSMA__LEAST_PAIRS patterns or its width is 0. */
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns);
 
 /* Adds a case: rho from koksma__rho_shown, and its resamples. For a measure that is better when larger, the caller
