@@ -238,7 +238,7 @@ static void errors_are_said(void **state)
             odd.scope = kind == 1 ? KOKSMA_SCOPE_IMAGE : KOKSMA_SCOPE_PIXEL;
             odd.pairing = kind == 2 ? KOKSMA_PAIRING_NATIVE : KOKSMA_PAIRING_SHUFFLED;
             assert_int_equal(koksma_render(scene, &odd, NULL, &image), KOKSMA_ARGUMENT);
-            assert_non_null(strstr(koksma_error_text(), what < 2 ? "not the spec of a pattern" : "'lens'"));
+            assert_non_null(strstr(koksma_error_text(), what < 2 ? "name no pattern" : "'lens'"));
         }
     }
     assert_ok(koksma_pattern_spec("n-rooks", &options.pattern));

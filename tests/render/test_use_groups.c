@@ -440,7 +440,7 @@ static void groups_that_cannot_be_are_refused(void **state)
     REFUSED(KOKSMA_DIM, bad.groups[0].uses[1] = 1, "4 dimensions");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[3] = bad.groups[0], "use pixel has two patterns");
     REFUSED(KOKSMA_ARGUMENT, bad.patterns[2] = bad.pattern, "use time has two patterns");
-    REFUSED(KOKSMA_ARGUMENT, memset(&bad.groups[0].pattern, 0, sizeof bad.pattern), "'pixel+time' is not the spec");
+    REFUSED(KOKSMA_ARGUMENT, memset(&bad.groups[0].pattern, 0, sizeof bad.pattern), "no pattern for 'pixel+time'");
     REFUSED(KOKSMA_N, bad.spp = 17, "scan-time");
     REFUSED(KOKSMA_DIM, (bad.pattern = bad.groups[0].pattern, memset(bad.groups, 0, sizeof bad.groups)),
             "give it to a group of uses");
