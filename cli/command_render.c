@@ -7,19 +7,11 @@
  */
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "adaptive_options.h"
 #include "cli.h"
 #include "render_options.h"
-
-static double now_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int put_row(const cli_arguments *arguments, const koksma_render_options *options, const cli_adaptive *adaptive,
                    uint64_t rays, double seconds)
@@ -158,14 +150,14 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
     if (!cli_work_begin(arguments, "rendering", &work)) {
         return CLI_USAGE;
     }
-    const double start = now_s();
+    const double start = cli_seconds();
     koksma_status status = adaptive->options.method ? koksma_render_adaptive(scene, options, &adaptive->options,
                                                                              &work.run, &layers, &adaptive->report)
                            : aovs->n                ? koksma_render_aovs(scene, options, &work.run, aovs, &layers)
                            : koksma_image_has_layers(cli_text(arguments, "output", ""))
                                ? koksma_render_layers(scene, options, &work.run, &layers)
                                : koksma_render_only(scene, options, &work.run, &layers);
-    const double seconds = now_s() - start;
+    const double seconds = cli_seconds() - start;
     cli_work_end();
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
     const koksma_status written =

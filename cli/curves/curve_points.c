@@ -63,9 +63,7 @@ static int add_points(cli_curves *c, const char *source, koksma_points *points, 
     panel->scatter.local_discrepancy = cli_flag(c->arguments, "local-discrepancy");
     if (c->witness) {
         koksma_status status = koksma_measure_spec(c->witness, &measure);
-        if (!status) {
-            status = koksma_evaluate(&measure, points, &c->work.run, value);
-        }
+        status = status ? status : koksma_evaluate(&measure, points, &c->work.run, value);
         cli_work_end();
         if (status) {
             return cli_fail(c->arguments, status);

@@ -25,16 +25,12 @@ koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *poin
     KOKSMA__REQUIRE(spec, points, out);
     KOKSMA__REQUIRE_RUN(run);
     koksma_value value = {.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
-    koksma_status status = koksma__evaluate_check("koksma_evaluate", spec, points);
+    KOKSMA__TRY(koksma__evaluate_check("koksma_evaluate", spec, points));
     const koksma_args args = koksma__spec_arguments(spec, run);
-    if (!status) {
-        status = spec->measure->eval(points, &args, &value);
+    KOKSMA__TRY(spec->measure->eval(points, &args, &value));
+    if (value.exact) {
+        value.lower = value.upper = value.value;
     }
-    if (!status) {
-        *out = value;
-    }
-    if (!status && out->exact) {
-        out->lower = out->upper = out->value;
-    }
-    return status;
+    *out = value;
+    return KOKSMA_OK;
 }

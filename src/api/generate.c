@@ -138,9 +138,7 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     KOKSMA__REQUIRE_RUN(run);
     const koksma_pattern *p = pattern_of(spec);
     *out = (koksma_points){0};
-    if (!p) {
-        return koksma__fail(KOKSMA_ARGUMENT, "koksma_generate_whole: it takes the spec of a pattern");
-    }
+    KOKSMA__FAIL_IF(!p, KOKSMA_ARGUMENT, "koksma_generate_whole: it takes the spec of a pattern");
     if (!p->whole) {
         return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
     }

@@ -19,10 +19,7 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     char name[64];
     const char *rest = "";
     *spec = (koksma_spec){0};
-    const koksma_status status = koksma__spec_split(text, name, &rest);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__spec_split(text, name, &rest));
     const koksma_pattern *pattern = koksma_pattern_find(name);
     if (!pattern) {
         char hint[sizeof name + 64] = "'koksma list patterns' names them";
@@ -38,20 +35,16 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     if (pattern->operand) {
         const char *end = koksma__modifiers_of_path(rest);
         const size_t length = (size_t)(end - rest);
-        if (length == 0 || length >= KOKSMA_MAX_SPEC - 80) {
-            return koksma__fail(KOKSMA_ARGUMENT,
-                                "%s: the text after the colon must have 1 to %d characters, as in %s:%s", name,
-                                KOKSMA_MAX_SPEC - 81, name, pattern->operand);
-        }
+        KOKSMA__FAIL_IF(length == 0 || length >= KOKSMA_MAX_SPEC - 80, KOKSMA_ARGUMENT,
+                        "%s: the text after the colon must have 1 to %d characters, as in %s:%s", name,
+                        KOKSMA_MAX_SPEC - 81, name, pattern->operand);
         memcpy(spec->path, rest, length);
         rest = end + (*end == ',');
     }
-    const koksma_status parsed = koksma__params_parse(name, all.params, rest, values);
-    if (!parsed) {
-        memcpy(spec->params, values, all.own * sizeof *values);
-        memcpy(spec->modifiers, values + all.own, sizeof spec->modifiers);
-    }
-    return parsed;
+    KOKSMA__TRY(koksma__params_parse(name, all.params, rest, values));
+    memcpy(spec->params, values, all.own * sizeof *values);
+    memcpy(spec->modifiers, values + all.own, sizeof spec->modifiers);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)
@@ -60,10 +53,7 @@ koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)
     char name[64];
     const char *rest = "";
     *spec = (koksma_spec){0};
-    const koksma_status status = koksma__spec_split(text, name, &rest);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__spec_split(text, name, &rest));
     spec->measure = koksma_measure_find(name);
     if (!spec->measure) {
         return koksma__fail_unknown("measure", name, koksma_measure_name_at, NULL,

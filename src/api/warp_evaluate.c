@@ -160,19 +160,15 @@ koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *m
     KOKSMA__REQUIRE(warp, measure, points, out);
     KOKSMA__REQUIRE_RUN(run);
     koksma_value value = {.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
-    const koksma_status checked = koksma__evaluate_check("koksma_warp_evaluate", measure, points);
-    if (checked) {
-        return checked;
-    }
+    KOKSMA__TRY(koksma__evaluate_check("koksma_warp_evaluate", measure, points));
     koksma_points mapped;
     KOKSMA__TRY(koksma_warp_points(warp, points, &mapped));
     const koksma_status status = evaluate(warp, measure, mapped.n, mapped.xs, run, &value);
-    if (!status) {
-        *out = value;
-    }
-    if (!status && out->exact) {
-        out->lower = out->upper = out->value;
-    }
     koksma_points_fini(&mapped);
-    return status;
+    KOKSMA__TRY(status);
+    if (value.exact) {
+        value.lower = value.upper = value.value;
+    }
+    *out = value;
+    return KOKSMA_OK;
 }

@@ -29,6 +29,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 
 static const char prefix[] = ".koksma-";
@@ -275,9 +276,7 @@ static void end(output *o)
     if (o->folder >= 0) {
         close(o->folder);
     }
-    free(o->name);
-    free(o->path);
-    free(o);
+    KOKSMA__FREE(o->name, o->path, o);
 }
 
 /* "%s/%s", or a copy. */
@@ -363,9 +362,7 @@ static bool sync_above(const char *path)
 
 koksma_status koksma__atomic_folder(const char *path)
 {
-    if (mkdir(path, 0777) && errno != EEXIST) {
-        return koksma__fail(KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
-    }
+    KOKSMA__FAIL_IF(mkdir(path, 0777) && errno != EEXIST, KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
     return sync_above(path) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: can't be synced: %s", path, strerror(errno));
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Arrays that grow by one item at a time, and a macro that frees several blocks of memory. */
+/* Arrays that grow, and a macro that frees several blocks of memory. */
 #ifndef KOKSMA_CORE_CAPACITY_H
 #define KOKSMA_CORE_CAPACITY_H
 
@@ -8,22 +8,20 @@
 
 #include "core/status.h"
 
-/* Returns the array `items` of n items, moved if needed, with capacity for at least one more item. The first capacity
-   is `first` items; later ones are twice the old capacity. When memory runs out it returns NULL and sets the error's
-   text; the old array stays valid. */
-static inline void *koksma__room_for_one(void *items, size_t n, size_t *capacity, size_t first, size_t item_size)
+/* Gives the array that *array points to capacity for n items: where it has less, for half as many more, so that adding
+   items one by one takes constant time each. When memory runs out the old array stays valid. Errors: MEMORY. */
+static inline koksma_status koksma__reserve(void *array, size_t *capacity, size_t n, size_t item_size)
 {
-    if (n < *capacity) {
-        return items;
+    if (n > *capacity) {
+        char *items;
+        memcpy(&items, array, sizeof items);
+        const size_t more = n + n / 2 + 16;
+        items = realloc(items, more * item_size);
+        KOKSMA__REQUIRE_MEMORY(items, more * item_size);
+        memcpy(array, &items, sizeof items);
+        *capacity = more;
     }
-    const size_t more = *capacity ? 2 * *capacity : first;
-    void *grown = realloc(items, more * item_size);
-    if (!grown) {
-        koksma__fail_memory(more * item_size);
-        return NULL;
-    }
-    *capacity = more;
-    return grown;
+    return KOKSMA_OK;
 }
 
 /* Adds an item, all zero, at the end of the array that *array points to and returns the item. The array must have

@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
@@ -211,15 +212,9 @@ static void take_output(conversation *c, const char *bytes, size_t count)
                                      c->child->name, c->child->most_output));
         return;
     }
-    if (c->size + count > c->capacity) {
-        const size_t capacity = 2 * (c->size + count);
-        char *more = realloc(c->output, capacity);
-        if (!more) {
-            stop_program(c, koksma__fail_memory(capacity));
-            return;
-        }
-        c->output = more;
-        c->capacity = capacity;
+    if (koksma__reserve(&c->output, &c->capacity, c->size + count, 1)) {
+        stop_program(c, KOKSMA_MEMORY);
+        return;
     }
     memcpy(c->output + c->size, bytes, count);
     c->size += count;

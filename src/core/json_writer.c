@@ -11,22 +11,14 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/capacity.h"
 #include "core/status.h"
 
 static void append(koksma__json_writer *w, const char *text, size_t size)
 {
+    w->status = w->status ? w->status : koksma__reserve(&w->text, &w->capacity, w->size + size + 1, 1);
     if (w->status) {
         return;
-    }
-    if (w->capacity - w->size <= size) {
-        const size_t capacity = 2 * (w->size + size + 1);
-        char *grown = realloc(w->text, capacity);
-        if (!grown) {
-            w->status = koksma__fail_memory(capacity);
-            return;
-        }
-        w->text = grown;
-        w->capacity = capacity;
     }
     memcpy(w->text + w->size, text, size);
     w->size += size;

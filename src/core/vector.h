@@ -4,10 +4,21 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 static inline double koksma__dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The product of two vectors of n numbers. */
+static inline double koksma__dot_of(size_t n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        sum += a[i] * b[i];
+    }
+    return sum;
 }
 
 static inline void koksma__cross(const double a[3], const double b[3], double out[3])

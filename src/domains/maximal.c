@@ -27,6 +27,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -84,13 +85,7 @@ static koksma_status store(maximal *m, piece p, piece **pieces, size_t *n)
     if (koksma__dart_grid_meets(&m->grid, &q)) {
         return KOKSMA_OK;
     }
-    if (*n == m->capacity) {
-        const size_t more = m->capacity + m->capacity / 2 + 1024;
-        piece *grown = realloc(*pieces, more * sizeof *grown);
-        KOKSMA__REQUIRE_MEMORY(grown, more * sizeof *grown);
-        *pieces = grown;
-        m->capacity = more;
-    }
+    KOKSMA__TRY(koksma__reserve(pieces, &m->capacity, *n + 1, sizeof **pieces));
     (*pieces)[(*n)++] = p;
     return KOKSMA_OK;
 }
@@ -278,9 +273,7 @@ static koksma_status choose(const koksma__choice *c, size_t capacity, double d, 
         memcpy(c->points, m.points, c->n * sizeof *c->points);
     }
     koksma__dart_grid_fini(&m.grid);
-    free(m.points);
-    free(m.pieces);
-    free(m.sums);
+    KOKSMA__FREE(m.points, m.pieces, m.sums);
     return status;
 }
 

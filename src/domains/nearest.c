@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/select.h"
 #include "core/status.h"
 
 enum { LEAF = 4 };
@@ -34,36 +35,6 @@ static void corners_of(const koksma__point_domain *domain, uint32_t part, double
     for (int c = 0; c < 3; c++) {
         const koksma__domain_point point = {part, {at[c][0], at[c][1]}};
         domain->place(domain->data, &point, corners[c]);
-    }
-}
-
-/* Quickselect (Hoare 1961): reorders triangles first to end - 1 so that position `middle` has the triangle that
-   sorting by the centroids' coordinate on an axis would put there, and no triangle before it has a larger
-   coordinate. */
-static void select_middle(const koksma__nearest *s, size_t first, size_t end, size_t middle, int axis)
-{
-    while (end - first > 1) {
-        const double pivot = s->centroids[3 * (size_t)s->order[first + (end - 1 - first) / 2] + (size_t)axis];
-        size_t i = first, j = end - 1;
-        for (;;) {
-            while (s->centroids[3 * (size_t)s->order[i] + (size_t)axis] < pivot) {
-                i++;
-            }
-            while (s->centroids[3 * (size_t)s->order[j] + (size_t)axis] > pivot) {
-                j--;
-            }
-            if (i >= j) {
-                break;
-            }
-            const uint32_t swapped = s->order[i];
-            s->order[i++] = s->order[j];
-            s->order[j--] = swapped;
-        }
-        if (middle <= j) {
-            end = j + 1;
-        } else {
-            first = j + 1;
-        }
     }
 }
 
@@ -96,7 +67,7 @@ static void build(const koksma__nearest *s, size_t node, size_t first, size_t en
         axis = centroids.high[k] - centroids.low[k] > centroids.high[axis] - centroids.low[axis] ? k : axis;
     }
     const size_t middle = first + (end - first) / 2;
-    select_middle(s, first, end, middle, axis);
+    koksma__select(s->order, first, end, middle, s->centroids, 3, (size_t)axis);
     build(s, 2 * node + 1, first, middle);
     build(s, 2 * node + 2, middle, end);
 }

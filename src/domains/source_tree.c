@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 
@@ -94,13 +95,7 @@ static void sort_keys(koksma__source_tree *t)
 
 static koksma_status add_boxes(koksma__source_tree *t, size_t n)
 {
-    if (t->n_boxes + n > t->capacity) {
-        const size_t more = 2 * t->capacity + 1024;
-        koksma__source_box *grown = realloc(t->boxes, more * sizeof *grown);
-        KOKSMA__REQUIRE_MEMORY(grown, more * sizeof *grown);
-        t->boxes = grown;
-        t->capacity = more;
-    }
+    KOKSMA__TRY(koksma__reserve(&t->boxes, &t->capacity, t->n_boxes + n, sizeof *t->boxes));
     t->n_boxes += n;
     return KOKSMA_OK;
 }

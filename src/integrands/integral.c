@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/lookup.h"
 #include "core/parallel.h"
 #include "core/points.h"
@@ -88,10 +89,7 @@ koksma_status koksma_integral_of_function(const koksma_function *function, int d
 void koksma_integral_close(koksma_integral *integral)
 {
     if (integral) {
-        free((char *)integral->function.name);
-        free(integral->factors);
-        free(integral->a);
-        free(integral->chosen);
+        KOKSMA__FREE((char *)integral->function.name, integral->factors, integral->a, integral->chosen);
         koksma_integral_close(integral->whole);
         free(integral);
     }

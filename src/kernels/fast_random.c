@@ -124,14 +124,20 @@ static inline lanes64_d unit(lanes64_u high, lanes64_u low)
     return h + l;
 }
 
+/* Stores the pairs x[l], y[l], in the order of the counters. */
+INLINE void store_pairs(lanes64_d x, lanes64_d y, void *out)
+{
+    lanes64_d low, high;
+    lanes64_pairs(x, y, &low, &high);
+    memcpy(out, &low, sizeof low);
+    memcpy((char *)out + sizeof low, &high, sizeof high);
+}
+
 /* Stores the pairs of doubles of a block, in the order of the counters. */
 INLINE void store_units(const block *b, int chains, double *out)
 {
     for (int c = 0; c < chains; c++, out += 2 * LANES64) {
-        lanes64_d low, high;
-        lanes64_pairs(unit(b->w[0][c], b->w[1][c]), unit(b->w[2][c], b->w[3][c]), &low, &high);
-        memcpy(out, &low, sizeof low);
-        memcpy(out + LANES64, &high, sizeof high);
+        store_pairs(unit(b->w[0][c], b->w[1][c]), unit(b->w[2][c], b->w[3][c]), out);
     }
 }
 
@@ -141,10 +147,7 @@ INLINE void store_words(const block *b, int chains, uint32_t *out)
     for (int c = 0; c < chains; c++, out += 4 * LANES64) {
         const lanes64_u x = lanes64_words(b->w[0][c], b->w[1][c]);
         const lanes64_u y = lanes64_words(b->w[2][c], b->w[3][c]);
-        lanes64_d low, high;
-        lanes64_pairs((lanes64_d)x, (lanes64_d)y, &low, &high);
-        memcpy(out, &low, sizeof low);
-        memcpy(out + 2 * LANES64, &high, sizeof high);
+        store_pairs((lanes64_d)x, (lanes64_d)y, out);
     }
 }
 
@@ -264,10 +267,7 @@ INLINE void store_below(const block *b, uint32_t first, int chains, uint32_t *ou
         }
         const lanes64_u x = lanes64_upper_words(product[0], product[1]);
         const lanes64_u y = lanes64_upper_words(product[2], product[3]);
-        lanes64_d low, high;
-        lanes64_pairs((lanes64_d)x, (lanes64_d)y, &low, &high);
-        memcpy(out, &low, sizeof low);
-        memcpy(out + 2 * LANES64, &high, sizeof high);
+        store_pairs((lanes64_d)x, (lanes64_d)y, out);
     }
 }
 

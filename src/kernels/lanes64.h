@@ -261,15 +261,6 @@ static inline void lanes64_zip(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64
 #endif
 }
 
-/* Writes x[0], y[0], x[1], y[1], ... to out, which has capacity for 2 LANES64 doubles. */
-static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
-{
-    lanes64_d low, high;
-    lanes64_zip(x, y, &low, &high);
-    memcpy(out, &low, sizeof low);
-    memcpy((char *)out + sizeof low, &high, sizeof high);
-}
-
 /* lanes64_min is x < y ? x : y in each lane, lanes64_max is x > y ? x : y. */
 static inline lanes64_d lanes64_min(lanes64_d x, lanes64_d y)
 {

@@ -141,9 +141,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     if (!status && !p.blocks) {
         status = koksma__fail_memory(n_blocks * sizeof *p.blocks);
     }
-    if (!status) {
-        status = koksma__parallel(args->run, n_blocks, block, &p);
-    }
+    status = status ? status : koksma__parallel(args->run, n_blocks, block, &p);
     if (!status) {
         const double n = (double)points->n;
         koksma__sum sum = {0}, total = {0};

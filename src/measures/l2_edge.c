@@ -30,52 +30,45 @@ enum { ROWS_PER_BLOCK = 64 };
 typedef struct job {
     koksma__line_law law;
     size_t n;
-    const double *points; /* the points; used only in 3 dimensions */
+    const double *points; /* the points in 3 dimensions; NULL in 2 */
     double *x, *y;
     koksma__sum *pairs, *potentials;
 } job;
 
-static koksma_status sum_rows_of_cube(void *context, size_t block)
+/* Adds row i of the sum over pairs in 3 dimensions, and the potential of point i. */
+static void add_row_of_cube(const job *j, size_t i, koksma__sum *pairs, koksma__sum *potentials)
 {
-    const job *j = context;
-    koksma__sum pairs = {0}, potentials = {0};
-    const size_t first = block * ROWS_PER_BLOCK;
-    const size_t end = first + ROWS_PER_BLOCK < j->n ? first + ROWS_PER_BLOCK : j->n;
-    for (size_t i = first; i < end; i++) {
-        const double *p = j->points + 3 * i;
-        koksma__sum row = {0};
-        for (size_t k = 0; k < i; k++) {
-            const double *q = j->points + 3 * k, x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-            koksma__sum_add(&row, sqrt(x * x + y * y + z * z));
-        }
-        koksma__sum_add(&pairs, koksma__sum_value(&row) / 3);
-        koksma__sum_add(&potentials, koksma__plane_potential(p));
+    const double *p = j->points + 3 * i;
+    koksma__sum row = {0};
+    for (size_t k = 0; k < i; k++) {
+        const double *q = j->points + 3 * k, x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+        koksma__sum_add(&row, sqrt(x * x + y * y + z * z));
     }
-    j->pairs[block] = pairs;
-    j->potentials[block] = potentials;
-    return KOKSMA_OK;
+    koksma__sum_add(pairs, koksma__sum_value(&row) / 3);
+    koksma__sum_add(potentials, koksma__plane_potential(p));
+}
+
+static void add_row(const job *j, size_t i, koksma__sum *pairs, koksma__sum *potentials)
+{
+    koksma__sum row = {0};
+    if (j->law == KOKSMA__LINES_ISOTROPIC) {
+        row.total = koksma__kernels()->distances(i, j->x, j->y, j->x[i], j->y[i]) / 2;
+    }
+    for (size_t k = 0; k < i && j->law == KOKSMA__LINES_MITCHELL; k++) {
+        koksma__sum_add(&row, koksma__line_separates(j->law, j->x[i] - j->x[k], j->y[i] - j->y[k]));
+    }
+    koksma__sum_add(pairs, row.total);
+    koksma__sum_add(pairs, row.lost);
+    koksma__sum_add(potentials, koksma__line_potential(j->law, (double[2]){j->x[i], j->y[i]}));
 }
 
 static koksma_status sum_rows(void *context, size_t block)
 {
     const job *j = context;
-    koksma__sum pairs = {0}, potentials = {0};
     const size_t first = block * ROWS_PER_BLOCK;
-    const size_t end = first + ROWS_PER_BLOCK < j->n ? first + ROWS_PER_BLOCK : j->n;
-    for (size_t i = first; i < end; i++) {
-        koksma__sum row = {0};
-        if (j->law == KOKSMA__LINES_ISOTROPIC) {
-            row.total = koksma__kernels()->distances(i, j->x, j->y, j->x[i], j->y[i]) / 2;
-        }
-        for (size_t k = 0; k < i && j->law == KOKSMA__LINES_MITCHELL; k++) {
-            koksma__sum_add(&row, koksma__line_separates(j->law, j->x[i] - j->x[k], j->y[i] - j->y[k]));
-        }
-        koksma__sum_add(&pairs, row.total);
-        koksma__sum_add(&pairs, row.lost);
-        koksma__sum_add(&potentials, koksma__line_potential(j->law, (double[2]){j->x[i], j->y[i]}));
+    for (size_t i = first; i < first + ROWS_PER_BLOCK && i < j->n; i++) {
+        (j->points ? add_row_of_cube : add_row)(j, i, &j->pairs[block], &j->potentials[block]);
     }
-    j->pairs[block] = pairs;
-    j->potentials[block] = potentials;
     return KOKSMA_OK;
 }
 
@@ -103,7 +96,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     if (cube && law != KOKSMA__LINES_ISOTROPIC) {
         return koksma__fail_law_of_plane("l2-edge");
     }
-    job j = {.law = law, .n = n, .points = points->xs, .pairs = malloc(bytes)};
+    job j = {.law = law, .n = n, .points = cube ? points->xs : NULL, .pairs = calloc(1, bytes)};
     KOKSMA__REQUIRE_MEMORY(j.pairs, bytes);
     j.potentials = j.pairs + n_blocks;
     j.x = (double *)(j.potentials + n_blocks);
@@ -112,7 +105,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
         j.x[i] = points->xs[2 * i];
         j.y[i] = points->xs[2 * i + 1];
     }
-    const koksma_status status = koksma__parallel(args->run, n_blocks, cube ? sum_rows_of_cube : sum_rows, &j);
+    const koksma_status status = koksma__parallel(args->run, n_blocks, sum_rows, &j);
     if (!status) {
         out->square = finish(&j, n_blocks, cube ? koksma__plane_constant() : koksma__line_constant(law));
         out->value = sqrt(out->square);

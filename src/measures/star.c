@@ -40,9 +40,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     const size_t steps = points->n / 5 < FIRST_STEPS ? points->n / 5 : FIRST_STEPS;
     koksma_status status =
         koksma__star_search(points, args->run, 1, steps, FIRST_RESTARTS, koksma__deadline_s(args->run, 0.4), out);
-    if (!status) {
-        status = koksma__star_partition(points, args->run, half_s, out, &complete);
-    }
+    status = status ? status : koksma__star_partition(points, args->run, half_s, out, &complete);
     if (!status && !complete) {
         out->exact = false;
         out->lower = out->value;

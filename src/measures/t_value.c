@@ -33,9 +33,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     for (int k = 0; k < points->dim; k++) {
         use[k] = k;
     }
-    if (!status) {
-        status = koksma__net_quality(&net, net.digits, use, points->dim, args->run, &t);
-    }
+    status = status ? status : koksma__net_quality(&net, net.digits, use, points->dim, args->run, &t);
     out->value = t;
     koksma__net_fini(&net);
     return status;

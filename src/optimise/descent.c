@@ -14,17 +14,9 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "core/vector.h"
 
 enum { HALVINGS = 20, STRETCH = 10, HOPE = 4 };
-
-static double dot(size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) {
-        sum += a[i] * b[i];
-    }
-    return sum;
-}
 
 static koksma_status value_at(koksma__descent *d, double *square)
 {
@@ -48,21 +40,21 @@ static void find_direction(koksma__descent *d)
     }
     for (size_t k = 0; k < kept; k++) {
         const size_t at = (d->kept - 1 - k) % KOKSMA__MEMORY;
-        alpha[at] = dot(n, d->steps + at * n, d->direction) / d->products[at];
+        alpha[at] = koksma__dot_of(n, d->steps + at * n, d->direction) / d->products[at];
         for (size_t c = 0; c < n; c++) {
             d->direction[c] -= alpha[at] * d->changes[at * n + c];
         }
     }
     if (kept) {
         const size_t last = (d->kept - 1) % KOKSMA__MEMORY;
-        const double scale = d->products[last] / dot(n, d->changes + last * n, d->changes + last * n);
+        const double scale = d->products[last] / koksma__dot_of(n, d->changes + last * n, d->changes + last * n);
         for (size_t c = 0; c < n; c++) {
             d->direction[c] *= scale;
         }
     }
     for (size_t k = kept; k-- > 0;) {
         const size_t at = (d->kept - 1 - k) % KOKSMA__MEMORY;
-        const double beta = dot(n, d->changes + at * n, d->direction) / d->products[at];
+        const double beta = koksma__dot_of(n, d->changes + at * n, d->direction) / d->products[at];
         for (size_t c = 0; c < n; c++) {
             d->direction[c] += (alpha[at] - beta) * d->steps[at * n + c];
         }
@@ -91,8 +83,8 @@ static void keep_step(koksma__descent *d, const double *step)
         y[c] = d->gradient[c] - d->gradient_before[c];
         s[c] = step[c];
     }
-    d->products[at] = dot(n, s, y);
-    d->kept += d->products[at] > 1e-10 * sqrt(dot(n, s, s) * dot(n, y, y));
+    d->products[at] = koksma__dot_of(n, s, y);
+    d->kept += d->products[at] > 1e-10 * sqrt(koksma__dot_of(n, s, s) * koksma__dot_of(n, y, y));
 }
 
 koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
@@ -105,12 +97,12 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
     d->kept = 0;
     for (int k = 0; k < iterations && !status && d->work < d->budget; k++) {
         find_direction(d);
-        double slope = dot(n, d->gradient, d->direction);
+        double slope = koksma__dot_of(n, d->gradient, d->direction);
         /* the direction does not descend, because the stored steps no longer describe the curvature */
         if (!(slope < 0)) {
             d->kept = 0;
             find_direction(d);
-            slope = dot(n, d->gradient, d->direction);
+            slope = koksma__dot_of(n, d->gradient, d->direction);
         }
         memcpy(d->before, d->points.xs, n * sizeof(double));
         memcpy(d->gradient_before, d->gradient, n * sizeof(double));
@@ -120,7 +112,7 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
         for (; halvings < HALVINGS && !status; halvings++, t /= 2) {
             move_by(d, t, step);
             status = value_at(d, &next);
-            if (next <= square + 1e-4 * dot(n, d->gradient_before, step)) {
+            if (next <= square + 1e-4 * koksma__dot_of(n, d->gradient_before, step)) {
                 break;
             }
         }
@@ -232,9 +224,7 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
     const size_t n = points->n * (size_t)points->dim, bytes = (7 + 2 * KOKSMA__MEMORY) * n * sizeof(double);
     *d = (koksma__descent){.bounded = bounded, .count = n, .cost = cost, .goal = INFINITY};
     d->points = (koksma_points){points->n, points->dim, malloc(bytes)};
-    if (!d->points.xs) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(d->points.xs, bytes);
     d->low = d->points.xs + n;
     d->gradient = d->low + n;
     d->direction = d->gradient + n;

@@ -77,9 +77,7 @@ static koksma_status job_init(job *j, const koksma__l2_row *row, const koksma_po
                  bytes = numbers * sizeof(double) + 2 * dim * n * sizeof(uint32_t);
     *j =
         (job){.row = row, .n = n, .dim = dim, .stride = stride, .random = {.seed = seed}, .memory = calloc(1, bytes)};
-    if (!j->memory) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(j->memory, bytes);
     j->kernels = j->memory;
     j->products = j->kernels + dim * n * stride;
     j->linear = j->products + 2 * stride;

@@ -32,14 +32,6 @@ static double moved(double x, double reach, size_t n, koksma_keep keep, koksma__
     return wrapped < 1 ? wrapped : 0;
 }
 
-static koksma_status value_of(const koksma_spec *measure, const koksma_optimise_options *o,
-                              const koksma_points *points, double *value)
-{
-    const koksma_status status = koksma__search_value(measure, o, points, value);
-    *value = measure->measure->larger_is_better ? -*value : *value;
-    return status;
-}
-
 static void move(koksma_points *points, koksma_keep keep, koksma__stream *random, double *a, double *b)
 {
     const size_t dim = (size_t)points->dim, k = koksma__next_below(random, dim);
@@ -62,15 +54,17 @@ static koksma_status search(const koksma_spec *measure, const koksma_optimise_op
     koksma__stream random = {.seed = seed};
     const size_t dim = (size_t)points->dim, bytes = dim * sizeof(double);
     const double tolerance = 0.01 * koksma__next_unit(&random) * value;
-    double current = measure->measure->larger_is_better ? -value : value, before[2 * KOKSMA_MAX_DIM];
+    const double sign = measure->measure->larger_is_better ? -1 : 1;
+    double current = sign * value, before[2 * KOKSMA_MAX_DIM];
     koksma_status status = KOKSMA_OK;
     for (int m = 0; m < MOVES && !status; m++) {
         double *a = points->xs + koksma__next_below(&random, points->n) * dim,
-               *b = points->xs + koksma__next_below(&random, points->n) * dim, after;
+               *b = points->xs + koksma__next_below(&random, points->n) * dim, after = 0;
         memcpy(before, a, bytes);
         memcpy(before + dim, b, bytes);
         move(points, o->keep, &random, a, b);
-        status = value_of(measure, o, points, &after);
+        status = koksma__search_value(measure, o, points, &after);
+        after *= sign;
         if (after <= current + tolerance * (1 - (double)(m + 1) / MOVES)) {
             current = after;
         } else {

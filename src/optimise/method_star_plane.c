@@ -114,9 +114,7 @@ static koksma_status plane_init(plane *s, size_t n, uint64_t seed)
                          (4 * nodes + 2 * (n + 1)) * sizeof(uint32_t) + 2 * nodes * sizeof(edge) +
                          2 * matrix * sizeof(int16_t) + nodes;
     s->memory = calloc(1, bytes);
-    if (!s->memory) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(s->memory, bytes);
     s->v = s->memory;
     s->saved = s->v + nodes;
     s->rounded = (float *)(s->saved + nodes);

@@ -57,9 +57,7 @@ static koksma_status job_init(job *j, size_t n)
     const size_t bytes = 3 * (2 * n + 1) * sizeof(double) + 2 * CAPACITY * sizeof(corner) + stride * sizeof(float) +
                          (6 * n + stride + 1) * sizeof(uint32_t) + 2 * matrix * sizeof(int16_t);
     *j = (job){.n = n, .stride = stride, .memory = calloc(1, bytes)};
-    if (!j->memory) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(j->memory, bytes);
     j->low = j->memory;
     j->x = j->low + 3 * n;
     j->z = (float *)(j->x + 3 * (n + 1));

@@ -145,11 +145,9 @@ static koksma_status first_set(const koksma_optimise_options *o, const koksma_ru
 
 static koksma_status check(const koksma_spec *measure, const koksma_optimise_options *o, const koksma_method **method)
 {
-    if (!measure->measure || measure->measure->answer != KOKSMA_ANSWER_EXACT) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "%s: a search needs a measure with exact values, such as star or l2-star",
-                            measure->measure ? measure->measure->name : "koksma_optimise");
-    }
+    KOKSMA__FAIL_IF(!measure->measure || measure->measure->answer != KOKSMA_ANSWER_EXACT, KOKSMA_ARGUMENT,
+                    "%s: a search needs a measure with exact values, such as star or l2-star",
+                    measure->measure ? measure->measure->name : "koksma_optimise");
     KOKSMA__FAIL_IF((unsigned)o->keep > KOKSMA_KEEP_SEQUENCE, KOKSMA_ARGUMENT,
                     "koksma_optimise: keep = %d is not a value of koksma_keep", (int)o->keep);
     KOKSMA__FAIL_IF(o->processes && (!o->processes->exchange || o->processes->rank < 0 ||
@@ -158,10 +156,9 @@ static koksma_status check(const koksma_spec *measure, const koksma_optimise_opt
                     o->processes ? o->processes->rank : 0, o->processes ? o->processes->size : 0, MOST_PROCESSES);
     KOKSMA__TRY(koksma__search_check(o));
     const koksma_status status = o->first ? koksma__points_check(o->first) : KOKSMA_OK;
-    if (!status && o->first && (o->first->n != o->n || o->first->dim != o->dim)) {
-        return koksma__fail(KOKSMA_N, "the first set has %zu points of dim = %d, not %zu of %d", o->first->n,
-                            o->first->dim, o->n, o->dim);
-    }
+    KOKSMA__FAIL_IF(!status && o->first && (o->first->n != o->n || o->first->dim != o->dim), KOKSMA_N,
+                    "the first set has %zu points of dim = %d, not %zu of %d", o->first->n, o->first->dim, o->n,
+                    o->dim);
     int best = 0;
     for (size_t i = 0; koksma_method_at(i); i++) {
         const int serves = koksma_method_at(i)->serves(measure, o);

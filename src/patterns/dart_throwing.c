@@ -58,9 +58,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         koksma__disks disks;
         const uint64_t own = restart ? koksma__random_seed(seed, restart, KOKSMA__PURPOSE_DART) : seed;
         koksma_status status = koksma__disks_init(&disks, own, d);
-        if (!status) {
-            status = koksma__disks_fill(&disks, out->n, args->run);
-        }
+        status = status ? status : koksma__disks_fill(&disks, out->n, args->run);
         const bool done = !status && disks.n == out->n;
         if (done) {
             memcpy(out->xs, disks.xs, 2 * out->n * sizeof *out->xs);

@@ -14,8 +14,7 @@
 #include "patterns/shared/digit_sequence.h"
 #include "patterns/shared/owen_sequence.h"
 #include "patterns/shared/primes.h"
-
-enum { NONE, OWEN };
+#include "patterns/shared/scramble.h"
 
 /* Points r and b^l d + r', with l = `level`, agree in the first l digits of y = P^k a if in these digits P^k (r' + d e)
    = P^k r, where e is the unit vector of digit l. Therefore r' is r plus d times the first l entries of column l of
@@ -40,23 +39,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     for (int k = 1; base < (uint32_t)out->dim; k++) {
         base = koksma__prime(k);
     }
-    if (args->params[0] == OWEN) {
+    if (args->params[0] == KOKSMA__SCRAMBLE_OWEN) {
         return koksma__owen_sequence(seed, base, relatives, &base, args->run, out);
     }
     return koksma__digit_sequence("faure", base, koksma__digits_of_double(base), koksma__pascal_matrix, args, out);
 }
 
-static bool ranges(const double *params)
-{
-    return params[0] != OWEN;
-}
-
-static const char *const scrambles[] = {"none", "owen", NULL};
-
-static const koksma_param params[] = {
-    {"scramble", "scrambling: none, or owen (exact nested scrambling in base b)", NONE, NONE, OWEN, scrambles, true},
-    {0},
-};
+static const koksma_param params[] = {KOKSMA__PARAM_SCRAMBLE(" in base b"), {0}};
 
 const koksma_pattern koksma__pattern_faure = {
     .name = "faure",
@@ -67,5 +56,5 @@ const koksma_pattern koksma__pattern_faure = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET_PREFIXES,
     .params = params,
     .generate = generate,
-    .ranges = ranges,
+    .ranges = koksma__ranges_unscrambled,
 };

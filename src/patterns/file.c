@@ -21,9 +21,8 @@ static koksma_status read_set(size_t n, uint64_t seed, const koksma_args *args, 
 {
     const int dim = out->dim;
     char path[KOKSMA_MAX_SPEC];
-    if (!n && koksma__file_has(args->path, "{n}")) {
-        return koksma__fail(KOKSMA_N, "file:%s: the number of points is missing", args->path);
-    }
+    KOKSMA__FAIL_IF(!n && koksma__file_has(args->path, "{n}"), KOKSMA_N, "file:%s: the number of points is missing",
+                    args->path);
     koksma_status status = koksma__file_name(args->path, n, seed, path);
     status = status ? status : koksma__points_read(path, KOKSMA__BY_FILE, out);
     if (status == KOKSMA_MISSING && strcmp(path, args->path) != 0) {

@@ -200,9 +200,7 @@ static koksma_status generate_in_space(uint64_t seed, const koksma_args *args, k
     KOKSMA__REQUIRE_MEMORY(d.moves, (numbers + n) * sizeof *d.moves);
     d.squares = steps ? NULL : d.moves + numbers;
     koksma_status status = koksma__space_forces_init(&d.forces, n, d.dim, d.s);
-    if (!status) {
-        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, numbers, out->xs);
-    }
+    status = status ? status : koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, numbers, out->xs);
     status = status ? status : descend(&d, steps ? steps : MOST_STEPS, args->run);
     koksma__space_forces_fini(&d.forces);
     free(d.moves);
@@ -226,9 +224,7 @@ static koksma_status generate_in_plane(uint64_t seed, const koksma_args *args, k
     d.squares = steps ? NULL : d.moves + 2 * n;
     d.places = d.tiles > 1 ? d.moves + 3 * n : d.xs;
     koksma_status status = koksma__torus_rows_init(&d.rows, d.copies);
-    if (!status) {
-        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * n, out->xs);
-    }
+    status = status ? status : koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * n, out->xs);
     status = status ? status : descend(&d, steps ? steps : MOST_STEPS, args->run);
     koksma__torus_rows_fini(&d.rows);
     free(d.moves);

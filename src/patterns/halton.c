@@ -19,17 +19,10 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
 #include "patterns/shared/owen_digits.h"
 #include "patterns/shared/radical.h"
 
 enum { NONE, AFFINE, OWEN };
-
-static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
-{
-    const koksma__radicals *r = context;
-    koksma__radical_column(&r->columns[k], first, count, xs);
-}
 
 /* Maps the digit a at position j to u a + v modulo the base, with 1 <= u < base and 0 <= v < base drawn once for each
    position. */
@@ -46,13 +39,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (scramble == OWEN) {
         return koksma__owen_digits(seed, args->run, out);
     }
-    koksma__radicals r;
-    koksma_status status =
-        koksma__radicals_init(&r, out->dim, args->first + out->n, scramble == AFFINE ? affine : NULL, &seed);
-    if (!status) {
-        status = koksma__range_columns(args, out, column, &r);
-        koksma__radicals_fini(&r);
-    }
+    const koksma_status status =
+        koksma__range_radicals(args, args->first + out->n, NULL, scramble == AFFINE ? affine : NULL, &seed, out);
     return status ? koksma__fail_in(status, "halton") : KOKSMA_OK;
 }
 

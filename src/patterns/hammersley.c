@@ -15,28 +15,12 @@
 #include <math.h>
 
 #include "core/status.h"
-#include "kernels/kernels.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
 #include "patterns/shared/owen_hammersley.h"
 #include "patterns/shared/radical.h"
 
 enum { NONE, OWEN };
-
-typedef struct job {
-    double n, offset;
-    koksma__radicals radicals;
-} job;
-
-static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
-{
-    const job *j = context;
-    if (k == 0) {
-        koksma__kernels()->steps(count, (double)first, j->offset, j->n, xs);
-    } else {
-        koksma__radical_column(&j->radicals.columns[k - 1], first, count, xs);
-    }
-}
 
 /* Computes the generator matrices of the 2D set with n = 2^m and an offset that is a multiple of 2^(m-32). The points
    are then a digital net in base 2; as 32-bit numbers its coordinates are i 2^(32-m) + start and i with its bits
@@ -65,7 +49,6 @@ static bool make_net(uint64_t n, double offset, net *s)
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    job j;
     net digital;
     KOKSMA__FAIL_IF(args->params[1] == OWEN && args->params[0] != 0, KOKSMA_ARGUMENT,
                     "hammersley: offset has no effect with scramble=owen; leave out one of the two");
@@ -77,14 +60,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
                        starts[2] = {digital.start, 0};
         return koksma__range_digital(args, directions, starts, out);
     }
-    j.n = (double)args->n;
-    j.offset = args->params[0];
-    koksma_status status = koksma__radicals_init(&j.radicals, out->dim - 1, args->n, NULL, NULL);
-    if (!status) {
-        status = koksma__range_columns(args, out, column, &j);
-        koksma__radicals_fini(&j.radicals);
-    }
-    return status;
+    return koksma__range_radicals(args, args->n, &args->params[0], NULL, NULL, out);
 }
 
 static bool ranges(const double *params)

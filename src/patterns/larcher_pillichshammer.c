@@ -20,9 +20,8 @@
 #include "patterns/shared/columns.h"
 #include "patterns/shared/grow.h"
 #include "patterns/shared/owen_hammersley.h"
+#include "patterns/shared/scramble.h"
 #include "patterns/shared/sobol_table.h"
-
-enum { NONE, OWEN };
 
 static void fill_directions(uint32_t directions[32])
 {
@@ -61,24 +60,14 @@ static koksma_status generate_owen(uint64_t seed, const koksma_run *run, koksma_
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    if (args->params[0] == OWEN) {
+    if (args->params[0] == KOKSMA__SCRAMBLE_OWEN) {
         return generate_owen(seed, args->run, out);
     }
     const double n = (double)args->n;
     return koksma__range_columns(args, out, column, &n);
 }
 
-static bool ranges(const double *params)
-{
-    return params[0] != OWEN;
-}
-
-static const char *const scrambles[] = {"none", "owen", NULL};
-
-static const koksma_param params[] = {
-    {"scramble", "scrambling: none, or owen (exact nested scrambling in base 2)", NONE, NONE, OWEN, scrambles, true},
-    {0},
-};
+static const koksma_param params[] = {KOKSMA__PARAM_SCRAMBLE(" in base 2"), {0}};
 
 const koksma_pattern koksma__pattern_larcher_pillichshammer = {
     .name = "larcher-pillichshammer",
@@ -89,5 +78,5 @@ const koksma_pattern koksma__pattern_larcher_pillichshammer = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,
     .params = params,
     .generate = generate,
-    .ranges = ranges,
+    .ranges = koksma__ranges_unscrambled,
 };

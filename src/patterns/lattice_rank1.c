@@ -43,9 +43,7 @@
  */
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "core/parallel.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/lattice.h"
@@ -75,57 +73,19 @@ static koksma_status weights_of(const koksma_args *args, int order, double facto
     return KOKSMA_OK;
 }
 
-/* Finds all components of z. `factors` and the scratch memory `sums` are those of koksma__lattice_extend_orders;
-   `sums` is NULL if all projections count. */
-static koksma_status search_all(koksma__lattice_search *search, int dim, int order, const double *factors,
-                                double *sums, uint64_t *z)
-{
-    z[0] = 1;
-    koksma_status status = dim > 1 ? koksma__lattice_second(search, &z[1]) : KOKSMA_OK;
-    koksma__lattice_start(search);
-    for (size_t i = 1; sums && i <= search->n / 2; i++) {
-        sums[i * (size_t)order] = search->product[i];
-    }
-    for (int k = 0; !status && k < dim; k++) {
-        if (!koksma__keep_going(search->run, (double)k / dim)) {
-            return koksma__fail_interrupted();
-        }
-        if (k > 1) {
-            status = koksma__lattice_best(search, &z[k]);
-        }
-        if (!status && k < dim - 1) {
-            if (sums) {
-                koksma__lattice_extend_orders(search, z[k], order, factors, sums);
-            } else {
-                koksma__lattice_extend(search, z[k]);
-            }
-        }
-    }
-    return status;
-}
-
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
     uint64_t z[MAX_DIM] = {0};
-    koksma_status status = KOKSMA_OK;
     const int order = (int)args->params[0];
-    double *sums = NULL, factors[MOST_ORDER];
+    double factors[MOST_ORDER];
     KOKSMA__FAIL_IF(order == 1, KOKSMA_ARGUMENT, "lattice-rank1: order=1 is not supported; 0, or 2 to %d, would do",
                     MOST_ORDER);
     KOKSMA__TRY(weights_of(args, order, factors));
-    if (order) {
-        sums = calloc((out->n / 2 + 1) * (size_t)order, sizeof *sums);
-        KOKSMA__REQUIRE_MEMORY(sums, (out->n / 2 + 1) * (size_t)order * sizeof *sums);
-    }
     if (out->n > 1) {
-        koksma__lattice_search search;
-        status = koksma__lattice_open(&search, out->n, args->run);
-        status = status ? status : search_all(&search, out->dim, order, factors, sums, z);
-        koksma__lattice_close(&search);
+        KOKSMA__TRY(koksma__lattice_find(args->run, out->n, out->dim, order, factors, 1, z));
     }
-    free(sums);
-    return status ? status : koksma__fill_lattice(args->run, z, out);
+    return koksma__fill_lattice(args->run, z, out);
 }
 
 static const koksma_param params[] = {

@@ -74,11 +74,7 @@ static void shuffled(const void *context, int k, int some, uint64_t first, size_
         directions_of(k + c, directions);
         koksma__mirror_directions(directions, directions);
         koksma__kernels()->digital_at(count, index, directions, v);
-        if (j->part) {
-            koksma__hash_owen_scramble_part(j->seed, k + c, j->sums[k + c], count, v, xs[c]);
-        } else {
-            koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
-        }
+        koksma__hash_owen_scramble(j->seed, k + c, j->part ? j->sums[k + c] : 0, count, v, xs[c]);
     }
 }
 

@@ -153,9 +153,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     koksma__torus_grid grid = {0};
     const bool gridded = out->dim == 2 && out->n > FEW;
     koksma_status status = gridded ? koksma__torus_grid_init(&grid, out->n, out->xs) : KOKSMA_OK;
-    if (!status) {
-        status = throw_until(seed, args, gridded ? &grid : NULL, out);
-    }
+    status = status ? status : throw_until(seed, args, gridded ? &grid : NULL, out);
     koksma__torus_grid_fini(&grid);
     return status;
 }

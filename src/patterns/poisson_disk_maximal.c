@@ -114,9 +114,7 @@ static koksma_status try_shrink(void *set, size_t kept, double d, size_t n, cons
 {
     cover *c = set;
     koksma_status status = cover_shrink(c, kept, d, run);
-    if (!status) {
-        status = cover_fill(c, n, run);
-    }
+    status = status ? status : cover_fill(c, n, run);
     *found = cover_n(c);
     return explain(status, c, (double)(n - 1));
 }
@@ -129,9 +127,7 @@ static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksm
     koksma_status status = KOKSMA_OK;
     for (uint32_t try = first; try < first + TRIES && !status; try++) {
         status = cover_init(c, koksma__random_seed(seed, try, KOKSMA__PURPOSE_DART), d);
-        if (!status) {
-            status = explain(cover_fill(c, n + 1, run), c, (double)n);
-        }
+        status = status ? status : explain(cover_fill(c, n + 1, run), c, (double)n);
         if (status || cover_n(c) <= n) {
             break;
         }

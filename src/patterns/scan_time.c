@@ -65,9 +65,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     scan s = {.out = out};
     const koksma_points plane = {out->n, 2, out->xs};
     koksma_status status = koksma__cells("scan-time", &plane, args->params[0], &s.columns, &s.rows);
-    if (!status) {
-        status = koksma__fill_jittered_time("scan-time", seed, args, out);
-    }
+    status = status ? status : koksma__fill_jittered_time("scan-time", seed, args, out);
     const size_t candidates = (size_t)args->params[1], often = 1 + 16384 / candidates;
     for (size_t i = 0; i < out->n && !status; i++) {
         double best = -1, best_t = 0;

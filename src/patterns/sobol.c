@@ -133,11 +133,7 @@ static void hash_owen(const void *context, int k, int some, uint64_t first, size
                 kernels->digital(count, directions, koksma__digital_start(directions, first), v);
             }
         }
-        if (j->sums) {
-            koksma__hash_owen_scramble_part(j->seed, k + c, j->sums[k + c], count, v, xs[c]);
-        } else {
-            koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
-        }
+        koksma__hash_owen_scramble(j->seed, k + c, j->sums ? j->sums[k + c] : 0, count, v, xs[c]);
     }
 }
 

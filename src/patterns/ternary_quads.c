@@ -36,8 +36,8 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/digit_sequence.h"
 #include "patterns/shared/owen_sequence.h"
+#include "patterns/shared/scramble.h"
 
-enum { NONE, OWEN };
 enum { BASE = 3, DIGITS = 33, EARLY = 20, QUAD = 4, MOST_DIM = 128, GROUPS = MOST_DIM / QUAD - 1 };
 
 /* Columns 1 to 19 of all groups, then columns 20 to 32, which points from 3^20 on need. */
@@ -119,23 +119,13 @@ static void relatives(const void *context, int k, int level, uint32_t *digits)
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    if (args->params[0] == OWEN) {
+    if (args->params[0] == KOKSMA__SCRAMBLE_OWEN) {
         return koksma__owen_sequence(seed, BASE, relatives, NULL, args->run, out);
     }
     return koksma__digit_sequence("ternary-quads", BASE, DIGITS, fill_matrix, args, out);
 }
 
-static bool ranges(const double *params)
-{
-    return params[0] != OWEN;
-}
-
-static const char *const scrambles[] = {"none", "owen", NULL};
-
-static const koksma_param params[] = {
-    {"scramble", "scrambling: none, or owen (exact nested scrambling in base 3)", NONE, NONE, OWEN, scrambles, true},
-    {0},
-};
+static const koksma_param params[] = {KOKSMA__PARAM_SCRAMBLE(" in base 3"), {0}};
 
 const koksma_pattern koksma__pattern_ternary_quads = {
     .name = "ternary-quads",
@@ -148,5 +138,5 @@ const koksma_pattern koksma__pattern_ternary_quads = {
               KOKSMA_CLAIM_QUADRUPLES_3,
     .params = params,
     .generate = generate,
-    .ranges = ranges,
+    .ranges = koksma__ranges_unscrambled,
 };

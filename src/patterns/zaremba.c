@@ -15,18 +15,10 @@
  *                    scramble=owen, because folding permutes the digits at each position, and a uniform scrambling
  *                    has the same distribution after any such permutation
  */
-#include "kernels/kernels.h"
 #include "patterns/patterns.h"
-#include "patterns/shared/columns.h"
 #include "patterns/shared/owen_hammersley.h"
 #include "patterns/shared/radical.h"
-
-enum { NONE, OWEN };
-
-typedef struct job {
-    double n;
-    koksma__radicals radicals;
-} job;
+#include "patterns/shared/scramble.h"
 
 static uint32_t fold(const void *context, uint32_t base, int j, uint32_t a)
 {
@@ -34,43 +26,15 @@ static uint32_t fold(const void *context, uint32_t base, int j, uint32_t a)
     return (a + (uint32_t)j) % base;
 }
 
-static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
-{
-    const job *j = context;
-    if (k == 0) {
-        koksma__kernels()->steps(count, (double)first, 0, j->n, xs);
-    } else {
-        koksma__radical_column(&j->radicals.columns[k - 1], first, count, xs);
-    }
-}
-
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    job j;
-    if (args->params[0] == OWEN) {
+    if (args->params[0] == KOKSMA__SCRAMBLE_OWEN) {
         return koksma__owen_hammersley(seed, args->run, out);
     }
-    j.n = (double)args->n;
-    koksma_status status = koksma__radicals_init(&j.radicals, out->dim - 1, args->n, fold, NULL);
-    if (!status) {
-        status = koksma__range_columns(args, out, column, &j);
-        koksma__radicals_fini(&j.radicals);
-    }
-    return status;
+    return koksma__range_radicals(args, args->n, &(double){0}, fold, NULL, out);
 }
 
-static bool ranges(const double *params)
-{
-    return params[0] != OWEN;
-}
-
-static const char *const scrambles[] = {"none", "owen", NULL};
-
-static const koksma_param params[] = {
-    {"scramble", "scrambling: none, or owen (exact nested scrambling, each coordinate in its base)", NONE, NONE, OWEN,
-     scrambles, true},
-    {0},
-};
+static const koksma_param params[] = {KOKSMA__PARAM_SCRAMBLE(", each coordinate in its base"), {0}};
 
 const koksma_pattern koksma__pattern_zaremba = {
     .name = "zaremba",
@@ -81,5 +45,5 @@ const koksma_pattern koksma__pattern_zaremba = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,
     .params = params,
     .generate = generate,
-    .ranges = ranges,
+    .ranges = koksma__ranges_unscrambled,
 };

@@ -240,3 +240,9 @@ size_t koksma__canvas_lines(koksma__canvas *canvas, double x, double y, double w
     }
     return n;
 }
+
+double koksma__lines_height(const char *text, double width, double height)
+{
+    return (double)koksma__canvas_lines(NULL, 0, 0, width, height, 0, text, (koksma__colour){0}) *
+           koksma__line_height(height);
+}

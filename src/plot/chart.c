@@ -337,19 +337,13 @@ static double legend(koksma__canvas *canvas, const koksma__theme *theme, const k
     return y - box.y;
 }
 
-static double lines_height(const char *text, double width, double height)
-{
-    return (double)koksma__canvas_lines(NULL, 0, 0, width, height, 0, text, (koksma__colour){0}) *
-           koksma__line_height(height);
-}
-
 enum { ABOVE = 8, TICKS = 20, BELOW = 6 };
 
 double koksma__chart_texts(const koksma_chart *c, double width)
 {
     const double inner = width - 2 * MARGIN;
-    return lines_height(c->title, inner, TITLE) + lines_height(c->y_label, inner, TEXT) + ABOVE + TICKS +
-           lines_height(c->x_label, inner, TEXT) +
+    return koksma__lines_height(c->title, inner, TITLE) + koksma__lines_height(c->y_label, inner, TEXT) + ABOVE +
+           TICKS + koksma__lines_height(c->x_label, inner, TEXT) +
            legend(NULL, koksma__theme_of(false), c, (koksma__box){.x = MARGIN, .width = inner}) + BELOW + MARGIN;
 }
 
@@ -360,9 +354,9 @@ koksma_status koksma__chart_draw(koksma__canvas *canvas, const koksma__theme *th
     const double height = fmax(box.height - koksma__chart_texts(c, box.width), 1);
     double y = box.y;
     koksma__canvas_lines(canvas, left, y + TITLE + 2, inner, TITLE, 0, c->title, theme->ink);
-    y += lines_height(c->title, inner, TITLE);
+    y += koksma__lines_height(c->title, inner, TITLE);
     koksma__canvas_lines(canvas, left, y + TEXT + 2, inner, TEXT, 0, c->y_label, theme->ink);
-    y += lines_height(c->y_label, inner, TEXT) + ABOVE;
+    y += koksma__lines_height(c->y_label, inner, TEXT) + ABOVE;
     axes a = {canvas,
               theme,
               {HUGE_VAL, -HUGE_VAL, c->log_x, 0, 0},
@@ -389,12 +383,10 @@ koksma_status koksma__chart_draw(koksma__canvas *canvas, const koksma__theme *th
         draw_curve(&a, &c->curves[i], xys);
     }
     free(xys);
-    if (!xys) {
-        return koksma__fail_memory(4 * longest * sizeof *xys);
-    }
+    KOKSMA__REQUIRE_MEMORY(xys, 4 * longest * sizeof *xys);
     y += height + TICKS;
     koksma__canvas_lines(canvas, left + inner / 2, y + TEXT, inner, TEXT, 0.5, c->x_label, theme->ink);
-    y += lines_height(c->x_label, inner, TEXT) + BELOW;
+    y += koksma__lines_height(c->x_label, inner, TEXT) + BELOW;
     legend(canvas, theme, c, (koksma__box){left, y, inner, 0});
     return KOKSMA_OK;
 }

@@ -90,10 +90,9 @@ static void lay_out(layout *a, const koksma_figure *f, double width)
 static koksma_status fit_height(layout *a, double asked)
 {
     const double room = asked - a->fixed, more = room - a->flexible;
-    if (asked > 0 && room < 24 * (double)a->n) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a picture %g high: at this width the height must be at least %g", asked,
-                            ceil(a->fixed + 24 * (double)a->n));
-    }
+    KOKSMA__FAIL_IF(asked > 0 && room < 24 * (double)a->n, KOKSMA_ARGUMENT,
+                    "a picture %g high: at this width the height must be at least %g", asked,
+                    ceil(a->fixed + 24 * (double)a->n));
     for (size_t i = 0; i < a->n && asked > 0; i++) {
         double *height = &a->lines[i].flexible;
         *height *= more < 0 ? room / a->flexible : a->lines[i].charts ? 1 + more / a->growing : 1;
@@ -145,9 +144,8 @@ static koksma_status draw(const layout *a, double height, koksma_plot_format for
 
 koksma_status koksma__figure_size(koksma_plot_format format, double asked, double fallback, double *size)
 {
-    if (format != KOKSMA_PLOT_SVG && format != KOKSMA_PLOT_PDF && format != KOKSMA_PLOT_PNG) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%d is not a format of plots", (int)format);
-    }
+    KOKSMA__FAIL_IF(format != KOKSMA_PLOT_SVG && format != KOKSMA_PLOT_PDF && format != KOKSMA_PLOT_PNG,
+                    KOKSMA_ARGUMENT, "%d is not a format of plots", (int)format);
     *size = asked == 0 ? fallback : asked;
     return *size >= KOKSMA_PLOT_MIN_SIZE && *size <= KOKSMA_PLOT_MAX_SIZE
                ? KOKSMA_OK

@@ -228,9 +228,7 @@ static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, doub
 {
     const int half = s->half, side = 2 * half + 1;
     unsigned char *rgb = malloc(3 * (size_t)side * (size_t)side);
-    if (!rgb) {
-        return koksma__fail_memory(3 * (size_t)side * (size_t)side);
-    }
+    KOKSMA__REQUIRE_MEMORY(rgb, 3 * (size_t)side * (size_t)side);
     for (int ky = -half; ky <= half; ky++) {
         for (int kx = -half; kx <= half; kx++) {
             /* at frequency 0 the power is n for every point set */
@@ -265,12 +263,6 @@ static void put_note(const koksma_panel *panel, double largest, char text[NOTE])
     }
 }
 
-static double lines_height(const char *text, double width, double height)
-{
-    return (double)koksma__canvas_lines(NULL, 0, 0, width, height, 0, text, (koksma__colour){0}) *
-           koksma__line_height(height);
-}
-
 double koksma__panel_side(const koksma_panel *panel)
 {
     return fmax(320, 110 * (dimensions(panel) - 1.0)); /* the panel may be invalid: it is checked later */
@@ -278,7 +270,7 @@ double koksma__panel_side(const koksma_panel *panel)
 
 double koksma__panel_title(const koksma_panel *panel, double width)
 {
-    return lines_height(panel->title, width - 2 * (MARGIN + (panel->swatch ? SWATCH : 0)), TITLE);
+    return koksma__lines_height(panel->title, width - 2 * (MARGIN + (panel->swatch ? SWATCH : 0)), TITLE);
 }
 
 double koksma__panel_texts(const koksma_panel *panel, double width)
@@ -286,7 +278,7 @@ double koksma__panel_texts(const koksma_panel *panel, double width)
     char note[NOTE];
     const double inner = width - 2 * MARGIN;
     put_note(panel, 0.5, note);
-    const double below = lines_height(panel->caption, inner, TEXT) + lines_height(note, inner, TEXT);
+    const double below = koksma__lines_height(panel->caption, inner, TEXT) + koksma__lines_height(note, inner, TEXT);
     return koksma__panel_title(panel, width) + below + (below > 0 ? 2 : 0);
 }
 
@@ -319,8 +311,8 @@ koksma_status koksma__panel_draw(koksma__canvas *canvas, const koksma__theme *th
     y = box.y + title + side + TEXT;
     koksma__canvas_lines(canvas, middle, y, inner, TEXT, 0.5, panel->caption, theme->ink);
     put_note(panel, largest, note);
-    koksma__canvas_lines(canvas, middle, y + lines_height(panel->caption, inner, TEXT), inner, TEXT, 0.5, note,
-                         theme->ink);
+    koksma__canvas_lines(canvas, middle, y + koksma__lines_height(panel->caption, inner, TEXT), inner, TEXT, 0.5,
+                         note, theme->ink);
     return status;
 }
 
@@ -331,29 +323,23 @@ koksma_status koksma__panel_check(const koksma_panel *panel)
         return panel->spectrum ? koksma__spectrum_check(panel->spectrum)
                                : koksma__fail(KOKSMA_ARGUMENT, "a panel has neither points nor a spectrum");
     }
-    if (panel->points->dim < 2) {
-        return koksma__fail(KOKSMA_DIM, "a scatter plot needs points of 2 or more dimensions");
-    }
+    KOKSMA__FAIL_IF(panel->points->dim < 2, KOKSMA_DIM, "a scatter plot needs points of 2 or more dimensions");
     if (o->columns > KOKSMA_PLOT_MAX_CELLS || o->rows > KOKSMA_PLOT_MAX_CELLS) {
         return koksma__fail(KOKSMA_ARGUMENT, "a grid of %zu columns and %zu rows: each is up to %d", o->columns,
                             o->rows, KOKSMA_PLOT_MAX_CELLS);
     }
-    if (o->local_discrepancy && (o->warp || panel->points->dim != 2)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the local discrepancy can be drawn only for points of 2 dimensions");
-    }
+    KOKSMA__FAIL_IF(o->local_discrepancy && (o->warp || panel->points->dim != 2), KOKSMA_ARGUMENT,
+                    "the local discrepancy can be drawn only for points of 2 dimensions");
     if (o->warp && panel->points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "a map needs points of 2 dimensions, not %d", panel->points->dim);
     }
-    if (o->warp && o->witness) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a witness can be drawn only without a map");
-    }
+    KOKSMA__FAIL_IF(o->warp && o->witness, KOKSMA_ARGUMENT, "a witness can be drawn only without a map");
     if (o->witness && (unsigned)o->witness->kind > KOKSMA_WITNESS_DISK) {
         return koksma__fail(KOKSMA_ARGUMENT, "%d is not a kind of witness", (int)o->witness->kind);
     }
     for (int k = 0; o->witness && k < 2; k++) {
-        if (!(fabs(o->witness->lo[k]) <= FAR && fabs(o->witness->hi[k]) <= FAR)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "the bounds of a witness must lie within %d of 0", FAR);
-        }
+        KOKSMA__FAIL_IF(!(fabs(o->witness->lo[k]) <= FAR && fabs(o->witness->hi[k]) <= FAR), KOKSMA_ARGUMENT,
+                        "the bounds of a witness must lie within %d of 0", FAR);
     }
     return koksma__points_check(panel->points);
 }

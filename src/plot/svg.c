@@ -14,6 +14,7 @@
 #include <koksma/image.h>
 
 #include "core/c_locale.h"
+#include "core/capacity.h"
 #include "core/status.h"
 
 enum { STYLE = 160 };
@@ -29,15 +30,9 @@ typedef struct svg {
 /* Appends bytes. */
 static void put_bytes(svg *s, const char *bytes, size_t size)
 {
-    if (s->size + size > s->capacity) {
-        const size_t capacity = 2 * (s->size + size);
-        char *text = s->failed ? NULL : realloc(s->text, capacity);
-        if (!text) {
-            s->failed = true;
-            return;
-        }
-        s->text = text;
-        s->capacity = capacity;
+    s->failed = s->failed || koksma__reserve(&s->text, &s->capacity, s->size + size, 1);
+    if (s->failed) {
+        return;
     }
     memcpy(s->text + s->size, bytes, size);
     s->size += size;
@@ -112,9 +107,7 @@ static koksma_status open_svg(koksma_plot_format format, double width, double he
 {
     (void)format;
     svg *s = calloc(1, sizeof *s);
-    if (!s) {
-        return koksma__fail_memory(sizeof *s);
-    }
+    KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
     put(s, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"");
     put_number(s, " width=\"", width, "\"");
     put_number(s, " height=\"", height, "\"");

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "render/accel/accel_meshes.h"
 #include "render/accel/accel_shapes.h"
@@ -78,9 +79,7 @@ static koksma_status make_materials(koksma__frame *f)
     const size_t n = f->scene->n_materials + f->scene->medium.is_there;
     f->materials = calloc(n + 1, sizeof *f->materials);
     f->shading_materials = calloc(n + 1, sizeof *f->shading_materials);
-    if (!f->shading_materials || !f->materials) {
-        return koksma__fail_memory((n + 1) * sizeof *f->shading_materials);
-    }
+    KOKSMA__REQUIRE_MEMORY(f->shading_materials && f->materials, (n + 1) * sizeof *f->shading_materials);
     for (size_t i = 0; i < n; i++) {
         const koksma__material *from = i < f->scene->n_materials ? &f->scene->materials[i] : &f->scene->medium.phase;
         f->materials[i] = make_material(from);
@@ -103,9 +102,7 @@ static koksma_status make_lane_materials(koksma__frame *f)
     float *room = calloc(n * n_columns, sizeof *room);
     t->form = calloc(2 * n, sizeof *t->form);
     t->albedo[0][0] = room;
-    if (!room || !t->form) {
-        return koksma__fail_memory(n * n_columns * sizeof *room);
-    }
+    KOKSMA__REQUIRE_MEMORY(room && t->form, n * n_columns * sizeof *room);
     t->traits = t->form + n;
     t->form[0] = KOKSMA__UNLIT;
     for (size_t k = 0; k < n_columns; k++) {
@@ -252,10 +249,7 @@ void koksma__frame_close(koksma__frame *f)
     koksma__frustum_cull_close(f->frustum_cull);
     koksma__filter_close(f->filter);
     koksma__lights_fini(&f->lights);
-    free(f->materials);
-    free(f->shading_materials);
-    free(f->lane_materials.form);
-    free(f->lane_materials.albedo[0][0]);
+    KOKSMA__FREE(f->materials, f->shading_materials, f->lane_materials.form, f->lane_materials.albedo[0][0]);
     if (f->replaced) {
         f->flags->release_scene(f->replaced);
     }

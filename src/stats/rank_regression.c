@@ -17,6 +17,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "core/vector.h"
 #include "stats/correlation.h"
 
 enum { PENALTIES = 9 };
@@ -55,15 +56,6 @@ static koksma_status sums_init(size_t k, size_t n_scenes, sums *s)
     return KOKSMA_OK;
 }
 
-static double dot(const double *a, const double *b, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) {
-        sum += a[i] * b[i];
-    }
-    return sum;
-}
-
 static void add_cases(sums *s, const koksma__rank_case *cases, size_t n_cases)
 {
     const size_t k = s->k;
@@ -72,9 +64,9 @@ static void add_cases(sums *s, const koksma__rank_case *cases, size_t n_cases)
         double *g = s->of + at->scene * s->size, *c = g + k * k;
         for (size_t a = 0; a < k; a++) {
             for (size_t b = 0; b < k; b++) {
-                g[a * k + b] += dot(at->ranks + a * at->n, at->ranks + b * at->n, at->n);
+                g[a * k + b] += koksma__dot_of(at->n, at->ranks + a * at->n, at->ranks + b * at->n);
             }
-            c[a] += dot(at->ranks + a * at->n, at->ranks + k * at->n, at->n);
+            c[a] += koksma__dot_of(at->n, at->ranks + a * at->n, at->ranks + k * at->n);
         }
         s->cases[at->scene]++;
     }
@@ -102,11 +94,11 @@ static void fit_ridge(sums *s, double penalty, size_t count)
     double *l = s->factor, *b = s->weights;
     for (size_t i = 0; i < k; i++) {
         for (size_t j = 0; j <= i; j++) {
-            const double rest =
-                s->train[i * k + j] + (i == j ? penalty * (double)count : 0) - dot(l + i * k, l + j * k, j);
+            const double rest = s->train[i * k + j] + (i == j ? penalty * (double)count : 0) -
+                                koksma__dot_of(j, l + i * k, l + j * k);
             l[i * k + j] = i == j ? sqrt(rest) : rest / l[j * k + j];
         }
-        b[i] = (s->train[k * k + i] - dot(l + i * k, b, i)) / l[i * k + i];
+        b[i] = (s->train[k * k + i] - koksma__dot_of(i, l + i * k, b)) / l[i * k + i];
     }
     for (size_t i = k; i-- > 0;) {
         for (size_t j = i + 1; j < k; j++) {
@@ -121,9 +113,9 @@ static double error_in(const sums *s, size_t scene)
 {
     const size_t k = s->k;
     const double *g = s->of + scene * s->size;
-    double error = -2 * dot(s->weights, g + k * k, k);
+    double error = -2 * koksma__dot_of(k, s->weights, g + k * k);
     for (size_t i = 0; i < k; i++) {
-        error += s->weights[i] * dot(g + i * k, s->weights, k);
+        error += s->weights[i] * koksma__dot_of(k, g + i * k, s->weights);
     }
     return error;
 }

@@ -5,8 +5,10 @@
  */
 #include "verify/verify.h"
 
+#include <stdarg.h>
 #include <stdlib.h>
 
+#include "core/c_locale.h"
 #include "core/capacity.h"
 #include "core/lookup.h"
 #include "core/points.h"
@@ -28,14 +30,29 @@ const koksma_property *koksma_property_at(size_t i)
 koksma_finding *koksma__finding(koksma__verification *v)
 {
     koksma_findings *all = v->findings;
-    koksma_finding *items = koksma__room_for_one(all->items, all->count, &all->capacity, 64, sizeof *items);
-    if (!items) {
+    if (koksma__reserve(&all->items, &all->capacity, all->count + 1, sizeof *all->items)) {
         return NULL;
     }
-    all->items = items;
     koksma_finding *f = &all->items[all->count++];
     *f = (koksma_finding){.property = v->property->public.name, .subject = "-", .detail = "-"};
     return f;
+}
+
+koksma_status koksma__add_finding(koksma__verification *v, const char *subject, double value, bool holds,
+                                  const char *detail, ...)
+{
+    koksma_finding *f = koksma__finding(v);
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    snprintf(f->subject, sizeof f->subject, "%s", subject);
+    f->value = value;
+    f->holds = holds;
+    va_list arguments;
+    va_start(arguments, detail);
+    koksma__vsnprintf(f->detail, sizeof f->detail, detail, arguments);
+    va_end(arguments);
+    return KOKSMA_OK;
 }
 
 void koksma_findings_fini(koksma_findings *findings)

@@ -32,4 +32,8 @@ typedef struct koksma__property {
 /* Adds a finding of v->property, with subject and detail "-", and returns it; returns NULL when memory runs out. */
 koksma_finding *koksma__finding(koksma__verification *v);
 
+/* Adds a finding with this subject, value, result and detail. Errors: MEMORY. */
+koksma_status koksma__add_finding(koksma__verification *v, const char *subject, double value, bool holds,
+                                  const char *detail, ...) KOKSMA_PRINTF(5, 6);
+
 #endif

@@ -17,18 +17,12 @@ static koksma_status look(koksma__verification *v)
             first = i / (size_t)points->dim;
         }
     }
-    koksma_finding *f = koksma__finding(v);
-    if (!f) {
-        return KOKSMA_MEMORY;
-    }
-    f->value = (double)count;
-    f->holds = count == 0;
-    const size_t all = points->n * (size_t)points->dim;
-    int used = snprintf(f->detail, sizeof f->detail, "%zu of %zu coordinates become 1", count, all);
+    char where[48] = "";
     if (count) {
-        snprintf(f->detail + used, sizeof f->detail - (size_t)used, ", first of point %zu", first);
+        snprintf(where, sizeof where, ", first of point %zu", first);
     }
-    return KOKSMA_OK;
+    return koksma__add_finding(v, "-", (double)count, count == 0, "%zu of %zu coordinates become 1%s", count,
+                               points->n * (size_t)points->dim, where);
 }
 
 const koksma__property koksma__property_below_one_as_float = {

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/c_locale.h"
 #include "core/closest_pair.h"
 #include "core/parallel.h"
 #include "core/points.h"
@@ -121,13 +120,8 @@ static koksma_status look_distance(koksma__verification *v)
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma_smallest_distance(points, torus, v->run, &distance));
-    koksma_finding *f = koksma__finding(v);
-    KOKSMA__TRY(f ? KOKSMA_OK : KOKSMA_MEMORY);
-    f->value = distance;
-    f->holds = distance > 0;
-    koksma__snprintf(f->detail, sizeof f->detail, "%.4f of the densest packing's",
-                     distance / koksma__packing_distance(points->n, points->dim, torus));
-    return KOKSMA_OK;
+    return koksma__add_finding(v, "-", distance, distance > 0, "%.4f of the densest packing's",
+                               distance / koksma__packing_distance(points->n, points->dim, torus));
 }
 
 static koksma_status look_distinct(koksma__verification *v)
@@ -140,12 +134,8 @@ static koksma_status look_distinct(koksma__verification *v)
         repeated += compare_positions(&sorted[i], &sorted[i - 1]) == 0;
     }
     free(sorted);
-    koksma_finding *f = koksma__finding(v);
-    KOKSMA__TRY(f ? KOKSMA_OK : KOKSMA_MEMORY);
-    f->value = (double)repeated;
-    f->holds = repeated == 0;
-    snprintf(f->detail, sizeof f->detail, "%zu of %zu points repeat another", repeated, n);
-    return KOKSMA_OK;
+    return koksma__add_finding(v, "-", (double)repeated, repeated == 0, "%zu of %zu points repeat another", repeated,
+                               n);
 }
 
 const koksma__property koksma__property_distinct = {

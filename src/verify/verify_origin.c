@@ -54,30 +54,18 @@ static bool is_sequence_from_one(const koksma_points *points, uint32_t *seen)
 static koksma_status look_unique(koksma__verification *v)
 {
     const size_t count = at_origin(v->points);
-    koksma_finding *f = koksma__finding(v);
-    if (!f) {
-        return KOKSMA_MEMORY;
-    }
-    f->value = (double)count;
-    f->holds = count <= 1;
-    snprintf(f->detail, sizeof f->detail, "%zu at the origin", count);
-    return KOKSMA_OK;
+    return koksma__add_finding(v, "-", (double)count, count <= 1, "%zu at the origin", count);
 }
 
 static koksma_status look_present(koksma__verification *v)
 {
     const size_t count = at_origin(v->points);
-    koksma_finding *f = koksma__finding(v);
-    if (!f) {
-        return KOKSMA_MEMORY;
-    }
-    f->value = (double)count;
-    f->holds = count > 0 || !is_sequence_from_one(v->points, v->counts);
-    snprintf(f->detail, sizeof f->detail, "%zu at the origin%s", count,
-             count > 0  ? ""
-             : f->holds ? "; only unscrambled sequences need a point there"
-                        : ": different multiples of 2^-m in each coordinate, as a sequence without its first point");
-    return KOKSMA_OK;
+    const bool holds = count > 0 || !is_sequence_from_one(v->points, v->counts);
+    return koksma__add_finding(
+        v, "-", (double)count, holds, "%zu at the origin%s", count,
+        count > 0 ? ""
+        : holds   ? "; only unscrambled sequences need a point there"
+                  : ": different multiples of 2^-m in each coordinate, as a sequence without its first point");
 }
 
 const koksma__property koksma__property_origin_unique = {

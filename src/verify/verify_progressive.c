@@ -45,14 +45,8 @@ static koksma_status look(koksma__verification *v)
     if (status || worst == 0) {
         return status;
     }
-    koksma_finding *f = koksma__finding(v);
-    if (!f) {
-        return KOKSMA_MEMORY;
-    }
-    f->value = value;
-    f->holds = value <= 2;
-    snprintf(f->detail, sizeof f->detail, "the worst of the prefixes up to %zu points has %zu", last, worst);
-    return KOKSMA_OK;
+    return koksma__add_finding(v, "-", value, value <= 2, "the worst of the prefixes up to %zu points has %zu", last,
+                               worst);
 }
 
 const koksma__property koksma__property_progressive = {

@@ -30,20 +30,13 @@ static koksma_status add_strata(koksma__verification *v, const int *use, const s
                                 const char *subject)
 {
     const koksma_points *points = v->points;
-    koksma_finding *f = koksma__finding(v);
-    if (!f) {
-        return KOKSMA_MEMORY;
-    }
     count_cells(points, use, m, dim, v->counts);
     size_t empty = 0;
     for (size_t c = 0; c < points->n; c++) {
         empty += v->counts[c] == 0;
     }
-    snprintf(f->subject, sizeof f->subject, "%s", subject);
-    snprintf(f->detail, sizeof f->detail, "%zu of %zu strata are empty", empty, points->n);
-    f->value = (double)empty;
-    f->holds = empty == 0;
-    return KOKSMA_OK;
+    return koksma__add_finding(v, subject, (double)empty, empty == 0, "%zu of %zu strata are empty", empty,
+                               points->n);
 }
 
 static koksma_status look_latin(koksma__verification *v)

@@ -171,9 +171,7 @@ koksma_status koksma__power_fast(const koksma_points *points, int half, const ko
         spread(&j, points->xs + i * (size_t)points->dim);
     }
     koksma_status status = koksma__parallel(run, j.m / (2 * LANES), transform_columns, &j);
-    if (!status) {
-        status = koksma__parallel(run, (rows + LANES - 1) / LANES, transform_rows, &j);
-    }
+    status = status ? status : koksma__parallel(run, (rows + LANES - 1) / LANES, transform_rows, &j);
     free(j.grid);
     return status;
 }

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "core/parallel.h"
+#include "core/select.h"
 #include "core/status.h"
 #include "core/torus.h"
 
@@ -46,35 +47,6 @@ static double coordinate(const search *s, size_t i, size_t k)
     return s->xs[s->order[i] * s->dim + k];
 }
 
-/* Hoare's selection: puts the points with the smallest coordinates k before `middle`. The pivot is not the last
-   point, so that neither side is empty. */
-static void halve(search *s, size_t first, size_t end, size_t middle, size_t k)
-{
-    while (end - first > 1) {
-        const double pivot = coordinate(s, first + (end - 1 - first) / 2, k);
-        size_t i = first, j = end - 1;
-        for (;; i++, j--) {
-            while (coordinate(s, i, k) < pivot) {
-                i++;
-            }
-            while (coordinate(s, j, k) > pivot) {
-                j--;
-            }
-            if (i >= j) {
-                break;
-            }
-            const uint32_t kept = s->order[i];
-            s->order[i] = s->order[j];
-            s->order[j] = kept;
-        }
-        if (middle <= j) {
-            end = j + 1;
-        } else {
-            first = j + 1;
-        }
-    }
-}
-
 static void build(search *s, size_t at, size_t first, size_t end)
 {
     node *a = &s->nodes[at];
@@ -91,7 +63,7 @@ static void build(search *s, size_t at, size_t first, size_t end)
     }
     if (!is_leaf(a)) {
         const size_t middle = first + (end - first) / 2;
-        halve(s, first, end, middle, longest);
+        koksma__select(s->order, first, end, middle, s->xs, s->dim, longest);
         build(s, 2 * at + 1, first, middle);
         build(s, 2 * at + 2, middle, end);
     }

@@ -199,12 +199,10 @@ koksma_status koksma__disk_pair(const koksma__disk_set *set, size_t i, size_t j,
                                 koksma__disk_best *best)
 {
     pencil p;
-    const koksma_status status = open_pencil(&p, set, best);
-    if (!status) {
-        try_pair(&p, i, j, dx, dy);
-        free(p.events);
-    }
-    return status;
+    KOKSMA__TRY(open_pencil(&p, set, best));
+    try_pair(&p, i, j, dx, dy);
+    free(p.events);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma__disk_best *best)

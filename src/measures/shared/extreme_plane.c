@@ -472,9 +472,7 @@ static koksma_status prepare(plane *p, const koksma_points *points, const koksma
         levels[count++] = 1;
     }
     p->n_levels = count;
-    if (!status) {
-        status = koksma__order(run, p->n, points->xs + 1, 2, order);
-    }
+    status = status ? status : koksma__order(run, p->n, points->xs + 1, 2, order);
     for (size_t i = 0; i < p->n && !status; i++) {
         p->x[i] = points->xs[2 * (size_t)order[i]];
         p->y[i] = points->xs[2 * (size_t)order[i] + 1];

@@ -255,19 +255,25 @@ static void within(worker *w, item *items, item *spare, size_t n)
 
 /* Allocates the lists for n items: one list, and space for merging, for each coordinate but the first and the
    last. */
-static bool open_worker(const divider *d, size_t n, worker *w)
+static koksma_status open_worker(const divider *d, size_t n, worker *w)
 {
     const size_t lists = (size_t)d->dim - 2, bytes = 2 * lists * n * sizeof(item);
     *w = (worker){.d = d};
     w->lists[1] = malloc(bytes);
-    if (!w->lists[1]) {
-        koksma__fail_memory(bytes);
-        return false;
-    }
+    KOKSMA__REQUIRE_MEMORY(w->lists[1], bytes);
     for (size_t k = 2; k <= lists; k++) {
         w->lists[k] = w->lists[k - 1] + 2 * n;
     }
-    return true;
+    return KOKSMA_OK;
+}
+
+/* Adds the worker's sum to that of its block. */
+static koksma_status close_worker(worker *w, size_t block)
+{
+    koksma__sum_add(&w->d->sums[block], w->sum.total);
+    koksma__sum_add(&w->d->sums[block], w->sum.lost);
+    free(w->lists[1]);
+    return KOKSMA_OK;
 }
 
 static koksma_status piece(void *context, size_t block)
@@ -275,14 +281,9 @@ static koksma_status piece(void *context, size_t block)
     const divider *d = context;
     const size_t first = block * PIECE, count = d->n - first < PIECE ? d->n - first : PIECE;
     worker w;
-    if (!open_worker(d, count, &w)) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(open_worker(d, count, &w));
     within(&w, d->items + first, d->spare + first, count);
-    koksma__sum_add(&d->sums[block], w.sum.total);
-    koksma__sum_add(&d->sums[block], w.sum.lost);
-    free(w.lists[1]);
-    return KOKSMA_OK;
+    return close_worker(&w, block);
 }
 
 static koksma_status two_pieces(void *context, size_t block)
@@ -291,14 +292,9 @@ static koksma_status two_pieces(void *context, size_t block)
     const size_t first = 2 * block * d->width, rest = d->n - first;
     const size_t half = rest < d->width ? rest : d->width, count = rest < 2 * d->width ? rest : 2 * d->width;
     worker w;
-    if (!open_worker(d, count, &w)) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(open_worker(d, count, &w));
     across(&w, d->items + first, half, count, d->spare + first);
-    koksma__sum_add(&d->sums[block], w.sum.total);
-    koksma__sum_add(&d->sums[block], w.sum.lost);
-    free(w.lists[1]);
-    return KOKSMA_OK;
+    return close_worker(&w, block);
 }
 
 static koksma_status divide(divider *d, const koksma_run *run)

@@ -194,9 +194,7 @@ koksma_status koksma__order(const koksma_run *run, size_t n, const double *xs, s
     for (s.shift = 0; s.shift < 32 && !status; s.shift += bits) {
         status = pass(&s, run);
     }
-    if (!status) {
-        status = koksma__parallel(run, s.n_blocks, store, &s);
-    }
+    status = status ? status : koksma__parallel(run, s.n_blocks, store, &s);
     free(memory);
     return status;
 }

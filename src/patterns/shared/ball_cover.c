@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -92,10 +93,7 @@ koksma_status koksma__balls_init(koksma__balls *s, uint64_t seed, int dim, doubl
 
 void koksma__balls_fini(koksma__balls *s)
 {
-    free(s->xs);
-    free(s->next);
-    free(s->head);
-    free(s->cubes);
+    KOKSMA__FREE(s->xs, s->next, s->head, s->cubes);
     *s = (koksma__balls){0};
 }
 

@@ -26,18 +26,29 @@ static size_t power(size_t m, int dim)
     return product;
 }
 
+koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows)
+{
+    size_t c = (size_t)wanted;
+    if (c == 0) {
+        c = (size_t)sqrt((double)n);
+        while (n % c) {
+            c--;
+        }
+    }
+    KOKSMA__FAIL_IF(n % c, KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c, n,
+                    n / c ? n / c * c : c, (n / c + 1) * c);
+    *columns = c;
+    *rows = n / c;
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
                             size_t *along_rest)
 {
     const size_t n = out->n;
     if (columns > 0) {
-        const size_t c = (size_t)columns;
         KOKSMA__FAIL_IF(out->dim != 2, KOKSMA_ARGUMENT, "%s: columns can be used only in dim = 2", name);
-        KOKSMA__FAIL_IF(n % c, KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c,
-                        n, n / c ? n / c * c : c, (n / c + 1) * c);
-        *along_x = c;
-        *along_rest = n / c;
-        return KOKSMA_OK;
+        return koksma__divisors(name, n, columns, along_x, along_rest);
     }
     size_t m = (size_t)(out->dim == 2 ? sqrt((double)n) : pow((double)n, 1.0 / out->dim));
     while (power(m + 1, out->dim) <= n) {
@@ -57,22 +68,6 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
     }
     return koksma__fail(KOKSMA_N, "%s: n = %zu is not m^%d; n = %zu%s would do%s", name, n, out->dim,
                         power(m, out->dim), more, out->dim == 2 ? ", or columns=C with C a divisor of n" : "");
-}
-
-koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows)
-{
-    size_t c = (size_t)wanted;
-    if (c == 0) {
-        c = (size_t)sqrt((double)n);
-        while (n % c) {
-            c--;
-        }
-    }
-    KOKSMA__FAIL_IF(n % c, KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c, n,
-                    n / c ? n / c * c : c, (n / c + 1) * c);
-    *columns = c;
-    *rows = n / c;
-    return KOKSMA_OK;
 }
 
 koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
@@ -194,13 +195,7 @@ static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, cons
 
 static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
 {
-    if (s->n_waiting == s->waiting_room) {
-        const size_t room = 2 * s->waiting_room + 256;
-        koksma__dart *waiting = realloc(s->waiting, room * sizeof *waiting);
-        KOKSMA__REQUIRE_MEMORY(waiting, room * sizeof *waiting);
-        s->waiting = waiting;
-        s->waiting_room = room;
-    }
+    KOKSMA__TRY(koksma__reserve(&s->waiting, &s->waiting_room, s->n_waiting + 1, sizeof *s->waiting));
     const uint32_t x = d->cell_x, y = d->cell_y;
     uint32_t *last = &q->last[y * MOST_CELLS + x];
     s->waiting[s->n_waiting] = *d;

@@ -42,10 +42,8 @@ koksma_status koksma__file_name(const char *path, size_t n, uint64_t seed, char 
         }
         path += length ? length : 1;
     }
-    if (used >= KOKSMA_MAX_SPEC) {
-        return koksma__fail(KOKSMA_ARGUMENT, "file: a path with its numbers is longer than %d characters",
-                            KOKSMA_MAX_SPEC - 1);
-    }
+    KOKSMA__FAIL_IF(used >= KOKSMA_MAX_SPEC, KOKSMA_ARGUMENT,
+                    "file: a path with its numbers is longer than %d characters", KOKSMA_MAX_SPEC - 1);
     out[used] = '\0';
     return KOKSMA_OK;
 }
@@ -124,9 +122,7 @@ koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_
         *count += read_numbers(path, found.gl_pathv[i], &(*sets)[*count]);
     }
     globfree(&found);
-    if (!*sets) {
-        return koksma__fail_memory(sizeof **sets);
-    }
+    KOKSMA__REQUIRE_MEMORY(*sets, sizeof **sets);
     qsort(*sets, *count, sizeof **sets, compare_sets);
     return KOKSMA_OK;
 }

@@ -24,12 +24,6 @@ void koksma__hash_owen_order(uint64_t seed, uint64_t part, uint64_t first, size_
     }
 }
 
-void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v, double *xs)
-{
-    koksma__kernels()->owen_hash(count, v, false, true, koksma_seed_of(seed, (uint32_t)k), v);
-    koksma__kernels()->fractions(count, v, xs);
-}
-
 /* Scrambles digits 33 to 53, which are `late` for all points, and adds them to xs[i]; v[i] has the 32 scrambled digits
    before them. */
 static void add_late(uint64_t seed, int k, uint32_t late, size_t count, const uint32_t *v, double *xs)
@@ -43,14 +37,17 @@ static void add_late(uint64_t seed, int k, uint32_t late, size_t count, const ui
     }
 }
 
-void koksma__hash_owen_scramble_part(uint64_t seed, int k, uint64_t sum, size_t count, uint32_t *v, double *xs)
+void koksma__hash_owen_scramble(uint64_t seed, int k, uint64_t sum, size_t count, uint32_t *v, double *xs)
 {
-    const uint32_t common = koksma_mirror(koksma__early_digits(sum));
+    const uint32_t common = koksma_mirror(koksma__early_digits(sum)), late = (uint32_t)(sum & KOKSMA__LATE_MASK);
     for (size_t i = 0; common && i < count; i++) {
         v[i] ^= common;
     }
-    koksma__hash_owen_scramble(seed, k, count, v, xs);
-    add_late(seed, k, (uint32_t)(sum & KOKSMA__LATE_MASK), count, v, xs);
+    koksma__kernels()->owen_hash(count, v, false, true, koksma_seed_of(seed, (uint32_t)k), v);
+    koksma__kernels()->fractions(count, v, xs);
+    if (late) {
+        add_late(seed, k, late, count, v, xs);
+    }
 }
 
 void koksma__mirror_directions(const uint32_t *directions, uint32_t *mirrored)

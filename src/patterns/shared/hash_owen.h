@@ -11,14 +11,11 @@
    the parts are not shuffled. */
 void koksma__hash_owen_order(uint64_t seed, uint64_t part, uint64_t first, size_t count, uint32_t *index);
 
-/* Scrambles coordinate k of `count` points. v[i] has the coordinate with its bits reversed and is overwritten; xs[i]
-   receives the scrambled coordinate. */
-void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v, double *xs);
-
-/* Does the same as koksma__hash_owen_scramble for points beyond 2^32: v[i] has the first 32 digits within the part,
-   and `sum` the digits that the part adds to all of them (patterns/shared/parts.h). Digits 33 to 53 are scrambled
-   such that 21 zeros stay zeros after any first 32 digits, as in the points below 2^32. */
-void koksma__hash_owen_scramble_part(uint64_t seed, int k, uint64_t sum, size_t count, uint32_t *v, double *xs);
+/* Scrambles coordinate k of `count` points. v[i] has the first 32 digits within the part, with the bits reversed, and is
+   overwritten; `sum` has the digits that the part adds to all of them (patterns/shared/parts.h), 0 for points below
+   2^32; xs[i] receives the scrambled coordinate. Digits 33 to 53 are scrambled such that 21 zeros stay zeros after any
+   first 32 digits. */
+void koksma__hash_owen_scramble(uint64_t seed, int k, uint64_t sum, size_t count, uint32_t *v, double *xs);
 
 /* Reverses the bits of the 32 direction numbers, because the hash takes words with bits reversed. */
 void koksma__mirror_directions(const uint32_t *directions, uint32_t *mirrored);

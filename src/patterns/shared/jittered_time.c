@@ -12,9 +12,7 @@ koksma_status koksma__fill_jittered_time(const char *name, uint64_t seed, const 
     const koksma_points plane = {out->n, 2, out->xs};
     size_t columns, rows;
     koksma_status status = koksma__cells(name, &plane, args->params[0], &columns, &rows);
-    if (!status) {
-        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 3 * out->n, out->xs);
-    }
+    status = status ? status : koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 3 * out->n, out->xs);
     for (size_t i = 0; i < out->n && !status; i++) {
         double *x = out->xs + 3 * i;
         x[0] = koksma__in_cell((double)(i / rows), x[0], (double)columns);

@@ -174,8 +174,9 @@ double koksma__lattice_extend(koksma__lattice_search *s, uint64_t z)
     return sum;
 }
 
-void koksma__lattice_extend_orders(koksma__lattice_search *s, uint64_t z, int order, const double *factors,
-                                   double *sums)
+/* Appends a coordinate in a search with finite-order weights. `sums` are (n/2 + 1) * order numbers; those of point i,
+   the symmetric polynomials of its terms by degree, begin at i * order. */
+static void extend_orders(koksma__lattice_search *s, uint64_t z, int order, const double *factors, double *sums)
 {
     uint64_t numerator = 0;
     for (size_t i = 1; i <= s->n / 2; i++) {
@@ -230,7 +231,9 @@ static koksma_status choose(const koksma__lattice_search *s, double window, cand
     return KOKSMA_OK;
 }
 
-koksma_status koksma__lattice_best(koksma__lattice_search *s, uint64_t *best)
+/* Finds the z that adds least to the sum: candidates within the window above the least value are compared by sums in
+   order of i; among equal sums the smallest z is taken. */
+static koksma_status find_best(koksma__lattice_search *s, uint64_t *best)
 {
     double window;
     const koksma_status status = koksma__lattice_value(s, &window);
@@ -247,4 +250,48 @@ koksma_status koksma__lattice_second(koksma__lattice_search *s, uint64_t *best)
         s->product[i] = planar_kernel(i, s->n);
     }
     return status ? status : choose(s, window, planar_sum, best);
+}
+
+/* Finds all multipliers. `sums` are those of extend_orders, all 0; NULL if all projections count. */
+static koksma_status find_all(koksma__lattice_search *s, int dim, int order, const double *factors, double *sums,
+                              double share, uint64_t *z)
+{
+    z[0] = 1;
+    koksma_status status = dim > 1 ? koksma__lattice_second(s, &z[1]) : KOKSMA_OK;
+    koksma__lattice_start(s);
+    for (size_t i = 1; sums && i <= s->n / 2; i++) {
+        sums[i * (size_t)order] = s->product[i];
+    }
+    for (int k = 0; !status && k < dim; k++) {
+        if (!koksma__keep_going(s->run, share * k / dim)) {
+            return koksma__fail_interrupted();
+        }
+        if (k > 1) {
+            status = find_best(s, &z[k]);
+        }
+        if (!status && k < dim - 1) {
+            if (sums) {
+                extend_orders(s, z[k], order, factors, sums);
+            } else {
+                koksma__lattice_extend(s, z[k]);
+            }
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__lattice_find(const koksma_run *run, size_t n, int dim, int order, const double *factors,
+                                   double share, uint64_t *z)
+{
+    koksma__lattice_search search;
+    const size_t count = (n / 2 + 1) * (size_t)order;
+    double *sums = order ? calloc(count, sizeof *sums) : NULL;
+    koksma_status status = order && !sums ? koksma__fail_memory(count * sizeof *sums) : KOKSMA_OK;
+    if (!status) {
+        status = koksma__lattice_open(&search, n, run);
+        status = status ? status : find_all(&search, dim, order, factors, sums, share, z);
+        koksma__lattice_close(&search);
+    }
+    free(sums);
+    return status;
 }

@@ -39,14 +39,6 @@ void koksma__lattice_close(koksma__lattice_search *search);
 void koksma__lattice_start(koksma__lattice_search *search);
 double koksma__lattice_extend(koksma__lattice_search *search, uint64_t z);
 
-/* Appends a coordinate in a search in which only projections of up to `order` coordinates have a weight. The factor of
-   the next coordinate is then the sum of the elementary symmetric polynomials of degree 0 to order - 1 of all earlier
-   terms, that of degree l times factors[l]; factors[0] is 1. `sums` are (n/2 + 1) * order numbers; those of point i
-   begin at i * order. Before the first call the caller sets degree 0 to search->product[i] as koksma__lattice_start
-   leaves it, and all other degrees to 0. */
-void koksma__lattice_extend_orders(koksma__lattice_search *search, uint64_t z, int order, const double *factors,
-                                   double *sums);
-
 /* Computes in search->values the amount that each z would add to the sum; the value is infinite if z has a divisor in
    common with n. Because of rounding, any z whose value is at most *window above the least may be the best. For few
    points all finite values are 0. */
@@ -61,12 +53,15 @@ void koksma__lattice_units(koksma__lattice_search *search);
    the points for these n would change. */
 uint64_t koksma__lattice_last(size_t n);
 
-/* Finds the z that adds least to the sum: candidates within the window above the least value are compared by sums in
-   order of i; among equal sums the smallest z is taken. */
-koksma_status koksma__lattice_best(koksma__lattice_search *search, uint64_t *best);
-
 /* Finds the best z_1 for z_0 = 1. This z_1 does not depend on the weights, because in two dimensions these scale the
    sums of all candidates by the same factor. */
 koksma_status koksma__lattice_second(koksma__lattice_search *search, uint64_t *best);
+
+/* Finds the multipliers z of `dim` coordinates for a lattice of n > 1 points. With an order above 0 only projections of
+   up to `order` coordinates have a weight: the factor of the next coordinate is then the sum of the elementary
+   symmetric polynomials of degree 0 to order - 1 of all earlier terms, that of degree l times factors[l]; factors[0] is
+   1. The progress that is reported ends at `share`. */
+koksma_status koksma__lattice_find(const koksma_run *run, size_t n, int dim, int order, const double *factors,
+                                   double share, uint64_t *z);
 
 #endif

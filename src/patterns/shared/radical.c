@@ -11,6 +11,7 @@
 
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/shared/columns.h"
 #include "patterns/shared/primes.h"
 
 static uint32_t digit_of(const koksma__radical *r, int j, uint32_t a)
@@ -151,4 +152,34 @@ void koksma__radical_column(const koksma__radical *r, uint64_t first, size_t cou
         first += some;
         count -= some;
     }
+}
+
+typedef struct job {
+    const double *offset;
+    double n;
+    koksma__radicals radicals;
+} job;
+
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
+{
+    const job *j = context;
+    if (k == 0 && j->offset) {
+        koksma__kernels()->steps(count, (double)first, *j->offset, j->n, xs);
+    } else {
+        koksma__radical_column(&j->radicals.columns[j->offset ? k - 1 : k], first, count, xs);
+    }
+}
+
+koksma_status koksma__range_radicals(const koksma_args *args, uint64_t n, const double *offset, koksma__digit digit,
+                                     const void *context, koksma_points *out)
+{
+    job j;
+    j.offset = offset;
+    j.n = (double)n;
+    koksma_status status = koksma__radicals_init(&j.radicals, offset ? out->dim - 1 : out->dim, n, digit, context);
+    if (!status) {
+        status = koksma__range_columns(args, out, column, &j);
+        koksma__radicals_fini(&j.radicals);
+    }
+    return status;
 }

@@ -45,6 +45,11 @@ koksma_status koksma__radicals_init(koksma__radicals *r, int count, uint64_t n, 
                                     const void *context);
 void koksma__radicals_fini(koksma__radicals *r);
 
+/* Fills `out` with points args->first, args->first + 1, ..., all below n: their coordinates are radical inverses. If
+   `offset` is not NULL, coordinate 0 of point i is (i + *offset) / n, and the radical inverses are the others. */
+koksma_status koksma__range_radicals(const koksma_args *args, uint64_t n, const double *offset, koksma__digit digit,
+                                     const void *context, koksma_points *out);
+
 /* Computes out[i], i < count, the radical inverse of first + i. */
 void koksma__radical_column(const koksma__radical *r, uint64_t first, size_t count, double *out);
 

@@ -62,30 +62,6 @@ typedef struct vectors {
     double deviation;                        /* standard deviation of the second factor */
 } vectors;
 
-/* Finds the multipliers of a lattice of n points. */
-static koksma_status find_lattice(vectors *v, const koksma_run *run)
-{
-    koksma__lattice_search search;
-    v->z[0] = 1;
-    koksma_status status = koksma__lattice_open(&search, v->n, run);
-    if (!status && v->dim > 1) {
-        status = koksma__lattice_second(&search, &v->z[1]);
-    }
-    if (!status) {
-        koksma__lattice_start(&search);
-    }
-    for (int k = 0; !status && k < v->dim; k++) {
-        if (k > 1) {
-            status = koksma__lattice_best(&search, &v->z[k]);
-        }
-        if (!status) {
-            koksma__lattice_extend(&search, v->z[k]);
-        }
-    }
-    koksma__lattice_close(&search);
-    return status;
-}
-
 static uint32_t entry_of(float square)
 {
     uint32_t bits;
@@ -293,7 +269,8 @@ koksma_status koksma_mask_vectors(int size, int dim, uint64_t seed, const koksma
                     "vector-mask: dim = %d; vectors have 1 to %d dimensions", dim, KOKSMA_MASK_MAX_DIM);
     vectors v = {.size = size, .dim = dim, .n = (uint32_t)(size * size)};
     KOKSMA__TRY(make_room(&v));
-    koksma_status status = find_lattice(&v, run);
+    /* the search takes a small part of the time: progress is reported from the annealing on */
+    koksma_status status = koksma__lattice_find(run, v.n, dim, 0, NULL, 0, v.z);
     if (!status) {
         make_tables(&v);
         shuffle(&v, seed);

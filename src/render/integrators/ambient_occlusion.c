@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "render/materials/materials.h"
 
@@ -46,7 +47,5 @@ koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_
 
 void koksma__ambient_occlusion_release(koksma_scene *scene)
 {
-    free(scene->materials);
-    free(scene->lights);
-    free(scene);
+    KOKSMA__FREE(scene->materials, scene->lights, scene);
 }

@@ -21,6 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/status.h"
@@ -148,13 +149,8 @@ static bool look_up(const cache *c, const float p[3], const float n[3], float ou
 
 static koksma_status enter(cache *c, const record *from)
 {
-    if (c->n == c->capacity) {
-        const size_t capacity = c->capacity ? 2 * c->capacity : 1024;
-        record *records = capacity <= MAX_RECORDS ? realloc(c->records, capacity * sizeof *records) : NULL;
-        KOKSMA__REQUIRE_MEMORY(records, capacity * sizeof *records);
-        c->records = records;
-        c->capacity = capacity;
-    }
+    KOKSMA__REQUIRE_MEMORY(c->n < MAX_RECORDS, 2 * c->n * sizeof *c->records);
+    KOKSMA__TRY(koksma__reserve(&c->records, &c->capacity, c->n + 1, sizeof *c->records));
     record *r = &c->records[c->n];
     int64_t cell[3];
     *r = *from;
@@ -181,9 +177,7 @@ typedef struct record_scratch {
 static void close_scratch(record_scratch *d)
 {
     koksma__wavefront_close(d->scratch);
-    free(d->values.albedo);
-    free(d->values.normal);
-    free(d->values.depth);
+    KOKSMA__FREE(d->values.albedo, d->values.normal, d->values.depth);
 }
 
 static koksma_status open_scratch(const cache *c, record_scratch *d)

@@ -24,12 +24,6 @@ static bool centre(const koksma__shading_light *light, const float p[3], koksma_
     return true;
 }
 
-static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
-{
-    (void)u;
-    return centre(light, p, out);
-}
-
 static const koksma__parameter parameters[] = {
     {"direction", KOKSMA__DIRECTION, .at = offsetof(koksma__light, normal)},
     {"irradiance", KOKSMA__COLOUR, .high = BRIGHT, .at = offsetof(koksma__light, radiance)},
@@ -40,6 +34,6 @@ const koksma__light_kind koksma__light_directional = {
     .distance = KOKSMA__LIGHT_PARALLEL,
     .form = KOKSMA__BEAMS_PARALLEL,
     .open = open_light,
-    .sample = sample,
+    .sample = koksma__point_sample,
     .centre = centre,
 };

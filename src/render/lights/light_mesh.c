@@ -10,6 +10,7 @@
  */
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "render/lights/surface_lights.h"
 #include "render/texture.h"
 
@@ -124,9 +125,7 @@ static koksma_status open_light(const koksma_scene *scene, const koksma__light *
 static void close_light(void *data)
 {
     mesh_light *m = data;
-    free(m->cdf);
-    free(m->densities);
-    free(m);
+    KOKSMA__FREE(m->cdf, m->densities, m);
 }
 
 static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)

@@ -17,12 +17,6 @@ static bool centre(const koksma__shading_light *light, const float p[3], koksma_
     return koksma__point_beam(light, p, 1, out);
 }
 
-static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
-{
-    (void)u;
-    return centre(light, p, out);
-}
-
 static const koksma__parameter parameters[] = {
     {"centre", KOKSMA__POINT, .at = offsetof(koksma__light, centre)},
     {"intensity", KOKSMA__COLOUR, .high = BRIGHT, .at = offsetof(koksma__light, radiance)},
@@ -34,6 +28,6 @@ const koksma__light_kind koksma__light_point = {
              .cite = "-",
              .parameters = parameters},
     .open = open_light,
-    .sample = sample,
+    .sample = koksma__point_sample,
     .centre = centre,
 };

@@ -81,12 +81,6 @@ static koksma_status parse(const char *name, const field *f, koksma_scene *scene
     return KOKSMA_OK;
 }
 
-static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
-{
-    (void)u;
-    return centre(light, p, out);
-}
-
 static const koksma__parameter parameters[] = {
     {"centre", KOKSMA__POINT, .at = offsetof(koksma__light, centre)},
     {"direction", KOKSMA__DIRECTION, .at = offsetof(koksma__light, normal)},
@@ -103,6 +97,6 @@ const koksma__light_kind koksma__light_spot = {
              .keys = KEYS("falloff")},
     .parse = parse,
     .open = open_light,
-    .sample = sample,
+    .sample = koksma__point_sample,
     .centre = centre,
 };

@@ -84,9 +84,8 @@ koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out
     out->rectangles = calloc(n + 1, sizeof *out->rectangles);
     out->cdf = calloc(n + 1, sizeof *out->cdf);
     out->estimates = aligned_alloc(64, sizeof *out->estimates);
-    if (!out->lights || !out->rectangles || !out->cdf || !out->estimates) {
-        return koksma__fail_memory((n + 1) * sizeof *out->lights);
-    }
+    KOKSMA__REQUIRE_MEMORY(out->lights && out->rectangles && out->cdf && out->estimates,
+                           (n + 1) * sizeof *out->lights);
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < n; i++) {
         const koksma__light *from = &scene->lights[i];

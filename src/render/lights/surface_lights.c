@@ -114,6 +114,12 @@ float koksma__area_pdf(const koksma__shading_light *light, const float p[3], con
     return cosine > 0 ? t * t / (cosine * light->area) : 0;
 }
 
+bool koksma__point_sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
+{
+    (void)u;
+    return light->kind->centre(light, p, out);
+}
+
 bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out)
 {
     for (int k = 0; k < 3; k++) {

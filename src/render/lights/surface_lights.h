@@ -66,6 +66,9 @@ KOKSMA__INLINE float koksma__cone_beam(koksma__v3 axis, float radius, float u, f
    with the squared distance. */
 bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
 
+/* sample() of a light without extent. */
+bool koksma__point_sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out);
+
 /* value = scale times the light's radiance */
 static inline void koksma__set_value(const koksma__shading_light *light, float scale, koksma__beam *out)
 {

@@ -10,12 +10,6 @@
 
 enum { TINT, IOR = 3 };
 
-static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
-{
-    (void)s, (void)w, (void)lobes, (void)value_out;
-    return 0;
-}
-
 static void set(const koksma__surface *s, float share, koksma__scatter *out)
 {
     out->pdf = 0;
@@ -73,7 +67,7 @@ const koksma__bsdf koksma__bsdf_dielectric = {
              .parameters = parameters},
     .lobes = KOKSMA__LOBE_SPECULAR,
     .takes_choice = true,
-    .value = value,
+    .value = koksma__specular_bsdf_value,
     .sample = sample,
     .split = split,
 };

@@ -8,12 +8,6 @@
 
 enum { REFLECTANCE };
 
-static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
-{
-    (void)s, (void)w, (void)lobes, (void)value_out;
-    return 0;
-}
-
 static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
 {
     (void)u, (void)choice;
@@ -35,6 +29,6 @@ static const koksma__parameter parameters[] = {
 const koksma__bsdf koksma__bsdf_mirror = {
     .kind = {.name = "mirror", .title = "a smooth mirror", .cite = "whitted1980", .parameters = parameters},
     .lobes = KOKSMA__LOBE_SPECULAR,
-    .value = value,
+    .value = koksma__specular_bsdf_value,
     .sample = sample,
 };

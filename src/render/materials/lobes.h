@@ -46,6 +46,14 @@ static inline bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigne
     return out->pdf > 0;
 }
 
+/* value() of a purely specular surface. */
+static inline float koksma__specular_bsdf_value(const koksma__surface *s, const float w[3], unsigned lobes,
+                                                float value_out[3])
+{
+    (void)s, (void)w, (void)lobes, (void)value_out;
+    return 0;
+}
+
 /* Fresnel's reflectance for unpolarised light. ratio: the index on this side divided by the index on the other side;
    *inner: the cosine of the refracted ray, 0 for total reflection. */
 static inline float koksma__reflected_share(float cosine, float ratio, float *inner)

@@ -12,8 +12,7 @@ enum {
 #define USE(id, number, name, dim, help) KOKSMA__USE_##id = (number),
 #include "render/samples/uses.def"
 #undef USE
-    KOKSMA__USES_A_BOUNCE = 1 << 12,
-    KOKSMA__MAX_BOUNCES = 255
+    KOKSMA__USES_A_BOUNCE = 1 << 12
 };
 
 /* The uses that a scene and an integrator need. Native pairing assigns these uses to dimensions, and scope `image`

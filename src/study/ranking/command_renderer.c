@@ -88,9 +88,7 @@ static koksma_status expand(const char *template, const char *const values[N_WOR
             *out = word >= OUT ? word : *out;
             fits = append_quoted(command, &length, values[word]);
         }
-        if (!fits) {
-            return koksma__fail(KOKSMA_ARGUMENT, "the command is longer than %d characters", LONGEST);
-        }
+        KOKSMA__FAIL_IF(!fits, KOKSMA_ARGUMENT, "the command is longer than %d characters", LONGEST);
     }
     command[length] = 0;
     return *out >= 0 ? KOKSMA_OK
@@ -125,9 +123,7 @@ static koksma_status wait_for(pid_t child, const koksma_run *run, int *outcome)
         if (ended == child) {
             return stop ? koksma__fail_interrupted() : KOKSMA_OK;
         }
-        if (ended < 0 && errno != EINTR) {
-            return koksma__fail(KOKSMA_SYSTEM, "waiting for the command: %s", strerror(errno));
-        }
+        KOKSMA__FAIL_IF(ended < 0 && errno != EINTR, KOKSMA_SYSTEM, "waiting for the command: %s", strerror(errno));
         stop = stop || !koksma__keep_going(run, 0);
         if (stop) {
             kill(-child, SIGKILL);
@@ -184,9 +180,8 @@ static koksma_status make_folder(char *folder, size_t size)
 {
     const char *parent = getenv("TMPDIR");
     const int length = snprintf(folder, size, "%s/koksma-XXXXXX", parent && *parent ? parent : "/tmp");
-    if (length < 0 || (size_t)length >= size) {
-        return koksma__fail(KOKSMA_ARGUMENT, "TMPDIR is longer than %zu characters", size - 16);
-    }
+    KOKSMA__FAIL_IF(length < 0 || (size_t)length >= size, KOKSMA_ARGUMENT, "TMPDIR is longer than %zu characters",
+                    size - 16);
     return mkdtemp(folder) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: %s", folder, strerror(errno));
 }
 
@@ -197,9 +192,7 @@ static koksma_status render_in(const char *folder, const char *template, const k
     char *command = malloc(LONGEST);
     int out, outcome = 0;
     pid_t child;
-    if (!command) {
-        return koksma__fail_memory(LONGEST);
-    }
+    KOKSMA__REQUIRE_MEMORY(command, LONGEST);
     snprintf(spp, sizeof spp, "%d", picture->spp);
     snprintf(seed, sizeof seed, "%" PRIu64, picture->seed);
     snprintf(width, sizeof width, "%d", picture->width);

@@ -446,12 +446,10 @@ static koksma_status open_scene(const koksma_rank_options *options, koksma__run_
         snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)hash);
         return ask_size(options, control, scene);
     }
-    const koksma_status status = koksma_scene_open(options->scene, &scene->scene);
-    if (!status) {
-        snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)koksma_scene_hash(scene->scene));
-        choose_size(options, scene);
-    }
-    return status;
+    KOKSMA__TRY(koksma_scene_open(options->scene, &scene->scene));
+    snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)koksma_scene_hash(scene->scene));
+    choose_size(options, scene);
+    return KOKSMA_OK;
 }
 
 /* Reports the sizes of the contest and of its checks, before any rendering. */

@@ -30,9 +30,11 @@
 
 #include <koksma/study.h>
 
+#include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
+#include "image/image.h"
 
 enum { SIDE = 8, MOST_PIXELS = 40 * 30, NAME = 32, MOST_SETS = 1000, MOST_SPP = 4096, SALT_CHOICE = 1, SALT_JUDGE };
 
@@ -98,9 +100,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 {
     (void)seed;
     void *address = NULL;
-    if (args->path && *args->path && sscanf(args->path, "%p", &address) != 1) {
-        return koksma__fail(KOKSMA_ARGUMENT, "set:%s: no address", args->path);
-    }
+    KOKSMA__FAIL_IF(args->path && *args->path && sscanf(args->path, "%p", &address) != 1, KOKSMA_ARGUMENT,
+                    "set:%s: no address", args->path);
     const koksma_points *from = address;
     for (size_t i = 0; i < out->n; i++) {
         for (int k = 0; k < out->dim; k++) {
@@ -179,13 +180,6 @@ static koksma_status rank(search *s, const char *const *patterns, size_t n, koks
 
 /* ---- Weights ----------------------------------------------------------------------------------------------- */
 
-static double luminance(const koksma_image *image, size_t p)
-{
-    const float *v = image->pixels + p * (size_t)image->channels;
-    return image->channels == 1 ? (double)v[0]
-                                : 0.2126 * (double)v[0] + 0.7152 * (double)v[1] + 0.0722 * (double)v[2];
-}
-
 /* Adds the variances of a pixel. In a two-way layout without replicates the expected mean square along x is MS_x =
    SIDE var_x + var_xy, and likewise along y. */
 static void add_pixel(const double *f, size_t pixels, double *variances)
@@ -222,7 +216,7 @@ static koksma_status sample_position(search *s, koksma_render_options *o, size_t
     const size_t bytes = SIDE * SIDE * *pixels * sizeof **f;
     *f = *f ? *f : malloc(bytes);
     for (size_t p = 0; p < *pixels && *f; p++) {
-        (*f)[i * *pixels + p] = luminance(&image, p);
+        (*f)[i * *pixels + p] = koksma__luminance(&image, p);
     }
     koksma_image_fini(&image);
     return *f ? KOKSMA_OK : koksma__fail_memory(bytes);
@@ -376,9 +370,7 @@ static koksma_status choose(search *s)
         s->chosen = rows[0].pattern;
         s->out->chosen = true;
     }
-    free(rows);
-    free((void *)patterns);
-    free(names);
+    KOKSMA__FREE(rows, (void *)patterns, names);
     return status;
 }
 

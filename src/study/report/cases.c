@@ -37,12 +37,10 @@ static koksma_status add_measured(koksma__cases *c, const char *measure, int dim
             return KOKSMA_OK;
         }
     }
-    koksma__measured *measured = koksma__room_for_one(c->measured, c->n, &c->capacity, 16, sizeof *measured);
-    if (!measured) {
+    koksma__measured *m = koksma__add_one(&c->measured, &c->n, sizeof *m);
+    if (!m) {
         return KOKSMA_MEMORY;
     }
-    c->measured = measured;
-    koksma__measured *m = &measured[c->n++];
     koksma_spec spec;
     *m = (koksma__measured){.measure = measure, .dim = dim};
     m->larger = !koksma_measure_spec(measure, &spec) && spec.measure->larger_is_better;

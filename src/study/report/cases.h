@@ -23,7 +23,7 @@ typedef struct koksma__measured {
 typedef struct koksma__cases {
     koksma_study *study;
     const koksma__topic *topic;
-    size_t n, capacity;
+    size_t n;
     koksma__measured *measured; /* in the order of the topic's blocks */
 } koksma__cases;
 

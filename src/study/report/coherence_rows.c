@@ -40,10 +40,7 @@ koksma_status koksma__image_coherence(koksma_study *study, const koksma__image_b
     koksma__result *results;
     size_t n;
     *out = (koksma__row_coherence){0};
-    const koksma_status status = koksma__series_results(study, &series, block->trials, &results, &n);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__series_results(study, &series, block->trials, &results, &n));
     out->mean = koksma__summarize(results->values, n, STRIDE);
     for (size_t i = 0; i < n; i++) {
         out->coherent += results[i].values[1] < KOKSMA_COHERENT_P && results[i].values[0] >= KOKSMA_COHERENT_LEAST;

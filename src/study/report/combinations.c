@@ -15,26 +15,19 @@
 
 static koksma_status open_case(koksma__combinations *c, const koksma__case *at, const koksma__pairs *found)
 {
-    koksma__combined *all = koksma__room_for_one(c->of, c->n, &c->capacity, 16, sizeof *all);
-    if (!all) {
+    koksma__combined *of = koksma__add_one(&c->of, &c->n, sizeof *of);
+    if (!of) {
         return KOKSMA_MEMORY;
     }
-    c->of = all;
-    koksma__combined *of = &all[c->n];
     *of = (koksma__combined){.scene = at->scene,
                              .variant = at->variant,
                              .spp = at->spp,
                              .n = found->n,
                              .patterns = malloc((found->n + 1) * sizeof *of->patterns),
                              .ranks = calloc((c->cases->n + 1) * (found->n + 1), sizeof *of->ranks)};
-    if (!of->patterns || !of->ranks) {
-        free(of->patterns);
-        free(of->ranks);
-        return koksma__fail_memory((c->cases->n + 1) * found->n * sizeof *of->ranks);
-    }
+    KOKSMA__REQUIRE_MEMORY(of->patterns && of->ranks, (c->cases->n + 1) * found->n * sizeof *of->ranks);
     memcpy(of->patterns, found->patterns, found->n * sizeof *of->patterns);
     koksma__unit_ranks(found->y, found->n, of->ranks + c->cases->n * found->n);
-    c->n++;
     return KOKSMA_OK;
 }
 
@@ -86,9 +79,7 @@ typedef struct findings {
 
 static void findings_fini(findings *f)
 {
-    free(f->scenes);
-    free(f->cases);
-    free(f->held_out);
+    KOKSMA__FREE(f->scenes, f->cases, f->held_out);
     *f = (findings){0};
 }
 

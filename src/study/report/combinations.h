@@ -18,7 +18,7 @@ typedef struct koksma__combined {
 
 typedef struct koksma__combinations {
     const koksma__cases *cases;
-    size_t n, capacity;
+    size_t n;
     koksma__combined *of;
 } koksma__combinations;
 

@@ -549,13 +549,11 @@ koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, 
 {
     unsigned char *bytes;
     size_t size;
-    const koksma_status status = koksma_image_png_bytes(image, &bytes, &size);
-    if (!status) {
-        begin_image(d, "image/png", image->width * scale, image->height * scale, alt);
-        put_image(d, bytes, size);
-        free(bytes);
-    }
-    return status;
+    KOKSMA__TRY(koksma_image_png_bytes(image, &bytes, &size));
+    begin_image(d, "image/png", image->width * scale, image->height * scale, alt);
+    put_image(d, bytes, size);
+    free(bytes);
+    return KOKSMA_OK;
 }
 
 static void put_numbers(koksma__document *d, const char *key, const double *values, size_t n)

@@ -43,17 +43,13 @@ size_t koksma__spectrum_rings(int width, int height)
 koksma_status koksma__spectrum_add(koksma__error_spectrum *spectrum, const koksma_image *image,
                                    const koksma_image *reference)
 {
-    if (image->width != reference->width || image->height != reference->height) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "an image of %d x %d pixels cannot be compared with a reference of %d x %d", image->width,
-                            image->height, reference->width, reference->height);
-    }
+    KOKSMA__FAIL_IF(image->width != reference->width || image->height != reference->height, KOKSMA_ARGUMENT,
+                    "an image of %d x %d pixels cannot be compared with a reference of %d x %d", image->width,
+                    image->height, reference->width, reference->height);
     const size_t width = (size_t)image->width, height = (size_t)image->height;
     const size_t pixels = width * height, doubles = pixels + koksma__fourier_columns(image->width) * height;
     double *errors = malloc(doubles * sizeof *errors), *powers = errors + pixels;
-    if (!errors) {
-        return koksma__fail_memory(doubles * sizeof *errors);
-    }
+    KOKSMA__REQUIRE_MEMORY(errors, doubles * sizeof *errors);
     for (size_t i = 0; i < pixels; i++) {
         errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
     }

@@ -41,10 +41,7 @@ static koksma_status mean_of(koksma_study *study, const koksma__series *series, 
 {
     koksma__result *found;
     size_t n;
-    const koksma_status status = koksma__series_results(study, series, trials, &found, &n);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__series_results(study, series, trials, &found, &n));
     *mean = sets ? koksma__summarize_sets(series->pattern, found, n)
                  : koksma__summarize(found->values, n, KOKSMA__RESULT_STRIDE);
     if (results) {
@@ -106,10 +103,7 @@ koksma_status koksma__image_metric(koksma_study *study, const koksma__image_mean
     koksma__result *results;
     size_t n;
     const koksma__series series = series_of(study, of, "metric", metric, name);
-    koksma_status status = koksma__series_results(study, &series, of->block->trials, &results, &n);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__series_results(study, &series, of->block->trials, &results, &n));
     out->robust = koksma__summarize(&results->values[1], n, KOKSMA__RESULT_STRIDE);
     out->top_share = koksma__summarize(&results->values[2], n, KOKSMA__RESULT_STRIDE);
     free(results);

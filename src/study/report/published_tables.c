@@ -44,11 +44,9 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
 {
     const koksma__discrepancy_block *block = discrepancies_of(study, table, measure, pattern, n);
     *cell = (koksma__cell){0};
-    if (!block) {
-        return koksma__fail(KOKSMA_MALFORMED,
-                            "plan '%s': table %s: no discrepancy block of the plan measures %s at n = %lld",
-                            study->plan.name, table->id, measure, n);
-    }
+    KOKSMA__FAIL_IF(!block, KOKSMA_MALFORMED,
+                    "plan '%s': table %s: no discrepancy block of the plan measures %s at n = %lld", study->plan.name,
+                    table->id, measure, n);
     const koksma__series series = {.kind = "discrepancy",
                                    .scene = "",
                                    .scene_hash = "",
@@ -59,10 +57,7 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
                                    .dim = block->dim};
     koksma__result *results;
     size_t sets;
-    const koksma_status status = koksma__series_results(study, &series, block->trials, &results, &sets);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__series_results(study, &series, block->trials, &results, &sets));
     cell->mean = koksma__summarize_sets(pattern, results, sets);
     cell->sd = cell->mean.sd;
     koksma__largest_of(results->values, sets, KOKSMA__RESULT_STRIDE, 100, &cell->max, &cell->max_sd);
@@ -94,10 +89,7 @@ koksma_status koksma__table_image(koksma_study *study, const koksma__table *tabl
     koksma__block_size(block, scene, &width, &height);
     series.width = width;
     series.height = height;
-    const koksma_status status = koksma__series_results(study, &series, block->trials, &results, &n);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__series_results(study, &series, block->trials, &results, &n));
     cell->mean = koksma__summarize(results->values, n, KOKSMA__RESULT_STRIDE);
     cell->sd = koksma__summarize(results->values + 1, n, KOKSMA__RESULT_STRIDE).mean;
     const koksma__summary max = koksma__summarize(results->values + 2, n, KOKSMA__RESULT_STRIDE);
@@ -203,15 +195,11 @@ koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t
     KOKSMA__REQUIRE(study, id, row, found);
     const koksma__table *table = NULL;
     *found = false;
-    if (!study->store) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder has no results");
-    }
+    KOKSMA__FAIL_IF(!study->store, KOKSMA_ARGUMENT, "a study without a folder has no results");
     for (size_t t = 0; !table && t < study->plan.n_tables; t++) {
         table = strcmp(study->plan.tables[t].id, id) ? NULL : &study->plan.tables[t];
     }
-    if (!table) {
-        return koksma__fail(KOKSMA_UNKNOWN, "plan '%s' has no table '%s'", study->plan.name, id);
-    }
+    KOKSMA__FAIL_IF(!table, KOKSMA_UNKNOWN, "plan '%s' has no table '%s'", study->plan.name, id);
     if (i / table->n.n >= table->n_rows) {
         return KOKSMA_OK;
     }

@@ -19,28 +19,25 @@ static koksma__rho_sums *sums_of(koksma__rho_means *s, const char *measure)
             return &s->of[m];
         }
     }
-    koksma__rho_sums *of = koksma__room_for_one(s->of, s->n, &s->room, 16, sizeof *of);
-    if (!of) {
-        return NULL;
+    koksma__rho_sums *of = koksma__add_one(&s->of, &s->n, sizeof *of);
+    if (of) {
+        of->measure = measure;
     }
-    s->of = of;
-    of[s->n] = (koksma__rho_sums){.measure = measure};
-    return &of[s->n++];
+    return of;
 }
 
-static koksma_status index_of(const char ***texts, size_t *n, size_t *room, const char *text, size_t *index)
+static koksma_status index_of(const char ***texts, size_t *n, const char *text, size_t *index)
 {
     for (*index = 0; *index < *n; ++*index) {
         if (!strcmp((*texts)[*index], text)) {
             return KOKSMA_OK;
         }
     }
-    const char **grown = koksma__room_for_one(*texts, *n, room, 16, sizeof *grown);
-    if (!grown) {
+    const char **added = koksma__add_one(texts, n, sizeof *added);
+    if (!added) {
         return KOKSMA_MEMORY;
     }
-    *texts = grown;
-    grown[(*n)++] = text;
+    *added = text;
     return KOKSMA_OK;
 }
 
@@ -51,12 +48,11 @@ static koksma_status add_size(koksma__rho_means *s, long long spp)
             return KOKSMA_OK;
         }
     }
-    long long *sizes = koksma__room_for_one(s->sizes, s->n_sizes, &s->room_of_sizes, 16, sizeof *sizes);
-    if (!sizes) {
+    long long *size = koksma__add_one(&s->sizes, &s->n_sizes, sizeof *size);
+    if (!size) {
         return KOKSMA_MEMORY;
     }
-    s->sizes = sizes;
-    sizes[s->n_sizes++] = spp;
+    *size = spp;
     return KOKSMA_OK;
 }
 
@@ -68,18 +64,16 @@ static koksma__rho_cell *cell_of(koksma__rho_sums *of, size_t scene, long long s
             return &of->cells[c];
         }
     }
-    koksma__rho_cell *cells = koksma__room_for_one(of->cells, of->n_cells, &of->room_of_cells, 16, sizeof *cells);
-    if (!cells) {
+    koksma__rho_cell *cell = koksma__add_one(&of->cells, &of->n_cells, sizeof *cell);
+    if (!cell) {
         return NULL;
     }
-    of->cells = cells;
-    cells[of->n_cells] =
-        (koksma__rho_cell){.scene = scene, .spp = spp, .draws = calloc(KOKSMA__RHO_SAMPLES, sizeof *cells->draws)};
-    if (!cells[of->n_cells].draws) {
-        (void)koksma__fail_memory(KOKSMA__RHO_SAMPLES * sizeof *cells->draws);
+    *cell = (koksma__rho_cell){.scene = scene, .spp = spp, .draws = calloc(KOKSMA__RHO_SAMPLES, sizeof *cell->draws)};
+    if (!cell->draws) {
+        (void)koksma__fail_memory(KOKSMA__RHO_SAMPLES * sizeof *cell->draws);
         return NULL;
     }
-    return &cells[of->n_cells++];
+    return cell;
 }
 
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns)
@@ -93,9 +87,8 @@ koksma_status koksma__rho_add(koksma__rho_means *s, const koksma__rho_source *so
 {
     size_t v, scene;
     koksma__rho_sums *of = sums_of(s, source->measure);
-    koksma_status status =
-        of ? index_of(&s->variants, &s->n_variants, &s->room_of_variants, source->variant, &v) : KOKSMA_MEMORY;
-    status = status ? status : index_of(&s->scenes, &s->n_scenes, &s->room_of_scenes, source->scene, &scene);
+    koksma_status status = of ? index_of(&s->variants, &s->n_variants, source->variant, &v) : KOKSMA_MEMORY;
+    status = status ? status : index_of(&s->scenes, &s->n_scenes, source->scene, &scene);
     status = status ? status : add_size(s, source->spp);
     koksma__rho_cell *cell = status ? NULL : cell_of(of, scene, source->spp);
     if (!cell) {
@@ -154,8 +147,5 @@ void koksma__rho_fini(koksma__rho_means *s)
         }
         free(s->of[m].cells);
     }
-    free(s->of);
-    free(s->variants);
-    free(s->scenes);
-    free(s->sizes);
+    KOKSMA__FREE(s->of, s->variants, s->scenes, s->sizes);
 }

@@ -30,12 +30,12 @@ typedef struct koksma__rho_sums {
     size_t sure; /* number of cases whose interval excludes 0 */
     /* numbers of cases without an interval: those with too few patterns, and those in perfect order */
     size_t few, perfect;
-    size_t n_cells, room_of_cells;
+    size_t n_cells;
     koksma__rho_cell *cells;
 } koksma__rho_sums;
 
 typedef struct koksma__rho_means {
-    size_t n, room, n_variants, room_of_variants, n_scenes, room_of_scenes, n_sizes, room_of_sizes;
+    size_t n, n_variants, n_scenes, n_sizes;
     koksma__rho_sums *of;
     const char **variants, **scenes;
     long long *sizes; /* numbers of samples per pixel */

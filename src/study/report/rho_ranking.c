@@ -62,9 +62,7 @@ static koksma_status compare_pairs(koksma__rho_ranking *r, double *const *draws)
 {
     const size_t n = r->n;
     double *p = malloc((n * n + 1) * sizeof *p);
-    if (!p) {
-        return koksma__fail_memory((n * n + 1) * sizeof *p);
-    }
+    KOKSMA__REQUIRE_MEMORY(p, (n * n + 1) * sizeof *p);
     for (size_t a = 0; a < n; a++) {
         for (size_t b = a; b < n; b++) {
             const koksma__rho_standing *x = &r->at[a], *y = &r->at[b];
@@ -118,9 +116,7 @@ static koksma_status fill(const koksma__rho_means *s, const koksma__rho_subset *
     }
     order(r, draws);
     double *p = malloc((r->n + 1) * sizeof *p);
-    if (!p) {
-        return koksma__fail_memory((r->n + 1) * sizeof *p);
-    }
+    KOKSMA__REQUIRE_MEMORY(p, (r->n + 1) * sizeof *p);
     for (size_t i = 0; i < r->n; i++) {
         p[i] = r->at[i].p;
     }

@@ -185,11 +185,9 @@ static void add_references(koksma_study *study, const koksma__task *t, double se
 
 static koksma_status time_and_learn(koksma_study *study, guesses *g, size_t i, const koksma_run *job)
 {
-    const koksma_status status = time_job(study, g->at[i].task, job, &g->at[i].seconds);
-    if (!status) {
-        learn(g, i);
-    }
-    return status;
+    KOKSMA__TRY(time_job(study, g->at[i].task, job, &g->at[i].seconds));
+    learn(g, i);
+    return KOKSMA_OK;
 }
 
 /* Chooses the task whose timing reduces the uncertainty most and fits into left_s seconds; g->n if there is none. */

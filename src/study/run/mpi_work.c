@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/processor_clock.h"
 #include "core/status.h"
 #include "study/run/mpi_messages.h"
@@ -19,7 +20,7 @@ static const double REST_S = 2e-4;
 /* Results of jobs that are sent to rank 0 together. */
 typedef struct outbox {
     unsigned char *bytes;
-    size_t size, room;
+    size_t size, capacity;
     double since_s; /* when the first of these jobs began */
 } outbox;
 
@@ -87,24 +88,14 @@ static koksma_status send_failure(const worker *w, unsigned long long job)
     return w->mpi->send(0, KOKSMA__TAG_FAILURE, &failure, sizeof failure) ? KOKSMA_OK : lost(w);
 }
 
-static koksma_status make_room(outbox *l, size_t more)
-{
-    if (l->size + more > l->room) {
-        const size_t room = 2 * (l->size + more);
-        unsigned char *bytes = realloc(l->bytes, room);
-        KOKSMA__REQUIRE_MEMORY(bytes, room);
-        l->bytes = bytes;
-        l->room = room;
-    }
-    return KOKSMA_OK;
-}
-
 static koksma_status do_job(worker *w, unsigned long long job)
 {
     long long trial;
     const koksma__task *task = koksma__tasks_job(&w->tasks, job, &trial);
     koksma__result *results = calloc(task->n_series, sizeof *results);
-    koksma_status status = results ? make_room(&w->out, sizeof job + task->n_series * sizeof *results)
+    outbox *out = &w->out;
+    koksma_status status = results ? koksma__reserve(&out->bytes, &out->capacity,
+                                                     out->size + sizeof job + task->n_series * sizeof *results, 1)
                                    : koksma__fail_memory(task->n_series * sizeof *results);
     for (size_t r = 0; task->image && !status && r < task->n_series; r++) {
         status = get_reference(w, task->references[r]);

@@ -36,9 +36,7 @@ koksma_status koksma__picture_set(const koksma__study_scene *scene, const koksma
     koksma_render_options *options = &variant->render;
     koksma_render_options_init(options, scene->scene);
     koksma_status status = koksma__image_pattern_set(picture->pattern, options);
-    if (!status) {
-        status = koksma__variant_apply(picture->variant, picture->of_reference, variant);
-    }
+    status = status ? status : koksma__variant_apply(picture->variant, picture->of_reference, variant);
     options->spp = (int)picture->spp;
     options->seed = picture->seed;
     options->width = picture->width;

@@ -110,14 +110,10 @@ static koksma_status check_options(const koksma_datasheet_options *o)
                             KOKSMA_MAX_SHEET_SCENES);
     }
     for (size_t i = 0; o->beside && i < o->n_beside; i++) {
-        if (!o->beside[i]) {
-            return koksma__fail(KOKSMA_ARGUMENT, "beside[%zu] is NULL", i);
-        }
+        KOKSMA__FAIL_IF(!o->beside[i], KOKSMA_ARGUMENT, "beside[%zu] is NULL", i);
     }
     for (size_t i = 0; o->scenes && i < o->n_scenes; i++) {
-        if (!o->scenes[i]) {
-            return koksma__fail(KOKSMA_ARGUMENT, "scenes[%zu] is NULL", i);
-        }
+        KOKSMA__FAIL_IF(!o->scenes[i], KOKSMA_ARGUMENT, "scenes[%zu] is NULL", i);
     }
     return KOKSMA_OK;
 }
@@ -161,13 +157,10 @@ koksma_status koksma_datasheet_page(const char *json, char **page)
     const char *before = koksma__page_before(), *after = koksma__page_after();
     const size_t size = strlen(before) + strlen(json) + strlen(after) + 1;
     *page = NULL;
-    if (strncmp(json, "{\"format\":\"koksma-datasheet\"", 27) != 0 || strstr(json, "</")) {
-        return koksma__fail(KOKSMA_ARGUMENT, "json: it must be the text that koksma_datasheet returned");
-    }
+    KOKSMA__FAIL_IF(strncmp(json, "{\"format\":\"koksma-datasheet\"", 27) != 0 || strstr(json, "</"), KOKSMA_ARGUMENT,
+                    "json: it must be the text that koksma_datasheet returned");
     *page = malloc(size);
-    if (!*page) {
-        return koksma__fail_memory(size);
-    }
+    KOKSMA__REQUIRE_MEMORY(*page, size);
     snprintf(*page, size, "%s%s%s", before, json, after);
     return KOKSMA_OK;
 }

@@ -101,9 +101,7 @@ static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_
 {
     size_t *sizes = calloc(count + 1, sizeof *sizes), n = 0, most = 0;
     const size_t most_points = sheet->options->quick ? MOST_POINTS_QUICK : MOST_POINTS;
-    if (!sizes) {
-        return koksma__fail_memory(count * sizeof *sizes);
-    }
+    KOKSMA__REQUIRE_MEMORY(sizes, count * sizeof *sizes);
     sampler->seed = sets[0].seed;
     for (size_t i = 0; i < count; i++) {
         sampler->seed = sets[i].seed < sampler->seed ? sets[i].seed : sampler->seed;

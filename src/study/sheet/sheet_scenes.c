@@ -49,9 +49,7 @@ koksma_status koksma__sheet_rank(koksma__sheet *sheet)
         patterns[s] = sheet->samplers[s]->text;
     }
     sheet->rankings = calloc(n + 1, sizeof *sheet->rankings);
-    if (!sheet->rankings) {
-        return koksma__fail_memory(n * sizeof *sheet->rankings);
-    }
+    KOKSMA__REQUIRE_MEMORY(sheet->rankings, n * sizeof *sheet->rankings);
     for (size_t i = 0; i < n && !status; i++) {
         koksma__sheet_ranking *r = &sheet->rankings[i];
         const koksma_run run = koksma__sheet_part(sheet, 0.4 / (double)n, 0.06);

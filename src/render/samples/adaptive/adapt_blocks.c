@@ -147,22 +147,8 @@ static void plan(koksma__adaptive *run)
     }
 }
 
-static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
-{
-    (void)run; /* plan() sets the demands */
-    (void)pixel;
-    (void)scratch;
-    (void)demand;
-}
-
-static const koksma__adaptive_method method = {.open = open,
-                                               .close = koksma__sets_close,
-                                               .draw = koksma__sets_draw,
-                                               .take = koksma__sets_take,
-                                               .decide = decide,
-                                               .plan = plan,
-                                               .result = koksma__sets_result,
-                                               .part = koksma__sets_part};
+static const koksma__adaptive_method method = {KOKSMA__SETS_METHOD, .open = open, .take = koksma__sets_take,
+                                               .plan = plan};
 
 const koksma_adaptive koksma__adaptive_blocks = {
     .name = "blocks",

@@ -72,13 +72,8 @@ static koksma_status open(koksma__adaptive *run)
     return status;
 }
 
-static const koksma__adaptive_method method = {.open = open,
-                                               .close = koksma__sets_close,
-                                               .draw = koksma__sets_draw,
-                                               .take = koksma__sets_take,
-                                               .decide = decide,
-                                               .result = koksma__sets_result,
-                                               .part = koksma__sets_part};
+static const koksma__adaptive_method method = {KOKSMA__SETS_METHOD, .open = open, .take = koksma__sets_take,
+                                               .decide = decide};
 
 const koksma_adaptive koksma__adaptive_confidence = {
     .name = "confidence",

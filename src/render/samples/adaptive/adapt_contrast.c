@@ -37,13 +37,8 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__s
     }
 }
 
-static const koksma__adaptive_method method = {.open = koksma__sets_open,
-                                               .close = koksma__sets_close,
-                                               .draw = koksma__sets_draw,
-                                               .take = koksma__sets_take,
-                                               .decide = decide,
-                                               .result = koksma__sets_result,
-                                               .part = koksma__sets_part};
+static const koksma__adaptive_method method = {KOKSMA__SETS_METHOD, .open = koksma__sets_open,
+                                               .take = koksma__sets_take, .decide = decide};
 
 const koksma_adaptive koksma__adaptive_contrast = {
     .name = "contrast",

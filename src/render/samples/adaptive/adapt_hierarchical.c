@@ -36,17 +36,7 @@ static koksma_status open(koksma__adaptive *run)
     return status;
 }
 
-static const koksma__adaptive_method method = {.open = open,
-                                               .close = koksma__strata_close,
-                                               .prepare = koksma__strata_prepare,
-                                               .draw = koksma__strata_draw,
-                                               .take = koksma__strata_take,
-                                               .decide = koksma__strata_decide,
-                                               .last = koksma__strata_last,
-                                               .probes = koksma__strata_probes,
-                                               .result = koksma__strata_result,
-                                               .part = koksma__strata_part,
-                                               .show = koksma__strata_show};
+static const koksma__adaptive_method method = {KOKSMA__STRATA_METHOD, .open = open, .decide = koksma__strata_decide};
 
 const koksma_adaptive koksma__adaptive_hierarchical = {
     .name = "hierarchical",

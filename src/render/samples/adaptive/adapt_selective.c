@@ -117,17 +117,7 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__s
     }
 }
 
-static const koksma__adaptive_method method = {.open = open,
-                                               .close = koksma__strata_close,
-                                               .prepare = koksma__strata_prepare,
-                                               .draw = koksma__strata_draw,
-                                               .take = koksma__strata_take,
-                                               .decide = decide,
-                                               .last = koksma__strata_last,
-                                               .probes = koksma__strata_probes,
-                                               .result = koksma__strata_result,
-                                               .part = koksma__strata_part,
-                                               .show = koksma__strata_show};
+static const koksma__adaptive_method method = {KOKSMA__STRATA_METHOD, .open = open, .decide = decide};
 
 const koksma_adaptive koksma__adaptive_selective = {
     .name = "selective",

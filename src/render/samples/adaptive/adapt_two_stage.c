@@ -30,14 +30,6 @@ static const koksma_param params[] = {
     {0},
 };
 
-static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
-{
-    (void)run;
-    (void)pixel;
-    (void)scratch;
-    (void)demand;
-}
-
 /* Returns the squared relative error of one set, estimated from the pilot. */
 static double square_of(const koksma__adaptive *run, size_t pixel)
 {
@@ -133,16 +125,8 @@ static void last(koksma__adaptive *run)
     }
 }
 
-static const koksma__adaptive_method method = {.fresh = true,
-                                               .pilot = true,
-                                               .open = open,
-                                               .close = koksma__sets_close,
-                                               .draw = koksma__sets_draw,
-                                               .take = take,
-                                               .decide = decide,
-                                               .last = last,
-                                               .result = koksma__sets_result,
-                                               .part = koksma__sets_part};
+static const koksma__adaptive_method method = {KOKSMA__SETS_METHOD, .fresh = true, .pilot = true,
+                                               .open = open,        .take = take,  .last = last};
 
 const koksma_adaptive koksma__adaptive_two_stage = {
     .name = "two-stage",

@@ -47,7 +47,7 @@ typedef struct koksma__adaptive_method {
     /* Receives the values of the samples that the pixel demanded. Methods decide by the unweighted values; the result
        uses the weights as film.c describes. */
     void (*take)(koksma__adaptive *run, size_t pixel, const koksma__sample_values *values);
-    /* Determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
+    /* NULL, or determines the next demand of the pixel; *demand is zero before the call, and scratch has run->scratch
        bytes. */
     void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
     /* NULL, or a function that is called between rounds and may examine the whole image and change demands */

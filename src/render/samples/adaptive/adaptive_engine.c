@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "render/aov.h"
@@ -98,7 +99,9 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
         koksma__aov_ids(&j->frame, v, pixel, first, end);
     }
     run->taken[pixel] += (uint32_t)(end - first);
-    run->method->decide(run, pixel, r->scratch, &demand);
+    if (run->method->decide) {
+        run->method->decide(run, pixel, r->scratch, &demand);
+    }
     run->demands[pixel] = demand;
 }
 
@@ -319,9 +322,7 @@ static koksma_status open_run(koksma__adaptive *run)
 {
     run->demands = calloc(run->pixels, sizeof *run->demands);
     run->taken = calloc(run->pixels, sizeof *run->taken);
-    if (!run->demands || !run->taken) {
-        return koksma__fail_memory(run->pixels * sizeof *run->demands);
-    }
+    KOKSMA__REQUIRE_MEMORY(run->demands && run->taken, run->pixels * sizeof *run->demands);
     const koksma_status status = run->method->open(run);
     for (size_t p = 0; !status && p < run->pixels; p++) {
         run->demands[p].selected = true;
@@ -397,10 +398,7 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
         j.frame.sampler = run.base;
     }
     koksma__frame_close(&j.frame);
-    free(run.extra);
-    free(run.sums);
-    free(run.demands);
-    free(run.taken);
+    KOKSMA__FREE(run.extra, run.sums, run.demands, run.taken);
     if (status && status != KOKSMA_INTERRUPTED) {
         koksma_layers_fini(out);
         *out = (koksma_layers){0};

@@ -29,6 +29,10 @@ enum { KOKSMA__SETS_FIRST, KOKSMA__SETS_MOST, KOKSMA__SETS_THRESHOLD };
         "most", "largest number of point sets of a pixel", 64, 1, 1 << 16, NULL, true                                \
     }
 
+/* The members of a method that stand for these functions; two-stage has its own `take`. */
+#define KOKSMA__SETS_METHOD                                                                                          \
+    .close = koksma__sets_close, .draw = koksma__sets_draw, .result = koksma__sets_result, .part = koksma__sets_part
+
 koksma_status koksma__sets_open(koksma__adaptive *run);
 void koksma__sets_close(koksma__adaptive *run);
 koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],

@@ -138,9 +138,7 @@ static koksma_status fill_space(view *v, uint32_t use, size_t n_splits, koksma_s
                             .n_splits = n_splits,
                             .strata = malloc(v->tree->n * sizeof *space->strata),
                             .splits = malloc((n_splits + 1) * sizeof *space->splits)};
-    if (!space->strata || !space->splits) {
-        return koksma__fail_memory(v->tree->n * sizeof *space->strata);
-    }
+    KOKSMA__REQUIRE_MEMORY(space->strata && space->splits, v->tree->n * sizeof *space->strata);
     name_space(use, space->name, sizeof space->name);
     fill_strata(v, space);
     size_t n = 0;

@@ -16,6 +16,12 @@ extern const char *const koksma__reuse_names[];
             true                                                                                                     \
     }
 
+/* The members of a method that stand for the functions of all methods with strata. */
+#define KOKSMA__STRATA_METHOD                                                                                        \
+    .close = koksma__strata_close, .prepare = koksma__strata_prepare, .draw = koksma__strata_draw,                   \
+    .take = koksma__strata_take, .last = koksma__strata_last, .probes = koksma__strata_probes,                       \
+    .result = koksma__strata_result, .part = koksma__strata_part, .show = koksma__strata_show
+
 koksma_status koksma__strata_open(koksma__adaptive *run);
 void koksma__strata_close(koksma__adaptive *run);
 koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel);

@@ -124,10 +124,7 @@ static koksma_status add_scatter(const koksma__cases *cases, void *context, cons
     if (!to->left || strcmp(p->of->label, to->measure) != 0 || p->spp != p->image->spp.at[p->image->spp.n / 2]) {
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma__case_pairs(cases, p, &found);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__case_pairs(cases, p, &found));
     char title[256], name[KOKSMA__VARIANT_TEXT + 64];
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld sample%s: error against %.60s, Spearman %.2f", name, p->spp,

@@ -48,9 +48,7 @@ static koksma_status add_equal(koksma_study *study, koksma__document *d, const c
     koksma__convergence p;
     koksma__summary target = {0};
     double *n = malloc(3 * sizes * sizeof *n);
-    if (!n) {
-        return koksma__fail_memory(3 * sizes * sizeof *n);
-    }
+    KOKSMA__REQUIRE_MEMORY(n, 3 * sizes * sizeof *n);
     const koksma__image_mean first = {c->image, c->scene, c->variant, patterns->at[0], EQUAL_TO};
     koksma_status status = koksma__image_mean_by(study, &first, c->metric, NULL, &target);
     for (size_t i = 0; !status && target.n && i < patterns->n; i++) {

@@ -33,9 +33,7 @@ static koksma_status pair(const side *base, const side *other, double **values, 
     const size_t room = base->mean.n < other->mean.n ? base->mean.n : other->mean.n;
     *n = 0;
     *values = malloc((2 * room + 1) * sizeof **values);
-    if (!*values) {
-        return koksma__fail_memory((2 * room + 1) * sizeof **values);
-    }
+    KOKSMA__REQUIRE_MEMORY(*values, (2 * room + 1) * sizeof **values);
     for (size_t i = 0, k = 0; i < base->mean.n && k < other->mean.n;) {
         const koksma__result *a = &base->results[i], *b = &other->results[k];
         if (a->trial == b->trial) {
@@ -55,10 +53,7 @@ static koksma_status compare(koksma__document *d, const side *base, const side *
 {
     double *values;
     size_t n;
-    const koksma_status status = pair(base, other, &values, &n);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(pair(base, other, &values, &n));
     koksma__estimate e = koksma__relative_change(values + n, values, n);
     if (n == 1 && base->mean.low == base->mean.high && other->mean.low == other->mean.high) { /* both are exact */
         e.low = e.high = e.value;

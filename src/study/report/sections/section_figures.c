@@ -32,9 +32,7 @@ static koksma_status add_points(koksma__document *d, const koksma__figure *f, ch
     unsigned char *svg;
     size_t size;
     koksma_status status = koksma_pattern_spec(f->pattern, &spec);
-    if (!status) {
-        status = koksma_points_init(&points, (size_t)f->n, 2);
-    }
+    status = status ? status : koksma_points_init(&points, (size_t)f->n, 2);
     if (status) {
         return status;
     }
@@ -44,9 +42,7 @@ static koksma_status add_points(koksma__document *d, const koksma__figure *f, ch
         options.columns = options.rows =
             spec.pattern->claims & KOKSMA_CLAIM_LATIN ? (size_t)f->n : (size_t)sqrt((double)f->n);
     }
-    if (!status) {
-        status = koksma_plot_scatter(&points, &options, KOKSMA_PLOT_SVG, &svg, &size);
-    }
+    status = status ? status : koksma_plot_scatter(&points, &options, KOKSMA_PLOT_SVG, &svg, &size);
     if (!status) {
         koksma__doc_svg(d, svg, size, POINTS_WIDTH, f->title);
         free(svg);
@@ -70,12 +66,10 @@ static koksma_status add_space(koksma__document *d, const koksma__figure *f, con
                                        .splits = space->splits,
                                        .n_splits = space->n_splits,
                                        .caption = text};
-    const koksma_status status = koksma_plot_strata(&panel, 1, POINTS_WIDTH, KOKSMA_PLOT_SVG, &svg, &size);
-    if (!status) {
-        koksma__doc_svg(d, svg, size, POINTS_WIDTH, f->title);
-        free(svg);
-    }
-    return status;
+    KOKSMA__TRY(koksma_plot_strata(&panel, 1, POINTS_WIDTH, KOKSMA_PLOT_SVG, &svg, &size));
+    koksma__doc_svg(d, svg, size, POINTS_WIDTH, f->title);
+    free(svg);
+    return KOKSMA_OK;
 }
 
 static const koksma_space *find_space(const koksma_strata *strata, const char *name)
@@ -112,9 +106,8 @@ static koksma_status add_part(koksma__document *d, const koksma__figure *f, cons
     const bool whole = !f->detail[2];
     const int x = (int)f->detail[0], y = (int)f->detail[1], width = whole ? image->width : (int)f->detail[2],
               height = whole ? image->height : (int)f->detail[3];
-    if (x + width > image->width || y + height > image->height) {
-        return koksma__fail(KOKSMA_ARGUMENT, "figure %s: its detail lies beyond the image", f->id);
-    }
+    KOKSMA__FAIL_IF(x + width > image->width || y + height > image->height, KOKSMA_ARGUMENT,
+                    "figure %s: its detail lies beyond the image", f->id);
     koksma_status status = koksma_image_init(&part, width, height, image->channels);
     if (status) {
         return status;
