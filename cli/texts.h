@@ -5,8 +5,8 @@
 
 #include "cli.h"
 
-/* Returns `command`, which is command i of the table, with the placeholders in its texts replaced; texts.c lists the placeholders. Later
-   calls for the same i return the same pointer. */
+/* Returns `command`, which is command i of the table, with the placeholders in its texts replaced; texts.c lists the
+   placeholders. Later calls for the same i return the same pointer. */
 const cli_command *cli_expand(const cli_command *command, size_t i);
 
 /* Writes the endings of image files to `text` and returns it, such as ".exr, .png, .pfm or .jpg". `comma` is put
