@@ -8,8 +8,8 @@
 
 /* Quickselect (Hoare 1961): reorders the indices order[first .. end - 1] so that position `middle` has the index that
    sorting by coordinate k would put there, and no point before it has a larger coordinate. Point i has the
-   coordinates xs[i * dim] to xs[i * dim + dim - 1]. The pivot is not the last point, so that neither side is empty.
-   */
+   coordinates xs[i * dim] to xs[i * dim + dim - 1]. The pivot is never the last point, so that no side
+   is empty. */
 static inline void koksma__select(uint32_t *order, size_t first, size_t end, size_t middle, const double *xs,
                                   size_t dim, size_t k)
 {
