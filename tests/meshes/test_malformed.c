@@ -78,7 +78,7 @@ static const struct {
     {"a.gltf", GLTF(BUFFER "," ACCESSOR "," MESH "," NODE), "accessors[0]: bufferView: there is no buffer view 0"},
     {"a.gltf", GLTF(VIEW "," ACCESSOR "," MESH "," NODE), "bufferViews[0]: buffer: there is no buffer 0"},
     {"a.gltf", GLTF("\"buffers\": [{\"byteLength\": 12, \"uri\": \"x.bin\"}]," VIEW "," ACCESSOR "," MESH "," NODE),
-     "beyond a buffer"},
+     "beyond the end of a buffer"},
     {"a.gltf",
      GLTF("\"buffers\": [{\"byteLength\": 36, \"uri\": \"none.bin\"}]," VIEW "," ACCESSOR "," MESH "," NODE), ""},
     {"a.gltf",
