@@ -344,8 +344,9 @@ koksma_status koksma__json_number(const koksma__json_node *node, double min, dou
 {
     const json_t *value = node->value;
     KOKSMA__JSON_FAIL_IF(!json_is_number(value), node, "it takes a number");
-    *out = json_number_value(value);
-    KOKSMA__JSON_FAIL_IF(!(*out >= min && *out <= max), node, "%.9g is not in %.9g to %.9g", *out, min, max);
+    const double number = json_number_value(value);
+    KOKSMA__JSON_FAIL_IF(!(number >= min && number <= max), node, "%.9g is not in %.9g to %.9g", number, min, max);
+    *out = number;
     return KOKSMA_OK;
 }
 
@@ -353,8 +354,9 @@ koksma_status koksma__json_whole(const koksma__json_node *node, long long min, l
 {
     const json_t *value = node->value;
     KOKSMA__JSON_FAIL_IF(!json_is_integer(value), node, "it takes a whole number");
-    *out = json_integer_value(value);
-    KOKSMA__JSON_FAIL_IF(*out < min || *out > max, node, "%lld is not in %lld to %lld", *out, min, max);
+    const long long whole = json_integer_value(value);
+    KOKSMA__JSON_FAIL_IF(whole < min || whole > max, node, "%lld is not in %lld to %lld", whole, min, max);
+    *out = whole;
     return KOKSMA_OK;
 }
 
@@ -368,8 +370,10 @@ koksma_status koksma__json_flag(const koksma__json_node *node, bool *out)
 
 koksma_status koksma__json_text(const koksma__json_node *node, const char **out)
 {
-    *out = json_string_value(node->value);
-    return *out ? KOKSMA_OK : koksma__json_fail(node, "it takes a text, \"…\"");
+    const char *text = json_string_value(node->value);
+    KOKSMA__JSON_FAIL_IF(!text, node, "it takes a text, \"…\"");
+    *out = text;
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__json_numbers(const koksma__json_node *node, double min, double max, size_t n, double *out)

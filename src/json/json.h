@@ -64,7 +64,8 @@ koksma_status koksma__json_member(const koksma__json_node *node, const char *key
 koksma_status koksma__json_length(const koksma__json_node *node, size_t max, size_t *length);
 koksma__json_node koksma__json_item(const koksma__json_node *node, size_t i);
 
-/* Read the value of a node and check its type and range. Texts are valid as long as the document. */
+/* Read the value of a node and check its type and range; after an error *out is as it was. Texts are valid as long as the
+   document. */
 koksma_status koksma__json_number(const koksma__json_node *node, double min, double max, double *out);
 koksma_status koksma__json_whole(const koksma__json_node *node, long long min, long long max, long long *out);
 koksma_status koksma__json_flag(const koksma__json_node *node, bool *out);

@@ -91,6 +91,29 @@ static void wrong_plans(void **state)
         "[\"star\"], \"n\": [4], \"trials\": 1}], \"tables\": [\n{\"id\": \"1\", \"title\": \"t\", \"measure\": "
         "\"extreme\", \"n\": 4, \"rows\": [{\"pattern\": \"random\", \"label\": \"r\", \"published\": [1,2,3]}]}]}",
         "plan 'p': line 2: tables[0]: no block of the plan makes the row of random");
+    wrong_plan("{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "
+               "[\"star\"], \"n\": [4], \"trials\": 1}], \"tables\": [{\"id\": \"1\", \"title\": \"t\", \"measure\": "
+               "\"star\", "
+               "\"n\": 4, \"rows\": [\n{\"pattern\": \"random\", \"label\": \"r\"}]}]}",
+               "plan 'p': line 2: tables[0].rows[0]: field 'published' is missing");
+    static const struct {
+        const char *size, *reason;
+    } sizes[] = {{"[8.5, 6]", "size[0]: it takes a whole number"},
+                 {"[-1e300, 6]", "size[0]: it takes a whole number"},
+                 {"[8, 0]", "size[1]: 0 is not in 1 to 65536"},
+                 {"[8]", "size: it takes 2 numbers, but has 1 items"},
+                 {"8", "size: it takes a list, […]"}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        char text[512], reason[128];
+        snprintf(
+            text, sizeof text,
+            "{\"name\": \"a\", \"title\": \"b\", \"images\": [{\"scenes\": [\"ball\"], \"patterns\": [\"random\"], "
+            "\"spp\": [4], \"size\": %s, \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": \"random\", "
+            "\"spp\": 4}]}]}",
+            sizes[i].size);
+        snprintf(reason, sizeof reason, "plan 'p': line 1: images[0].%s", sizes[i].reason);
+        wrong_plan(text, reason);
+    }
 }
 
 static void wrong_question(const char *fields, const char *reason)

@@ -155,12 +155,31 @@ static koksma_status check_scenes(const koksma__json_node *node, const koksma__t
     return status;
 }
 
+static koksma_status parse_size(const koksma__json_node *node, koksma__image_block *b)
+{
+    koksma__json_node size;
+    size_t length;
+    long long sides[2];
+    if (!koksma__json_has(node, "size")) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__json_member(node, "size", &size));
+    KOKSMA__TRY(koksma__json_length(&size, SIZE_MAX, &length));
+    KOKSMA__JSON_FAIL_IF(length != 2, &size, "it takes 2 numbers, but has %zu items", length);
+    for (size_t i = 0; i < 2; i++) {
+        const koksma__json_node side = koksma__json_item(&size, i);
+        KOKSMA__TRY(koksma__json_whole(&side, 1, KOKSMA_MAX_IMAGE_SIDE, &sides[i]));
+    }
+    b->width = (int)sides[0];
+    b->height = (int)sides[1];
+    return KOKSMA_OK;
+}
+
 static koksma_status parse_image(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "id",     "scenes", "patterns",   "spp",  "options",
                                        "size",    "trials", "quick",  "references", "skip", NULL};
     koksma__image_block *b = item;
-    double size[2] = {0, 0};
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
     status = status ? status : koksma__plan_texts(node, "scenes", NULL, &b->scenes);
@@ -169,10 +188,8 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
     status = status ? status : koksma__plan_check_spp(node, b);
-    status = status ? status : koksma__json_get_numbers(node, "size", false, 1, KOKSMA_MAX_IMAGE_SIDE, 2, size);
+    status = status ? status : parse_size(node, b);
     status = status ? status : parse_trials(node, trials, &b->trials);
-    b->width = (int)size[0];
-    b->height = (int)size[1];
     return status ? status
                   : koksma__plan_list(node, "references", true, sizeof *b->references, parse_reference, trials,
                                       (void **)&b->references, &b->n_references);

@@ -208,8 +208,10 @@ koksma_status koksma__plan_check_measures(const koksma__json_node *node, const k
         if (status) {
             koksma__json_node list;
             const koksma_status found = koksma__json_member(node, error ? "integrands" : "measures", &list);
-            const koksma__json_node item = koksma__json_item(&list, error ? m - first : m);
-            status = found ? found : koksma__json_fail_in(&item, status);
+            if (!found) {
+                const koksma__json_node item = koksma__json_item(&list, error ? m - first : m);
+                status = koksma__json_fail_in(&item, status);
+            }
         }
     }
     koksma_points_fini(&point);

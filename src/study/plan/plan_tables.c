@@ -49,16 +49,18 @@ static koksma_status parse_printed(const koksma__json_node *node, koksma__printe
 static koksma_status parse_published(const koksma__json_node *node, koksma__table_row *row)
 {
     koksma__json_node list;
-    size_t length = 0;
-    koksma_status status = koksma__json_member(node, "published", &list);
-    status = status ? status : koksma__json_length(&list, KOKSMA__TABLE_PRINTED, &length);
+    size_t length;
     for (size_t i = 0; i < KOKSMA__TABLE_PRINTED; i++) {
-        const koksma__json_node item = koksma__json_item(&list, i);
         row->published[i] = (koksma__printed){.value = NAN};
-        status = !status && i < length ? parse_printed(&item, &row->published[i]) : status;
+    }
+    KOKSMA__TRY(koksma__json_member(node, "published", &list));
+    KOKSMA__TRY(koksma__json_length(&list, KOKSMA__TABLE_PRINTED, &length));
+    for (size_t i = 0; i < length; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        KOKSMA__TRY(parse_printed(&item, &row->published[i]));
     }
     row->n_published = length;
-    return status;
+    return KOKSMA_OK;
 }
 
 /* ---- Tables ---------------------------------------------------------------------------------------------- */
