@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Readers: src/scene src/json */
+/* Mutator: fuzz/mutate_json.c */
 /* Fuzzes the parser of scene files: any text gives a scene or an error. */
 #include "scene/scene.h"
 #include "target.h"

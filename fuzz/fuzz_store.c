@@ -1,18 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Readers: src/study/store */
 /*
- * Damaged databases of studies. The input is a list of places and bytes that are put there: 3 bytes of offset, one of
- * length, the bytes; the end cuts the file off when the offset is its last. What is left is exported, reported and
- * run.
+ * Damaged and forged databases of studies. The first byte of the input chooses a database (of the present schema, or one of
+ * tests/study/stores) and what is done with it: export, run and report, the same without the plan's file, or audit. The
+ * second chooses the kind of change, of which the other bytes are a list:
+ *   bytes    3 bytes of offset, one of length, the bytes that are put there; length 0 cuts the file off
+ *   values   table, row, column, one byte each, and the kind of the new value, its length and its bytes; the seal is then
+ *            that of the changed rows
  */
+#include <dirent.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
+
+#include <sqlite3.h>
 
 #include <koksma/study.h>
 
+#include "study/store/seal.h"
 #include "target.h"
 
 static const char plan[] =
@@ -21,21 +28,65 @@ static const char plan[] =
     "\"trials\": 30}], \"questions\": [{\"id\": \"e\", \"kind\": \"table\", \"title\": \"t\", "
     "\"discrepancies\": \"d\"}]}";
 
+enum { MAX_FILE = 1 << 17 };
+typedef struct sound {
+    const char *plan; /* its path */
+    size_t size;
+    unsigned char bytes[MAX_FILE];
+} sound;
+
+/* The first is made by a run, the others are files of tests/study/stores. */
+static const char *const past[] = {"schema_3", "schema_4", "schema_5", "plan_6"};
+enum { N_BASES = 1 + sizeof past / sizeof *past };
+static sound bases[N_BASES];
 static char folder[64], database[80], plan_path[80];
-static unsigned char *sound;
-static size_t sound_size;
+
+/* Removes the files of a folder below `folder`, and of `folder` if name is NULL, and the folder. */
+static void remove_folder(const char *name)
+{
+    char path[400];
+    snprintf(path, sizeof path, "%s%s%s", folder, name ? "/" : "", name ? name : "");
+    DIR *entries = opendir(path);
+    const size_t length = strlen(path);
+    for (struct dirent *e; entries && (e = readdir(entries));) {
+        if (e->d_name[0] == '.' && (!e->d_name[1] || e->d_name[1] == '.')) {
+            continue;
+        }
+        snprintf(path + length, sizeof path - length, "/%s", e->d_name);
+        if (unlink(path) && !name) {
+            remove_folder(e->d_name);
+        }
+    }
+    if (entries) {
+        closedir(entries);
+    }
+    path[length] = '\0';
+    rmdir(path);
+}
 
 static void clean_up(void)
 {
-    static const char *const names[] = {"plan.json",          "results.sqlite",         "results.sqlite-wal",
-                                        "results.sqlite-shm", "results.sqlite-journal", "report.html",
-                                        "references"};
-    char path[96];
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        remove(path);
+    remove_folder(NULL);
+}
+
+static void write_file(const char *path, const void *bytes, size_t size)
+{
+    FILE *f = fopen(path, "wb");
+    if (!f || fwrite(bytes, 1, size, f) != size || fclose(f)) {
+        abort();
     }
-    rmdir(folder);
+}
+
+static void read_base(const char *path, sound *to)
+{
+    FILE *f = fopen(path, "rb");
+    if (!f) {
+        abort();
+    }
+    to->size = fread(to->bytes, 1, sizeof to->bytes, f);
+    if (fclose(f) || to->size == 0 || to->size == sizeof to->bytes) {
+        abort();
+    }
 }
 
 static bool a_while(void *context, double fraction)
@@ -45,11 +96,10 @@ static bool a_while(void *context, double fraction)
     return ++*looks < 100000;
 }
 
-static void run_study(bool with_plan)
+static void run_study(const char *with_plan)
 {
     int looks = 0;
-    const char *const plans[] = {plan_path};
-    const koksma_study_options options = {.plans = plans, .n_plans = with_plan, .folder = folder};
+    const koksma_study_options options = {.plans = &with_plan, .n_plans = with_plan != NULL, .folder = folder};
     const koksma_run run = {.threads = 1, .time_limit_s = 0.5, .keep_going = a_while, .context = &looks};
     koksma_study *study = NULL;
     koksma_status status = koksma_study_open(&options, &study);
@@ -61,7 +111,16 @@ static void run_study(bool with_plan)
     fuzz_check_status(koksma_study_close(study));
 }
 
-static void make_sound(void)
+static void audit(void)
+{
+    int looks = 0;
+    const koksma_audit_options options = {.folder = folder, .rows = 10, .seed = 1};
+    const koksma_run run = {.threads = 1, .time_limit_s = 0.5, .keep_going = a_while, .context = &looks};
+    koksma_audit result;
+    fuzz_check_status(koksma_study_audit(&options, &run, &result));
+}
+
+static void make_bases(void)
 {
     snprintf(folder, sizeof folder, "%s/koksma-fuzz-store-XXXXXX", fuzz_place());
     if (!mkdtemp(folder)) {
@@ -70,65 +129,234 @@ static void make_sound(void)
     atexit(clean_up);
     snprintf(database, sizeof database, "%s/results.sqlite", folder);
     snprintf(plan_path, sizeof plan_path, "%s/plan.json", folder);
-    FILE *f = fopen(plan_path, "w");
-    if (!f || fputs(plan, f) < 0 || fclose(f)) {
-        abort();
+    write_file(plan_path, plan, sizeof plan - 1);
+    run_study(plan_path);
+    bases[0].plan = plan_path;
+    read_base(database, &bases[0]);
+    for (size_t i = 1; i < N_BASES; i++) {
+        char path[512];
+        snprintf(path, sizeof path, KOKSMA_FUZZ_STUDY "/stores/%s.sqlite", past[i - 1]);
+        bases[i].plan = KOKSMA_FUZZ_STUDY "/plan.json";
+        read_base(path, &bases[i]);
     }
-    run_study(true);
-    struct stat about;
-    f = fopen(database, "rb");
-    if (!f || fstat(fileno(f), &about) || !(sound = malloc((size_t)about.st_size))) {
-        abort();
-    }
-    sound_size = fread(sound, 1, (size_t)about.st_size, f);
-    fclose(f);
 }
 
-static size_t damage(unsigned char *to, const uint8_t *bytes, size_t size)
+/* Writes the file with its bytes changed as the input says. */
+static void damage(const sound *base, const uint8_t *bytes, size_t size)
 {
-    memcpy(to, sound, sound_size);
-    size_t left = sound_size;
+    static unsigned char damaged[MAX_FILE];
+    memcpy(damaged, base->bytes, base->size);
+    size_t left = base->size;
     for (size_t i = 0; i + 4 <= size;) {
-        const size_t offset = (bytes[i] | (size_t)bytes[i + 1] << 8 | (size_t)bytes[i + 2] << 16) % (sound_size + 1);
+        const size_t offset = (bytes[i] | (size_t)bytes[i + 1] << 8 | (size_t)bytes[i + 2] << 16) % (base->size + 1);
         size_t length = bytes[i + 3];
         i += 4;
         length = length < size - i ? length : size - i;
         if (length == 0) {
             left = offset;
         }
-        length = length < sound_size - offset ? length : sound_size - offset;
-        memcpy(to + offset, bytes + i, length);
+        length = length < base->size - offset ? length : base->size - offset;
+        memcpy(damaged + offset, bytes + i, length);
         i += length;
     }
-    return left;
+    write_file(database, damaged, left);
+}
+
+/* The tables that the seal covers, and the columns that lead to one row. */
+static const struct {
+    const char *name, *key;
+} tables[] = {{"meta", "key"},
+              {"series", "id"},
+              {"result", "id"},
+              {"reference", "scene, scene_hash, options, width, height, reference, made_by"}};
+enum { N_TABLES = sizeof tables / sizeof *tables };
+
+/* The kinds of a new value. A row is removed where it would be DELETE. */
+enum { WHOLE, REAL, TEXT, NOTHING, DELETE, N_KINDS };
+
+static const char *text_at(sqlite3_stmt *row, int column)
+{
+    const char *text = (const char *)sqlite3_column_text(row, column);
+    return text ? text : "";
+}
+
+static double number_at(sqlite3_stmt *row, int column)
+{
+    return sqlite3_column_type(row, column) == SQLITE_NULL ? (double)NAN : sqlite3_column_double(row, column);
+}
+
+/* NULL: SQLite refuses the statement. */
+static sqlite3_stmt *prepare(sqlite3 *store, const char *sql)
+{
+    sqlite3_stmt *row = NULL;
+    sqlite3_prepare_v2(store, sql, -1, &row, NULL);
+    return row;
+}
+
+/* Makes the seal that of the rows as they are now (seal.c). */
+static void seal_again(sqlite3 *store, bool has_metric)
+{
+    koksma__seal seal = {0};
+    sqlite3_stmt *row = prepare(store, "SELECT key, value FROM meta WHERE key <> 'seal'");
+    while (row && sqlite3_step(row) == SQLITE_ROW) {
+        koksma__seal_add(&seal, 1, koksma__checksum_of_text(text_at(row, 0), text_at(row, 1)));
+    }
+    sqlite3_finalize(row);
+    char sql[200];
+    snprintf(
+        sql, sizeof sql,
+        "SELECT id, kind, scene, scene_hash, options, pattern, what, made_by, measured_by, n, dim, width, height, %s "
+        "FROM series",
+        has_metric ? "metric" : "''");
+    row = prepare(store, sql);
+    while (row && sqlite3_step(row) == SQLITE_ROW) {
+        const koksma__series key = {.kind = text_at(row, 1),
+                                    .scene = text_at(row, 2),
+                                    .scene_hash = text_at(row, 3),
+                                    .options = text_at(row, 4),
+                                    .pattern = text_at(row, 5),
+                                    .what = text_at(row, 6),
+                                    .made_by = text_at(row, 7),
+                                    .measured_by = text_at(row, 8),
+                                    .n = sqlite3_column_int64(row, 9),
+                                    .dim = sqlite3_column_int64(row, 10),
+                                    .width = sqlite3_column_int64(row, 11),
+                                    .height = sqlite3_column_int64(row, 12),
+                                    .metric = text_at(row, 13)};
+        koksma__seal_add(&seal, 1, koksma__checksum_of_series(&key, sqlite3_column_int64(row, 0)));
+    }
+    sqlite3_finalize(row);
+    row = prepare(store, "SELECT id, seed, v0, v1, v2, v3 FROM result");
+    while (row && sqlite3_step(row) == SQLITE_ROW) {
+        koksma__row result = {.id = sqlite3_column_int64(row, 0), .seed = (uint64_t)sqlite3_column_int64(row, 1)};
+        for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+            result.values[k] = number_at(row, 2 + k);
+        }
+        koksma__seal_add(&seal, 1, koksma__checksum_of_row(&result));
+    }
+    sqlite3_finalize(row);
+    row =
+        prepare(store, "SELECT scene, scene_hash, options, reference, made_by, width, height, standard_error, pixels "
+                       "FROM reference");
+    while (row && sqlite3_step(row) == SQLITE_ROW) {
+        const koksma__series key = {.scene = text_at(row, 0),
+                                    .scene_hash = text_at(row, 1),
+                                    .options = text_at(row, 2),
+                                    .what = text_at(row, 3),
+                                    .made_by = text_at(row, 4),
+                                    .width = sqlite3_column_int64(row, 5),
+                                    .height = sqlite3_column_int64(row, 6)};
+        koksma__seal_add(&seal, 1, koksma__checksum_of_reference(&key, number_at(row, 7), text_at(row, 8)));
+    }
+    sqlite3_finalize(row);
+    row = prepare(store, "UPDATE meta SET value = ? || ' ' || ? WHERE key = 'seal'");
+    char sum[32];
+    snprintf(sum, sizeof sum, "%llu", (unsigned long long)seal.sum);
+    sqlite3_bind_int64(row, 1, seal.rows);
+    sqlite3_bind_text(row, 2, sum, -1, SQLITE_TRANSIENT);
+    sqlite3_step(row);
+    sqlite3_finalize(row);
+}
+
+static void bind_value(sqlite3_stmt *row, int kind, const uint8_t *bytes, size_t size)
+{
+    int64_t whole = 0;
+    double real = 0;
+    memcpy(&whole, bytes, size < sizeof whole ? size : sizeof whole);
+    memcpy(&real, bytes, size < sizeof real ? size : sizeof real);
+    if (kind == WHOLE) {
+        sqlite3_bind_int64(row, 1, whole);
+    } else if (kind == REAL) {
+        sqlite3_bind_double(row, 1, real);
+    } else if (kind == TEXT) {
+        sqlite3_bind_text(row, 1, (const char *)bytes, (int)size, SQLITE_TRANSIENT);
+    } /* else NULL */
+}
+
+/* Writes the file with values of its tables changed as the input says, and a seal that fits. What SQLite refuses (a value
+   of another type, a key that is there) is left out. */
+static void forge(const sound *base, const uint8_t *bytes, size_t size)
+{
+    write_file(database, base->bytes, base->size);
+    sqlite3 *store;
+    if (sqlite3_open(database, &store)) {
+        abort();
+    }
+    sqlite3_exec(
+        store, "PRAGMA journal_mode = DELETE; PRAGMA synchronous = OFF; PRAGMA ignore_check_constraints = ON; BEGIN",
+        NULL, NULL, NULL);
+    for (size_t i = 0; i + 5 <= size;) {
+        const int table = bytes[i] % N_TABLES, kind = bytes[i + 3] % N_KINDS;
+        const size_t left = size - i - 5, length = bytes[i + 4] < left ? bytes[i + 4] : left;
+        char sql[400];
+        snprintf(sql, sizeof sql, "SELECT name FROM pragma_table_info('%s') WHERE cid = %d", tables[table].name,
+                 bytes[i + 2] % 16);
+        sqlite3_stmt *row = prepare(store, sql);
+        char column[40] = "";
+        if (row && sqlite3_step(row) == SQLITE_ROW) {
+            snprintf(column, sizeof column, "%s", text_at(row, 0));
+        }
+        sqlite3_finalize(row);
+        snprintf(sql, sizeof sql, "WHERE (%s) = (SELECT %s FROM %s LIMIT 1 OFFSET %d)", tables[table].key,
+                 tables[table].key, tables[table].name, bytes[i + 1]);
+        char change[500];
+        if (kind < DELETE) {
+            snprintf(change, sizeof change, "UPDATE OR IGNORE %s SET %s = ? %s", tables[table].name, column, sql);
+        } else {
+            snprintf(change, sizeof change, "DELETE FROM %s %s", tables[table].name, sql);
+        }
+        row = *column ? prepare(store, change) : NULL;
+        if (row) {
+            bind_value(row, kind, bytes + i + 5, length);
+            sqlite3_step(row);
+            sqlite3_finalize(row);
+        }
+        i += 5 + length;
+    }
+    const size_t which = (size_t)(base - bases);
+    if (which == 0 || which == N_BASES - 1) { /* older ones have no seal */
+        seal_again(store, which == 0);
+    }
+    if (sqlite3_exec(store, "COMMIT", NULL, NULL, NULL) || sqlite3_close(store)) {
+        abort();
+    }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    if (!sound) {
-        make_sound();
+    if (!bases[0].size) {
+        make_bases();
     }
-    unsigned char *damaged = malloc(sound_size);
-    if (!damaged) {
+    if (size < 2) {
         return 0;
     }
-    const size_t left = damage(damaged, bytes, size);
-    for (int what = 0; what < 3; what++) {
-        char side[96];
-        snprintf(side, sizeof side, "%s-wal", database);
-        remove(side);
-        snprintf(side, sizeof side, "%s-journal", database);
-        remove(side);
-        FILE *f = fopen(database, "wb");
-        if (!f || fwrite(damaged, 1, left, f) != left || fclose(f)) {
-            abort();
-        }
-        if (what == 0) {
-            fuzz_check_status(koksma_study_export(folder, KOKSMA_EXPORT_CSV, "/dev/null"));
-        } else {
-            run_study(what == 1);
-        }
+    const sound *base = &bases[bytes[0] / 4 % N_BASES];
+    char side[96];
+    snprintf(side, sizeof side, "%s-wal", database);
+    remove(side);
+    snprintf(side, sizeof side, "%s-journal", database);
+    remove(side);
+    if (bytes[1] % 2) {
+        forge(base, bytes + 2, size - 2);
+    } else {
+        damage(base, bytes + 2, size - 2);
     }
-    free(damaged);
+    switch (bytes[0] % 4) {
+    case 0:
+        fuzz_check_status(koksma_study_export(folder, KOKSMA_EXPORT_CSV, "/dev/null"));
+        break;
+    case 1:
+        run_study(base->plan);
+        break;
+    case 2:
+        run_study(NULL);
+        break;
+    default:
+        audit();
+        break;
+    }
+    if (base != &bases[0]) {
+        remove_folder("references");
+    }
     return 0;
 }

@@ -1,6 +1,7 @@
 #!/bin/sh
-# fuzz_times.sh: `scripts/fuzz spent` counts the seconds of a target while the code of its readers is the same, comments aside,
-# and `scripts/fuzz record` moves them to fuzz/spent.csv once its readers are committed; tried in a repository of its own.
+# fuzz_times.sh: `scripts/fuzz spent` counts the seconds of a target while its code and that of its readers are the same,
+# comments aside, and `scripts/fuzz record` moves them to fuzz/spent.csv once the readers are committed; tried in a repository
+# of its own.
 # Exit code 77: git is not installed.
 set -u
 command -v git >/dev/null || { echo "git is not installed"; exit 77; }
@@ -58,6 +59,12 @@ save 'a file more'
 expect 'a file more' one '0 s on the present readers, 135 s on others'
 git rm -q src/other/added.c && save 'a file less'
 expect 'a file less' one '35 s on the present readers, 100 s on others'
+
+printf '/* Readers: src/one.c src/other */\nint target;\n' >fuzz/fuzz_one.c
+expect 'other code of the target' one '0 s on the present readers, 135 s on others'
+save 'other code of the target'
+echo "$(head),one,5" >>fuzz/spent.csv
+expect 'on the new target' one '5 s on the present readers, 135 s on others'
 rm src/two.c
 expect 'a file that is gone' two '0 s on the present readers, 7 s on others'
 exit $failed
