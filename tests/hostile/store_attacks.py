@@ -108,7 +108,8 @@ def foreign():
     os.symlink("../results.sqlite", "f/results.sqlite")
     refused("behind a link", "f")
     os.remove("f/results.sqlite")
-    for name, content in {"text": b"no database, but long enough to be one\n" * 9, "the head alone": b"SQLite format 3\0"}.items():
+    for name, content in {"text": b"no database, but long enough to be one\n" * 9, "the head alone": b"SQLite format 3\0",
+                          "empty": b""}.items():
         with open("f/results.sqlite", "wb") as file:
             file.write(content)
         refused(name, "f")
@@ -121,6 +122,24 @@ def foreign():
     os.mkfifo("f/results.sqlite-wal")
     for verb in "export", "report", "audit":
         check(study(verb, "f").returncode == 3, f"a fifo for a log: {verb}")
+    os.remove("f/results.sqlite-wal")
+    os.symlink("../plan.json", "f/results.sqlite-wal")
+    for verb in "export", "report", "run", "audit":
+        told = study(verb, "f")
+        check(told.returncode == 3 and "results.sqlite-wal" in told.stderr, f"a link for a log: {verb}: {told}")
+    os.remove("f/results.sqlite-wal")
+    # The journal of another program's database: SQLite would roll it back into the study's.
+    database = sqlite3.connect("foreign.sqlite", isolation_level=None)
+    database.execute("CREATE TABLE t (x)")
+    database.executemany("INSERT INTO t VALUES (?)", [("x" * 500,)] * 500)
+    database.execute("PRAGMA cache_size=1")
+    database.execute("BEGIN")
+    database.execute("UPDATE t SET x = 'y'") # more than the cache holds, so that the journal is complete and synced
+    shutil.copy("foreign.sqlite-journal", "f/results.sqlite-journal")
+    check(os.path.getsize("f/results.sqlite-journal") > 4096, "there is a journal")
+    database.execute("ROLLBACK")
+    database.close()
+    refused("with another's journal", "f")
     shutil.rmtree("f")
 
 
@@ -268,6 +287,50 @@ def references():
     check(study("run", "x").returncode == 0, "a run makes a reference again")
     koksma("study", "run", "./plan.json", "-o", "whole", "-q", "--trials", "7")
     check(study("export", "x").stdout == study("export", "whole").stdout, "rows with a reference that was made again")
+    # What is no plain file is not opened: a fifo would be waited for.
+    copy("x")
+    os.rename("x/" + name, "elsewhere.exr")
+    os.mkfifo("fifo-elsewhere")
+    for make in os.mkfifo, lambda path: os.symlink("../../fifo-elsewhere", path), os.mkdir:
+        make("x/" + name)
+        for verb in "report", "run":
+            told = study(verb, "x")
+            check(told.returncode == 3 and name in told.stderr, f"a reference that is no file: {verb}: {told}")
+        found("a reference that is no file", "x", name)
+        (os.rmdir if make is os.mkdir else os.remove)("x/" + name)
+    # A folder of references that is a link, a file, or not readable.
+    for what in "link", "file":
+        copy("x")
+        os.rename("x/references", "x/elsewhere")
+        if what == "link":
+            os.symlink("elsewhere", "x/references")
+        else:
+            open("x/references", "wb").close()
+        for verb in "report", "run", "audit":
+            told = study(verb, "x")
+            check(told.returncode == 3 and "x/references: not a folder" in told.stderr and not told.stdout, f"references is a {what}: {verb}: {told}")
+    if os.getuid() == 0 and shutil.which("setpriv"):
+        copy("x")
+        os.chmod(".", 0o755)
+        for at, _, _ in os.walk("x"):
+            os.chown(at, 65534, 65534)
+        os.chmod("x/references", 0)
+        for verb in "report", "audit":
+            told = koksma("study", verb, "x", prefix=("setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups"))
+            check(told.returncode == 4 and "Permission denied" in told.stderr, f"references that can't be read: {verb}: {told}")
+
+
+def exports():
+    """No export replaces the results that it reads, by whatever name."""
+    copy("e")
+    os.symlink("results.sqlite", "e/link.csv")
+    os.link("e/results.sqlite", "second.npy")
+    os.symlink("e/results.sqlite", "far.json")
+    before = bytes_of("e")
+    for path in "e/results.sqlite", "e/link.csv", "second.npy", "far.json", "./e/../e/results.sqlite":
+        told = study("export", "e", "--format", "csv", "-o", path)
+        check(told.returncode == 2 and path in told.stderr, f"an export over the results: {told}")
+        check(bytes_of("e") == before, f"an export over the results as {path}: they are changed")
 
 
 def programs():
@@ -347,7 +410,7 @@ if __name__ == "__main__":
             file.write(PLAN)
         assert koksma("study", "run", "./plan.json", "-o", "sound", "-q").returncode == 0
         SOUND = study("export", "sound").stdout
-        for attack in foreign, schema, values, rows, references, programs, readers:
+        for attack in foreign, schema, values, rows, references, exports, programs, readers:
             attack()
     print(f"{problems} problems")
     sys.exit(problems > 0)

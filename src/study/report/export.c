@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/atomic_file.h"
 #include "core/capacity.h"
@@ -304,6 +305,20 @@ static koksma_status write_rows(koksma__store *store, koksma_export_format forma
     return koksma__fail(KOKSMA_ARGUMENT, "no export format %d", (int)format);
 }
 
+/* Whether `path` is the store's file or its log, also by another name. */
+static bool is_store(const char *results, const char *path)
+{
+    static const char *const endings[] = {"", "-wal", "-shm", "-journal"};
+    struct stat info, other;
+    char name[KOKSMA__PATH + 16];
+    bool same = false;
+    for (size_t i = 0; i < sizeof endings / sizeof *endings && !stat(path, &info); i++) {
+        snprintf(name, sizeof name, "%s%s", results, endings[i]);
+        same |= !stat(name, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
+    }
+    return same;
+}
+
 koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path)
 {
     KOKSMA__REQUIRE(folder, path);
@@ -312,6 +327,8 @@ koksma_status koksma_study_export(const char *folder, koksma_export_format forma
     koksma__atomic_file file;
     writer w = {0};
     snprintf(results, sizeof results, "%s/results.sqlite", folder);
+    KOKSMA__FAIL_IF(is_store(results, path), KOKSMA_ARGUMENT,
+                    "%s: the export would replace the study's results, which it reads; choose another file", path);
     koksma_status status = koksma__store_open(results, KOKSMA__STORE_READ, NULL, &store);
     if (status) {
         return status;

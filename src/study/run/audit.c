@@ -19,6 +19,7 @@
 #include "core/c_locale.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "image/registry.h"
 #include "stats/log_gamma.h"
 #include "study/run/audit_series.h"
 #include "study/run/mpi_rank.h"
@@ -205,14 +206,16 @@ static koksma_status check_file(audit *a, const koksma__reference_image *referen
 {
     char path[KOKSMA__PATH], found[KOKSMA__SHA256_TEXT];
     koksma_image image;
-    if (!koksma__reference_exists(a->study, reference)) {
+    bool exists;
+    KOKSMA__TRY(koksma__reference_find(a->study, reference, &exists));
+    if (!exists) {
         pthread_mutex_lock(&a->lock);
         a->out->references_missing++;
         pthread_mutex_unlock(&a->lock);
         return KOKSMA_OK;
     }
     koksma__reference_path(a->study, reference, path, sizeof path);
-    const koksma_status status = koksma_image_read(path, &image);
+    const koksma_status status = koksma__image_read(path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &image);
     if (koksma__ends_all(status)) {
         return status;
     }
@@ -340,7 +343,9 @@ koksma_status koksma_study_audit(const koksma_audit_options *options, const koks
     }
     a.study->sink = &sink;
     pthread_mutex_init(&a.lock, NULL);
+    bool has_references;
     koksma_status status = koksma__mpi_check();
+    status = status ? status : koksma__references_folder(a.study, &has_references);
     status = status ? status : list_series(&a);
     status = status ? status : compare(&a, run);
     koksma__mpi_release();

@@ -42,15 +42,16 @@ static koksma_status add_tiles(koksma__reference_tiles *tiles, size_t reference)
     return status;
 }
 
-/* Whether the study's folder has the reference's file, and its store has the row with the file's hash and the
+/* Finds whether the study's folder has the reference's file, and its store has the row with the file's hash and the
    reference's own error. If the database was removed, or predates the hashes, the reference is rendered again. */
-static bool is_kept(const koksma_study *study, const koksma__reference_image *reference)
+static koksma_status find_kept(const koksma_study *study, const koksma__reference_image *reference, bool *kept)
 {
     char name[KOKSMA__REFERENCE_NAME];
     const koksma__series key = koksma__reference_key(reference, name);
     koksma__reference_row row;
-    return koksma__reference_exists(study, reference) && !koksma__store_reference(study->store, &key, &row) &&
-           row.pixels[0];
+    const koksma_status status = koksma__reference_find(study, reference, kept);
+    *kept = !status && *kept && !koksma__store_reference(study->store, &key, &row) && row.pixels[0];
+    return status;
 }
 
 koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_tiles *tiles)
@@ -71,9 +72,11 @@ koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_t
             if (study->references[index].image.pixels || tiles->rows_left[index]) {
                 continue;
             }
-            status = !study->sink && is_kept(study, &study->references[index])
-                         ? koksma__reference_read(study, &study->references[index])
-                         : add_tiles(tiles, index);
+            bool kept = false;
+            status = study->sink ? KOKSMA_OK : find_kept(study, &study->references[index], &kept);
+            status = status ? status
+                     : kept ? koksma__reference_read(study, &study->references[index])
+                            : add_tiles(tiles, index);
         }
     }
     if (status) {

@@ -7,6 +7,7 @@
  */
 #include "study/run/references.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,12 +113,30 @@ void koksma__reference_path(const koksma_study *study, const koksma__reference_i
     snprintf(path, size, "%s/references/%016llx.exr", study->folder, (unsigned long long)key);
 }
 
-bool koksma__reference_exists(const koksma_study *study, const koksma__reference_image *reference)
+koksma_status koksma__references_folder(const koksma_study *study, bool *exists)
 {
     char path[KOKSMA__PATH];
     struct stat info;
-    koksma__reference_path(study, reference, path, sizeof path);
-    return !stat(path, &info);
+    snprintf(path, sizeof path, "%s/references", study->folder);
+    *exists = !lstat(path, &info);
+    KOKSMA__FAIL_IF(!*exists && errno != ENOENT, KOKSMA_IO, "%s: %s", path, strerror(errno));
+    KOKSMA__FAIL_IF(*exists && !S_ISDIR(info.st_mode), KOKSMA_MALFORMED,
+                    "%s: not a folder; a link is not followed here", path);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__reference_find(const koksma_study *study, const koksma__reference_image *reference,
+                                     bool *exists)
+{
+    char path[KOKSMA__PATH];
+    struct stat info;
+    KOKSMA__TRY(koksma__references_folder(study, exists));
+    if (*exists) {
+        koksma__reference_path(study, reference, path, sizeof path);
+        *exists = !stat(path, &info);
+        KOKSMA__FAIL_IF(!*exists && errno != ENOENT, KOKSMA_IO, "%s: can't be read: %s", path, strerror(errno));
+    }
+    return KOKSMA_OK;
 }
 
 void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA256_TEXT])

@@ -70,7 +70,10 @@ koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *
    do not match the hash in the store), those of koksma_image_read. */
 koksma_status koksma__reference_read(const koksma_study *study, koksma__reference_image *reference);
 
-/* Whether the reference's file exists. */
-bool koksma__reference_exists(const koksma_study *study, const koksma__reference_image *reference);
+/* Find whether DIR/references, and the reference's file in it, exist. Errors: MALFORMED (DIR/references is a link, or no
+   folder), IO (it can't be read). */
+koksma_status koksma__references_folder(const koksma_study *study, bool *exists);
+koksma_status koksma__reference_find(const koksma_study *study, const koksma__reference_image *reference,
+                                     bool *exists);
 
 #endif

@@ -124,10 +124,10 @@ static koksma_status open_file(const char *path, held_file **out)
 
 /* Finds whether a file exists and its size. Fails if it is not a regular file, because reading a pipe might not
    end. */
-static koksma_status look_at(const char *path, bool *exists, long long *size)
+static koksma_status look_at(const char *path, bool follow_link, bool *exists, long long *size)
 {
     struct stat info;
-    *exists = !stat(path, &info);
+    *exists = !(follow_link ? stat(path, &info) : lstat(path, &info));
     *size = *exists ? (long long)info.st_size : 0;
     KOKSMA__FAIL_IF(!*exists && errno != ENOENT, errno == ENOTDIR ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path,
                     strerror(errno));
@@ -135,13 +135,14 @@ static koksma_status look_at(const char *path, bool *exists, long long *size)
                                              : KOKSMA_OK;
 }
 
-/* Finds the size of a file that SQLite writes beside the database, with the ending "-wal" or "-journal". */
+/* Finds the size of a file that SQLite writes beside the database, with the ending "-wal" or "-journal". It follows no link
+   there. */
 static koksma_status look_beside(const char *path, const char *ending, long long *size)
 {
     char beside[MAX_PATH + 16];
     bool exists;
     strcpy(stpcpy(beside, path), ending);
-    return look_at(beside, &exists, size);
+    return look_at(beside, false, &exists, size);
 }
 
 static uint32_t word_at(const unsigned char *bytes)
@@ -155,21 +156,14 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
     long long size;
     held_file *held;
     *header = (koksma__database_header){0};
-    long long journal = 0;
-    koksma_status status = look_at(path, &header->exists, &size);
-    header->is_empty = header->exists && size == 0;
-    if (status || !size) {
+    koksma_status status = look_at(path, true, &header->exists, &size);
+    if (status || !header->exists) {
         return status;
     }
+    KOKSMA__FAIL_IF(size == 0, KOKSMA_MALFORMED, "%s: it is empty; move it away to begin anew", path);
     /* symbolic links are resolved first, because SQLite's VFS does not follow them here */
     char *real = realpath(path, NULL);
-    if (real && strlen(real) < MAX_PATH) {
-        status = look_beside(real, "-journal", &journal);
-        header->has_journal = journal > 0;
-    }
-    status = status ? status
-             : real ? open_file(real, &held)
-                    : koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(errno));
+    status = real ? open_file(real, &held) : koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(errno));
     free(real);
     if (status) {
         return status;

@@ -12,12 +12,11 @@ typedef struct sqlite3_stmt koksma__statement;
 
 /* Facts about a file from its first 100 bytes, read before SQLite opens it. */
 typedef struct koksma__database_header {
-    bool exists, is_empty, has_journal; /* has_journal: whether another program was killed while it wrote */
-    uint32_t application_id, version;   /* values of PRAGMA application_id and user_version */
+    bool exists;
+    uint32_t application_id, version; /* values of PRAGMA application_id and user_version */
 } koksma__database_header;
 
-/* Reads the header of a file. Errors: MALFORMED (neither empty nor a database, or not a regular file), IO (can't
-   be read). */
+/* Reads the header of a file. Errors: MALFORMED (no database, or not a regular file), IO (can't be read). */
 koksma_status koksma__database_look(const char *path, koksma__database_header *header);
 
 typedef enum koksma__database_mode {

@@ -133,9 +133,6 @@ koksma_status koksma__store_find_text(koksma__store *store, const char *key, cha
    that can be upgraded. Errors: MALFORMED (another program's database, or a newer schema). */
 koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema);
 
-/* Whether the header has Koksma's application id. */
-bool koksma__schema_is_ours(const koksma__database_header *header);
-
 /* Creates the tables of KOKSMA__SCHEMA in an empty database. */
 koksma_status koksma__schema_make(koksma__database *database);
 

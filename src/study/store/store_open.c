@@ -171,14 +171,13 @@ static koksma_status check_plan(koksma__store *store, const char *name)
     return status;
 }
 
-/* Opens a store to read and checks its header and tables before anything can write to it; *exists is false also for
-   an empty file. */
+/* Opens a store to read and checks its header and tables before anything can write to it. */
 static koksma_status look(const char *path, bool *exists, int *schema, koksma__database **out)
 {
     koksma__database_header header;
     koksma_status status = koksma__database_look(path, &header);
     *out = NULL;
-    *exists = header.exists && !header.is_empty;
+    *exists = header.exists;
     if (!status && *exists) {
         status = koksma__database_open(path, KOKSMA__DATABASE_READ, out);
         status = status ? status : koksma__schema_of(*out, &header, schema);
@@ -190,20 +189,6 @@ static koksma_status look(const char *path, bool *exists, int *schema, koksma__d
     return status;
 }
 
-/* Rolls back the journal that another program left when it was killed while it turned off the file's write-ahead
-   log. */
-static koksma_status end_journal(const char *path)
-{
-    koksma__database_header header;
-    koksma__database *database = NULL;
-    koksma_status status = koksma__database_look(path, &header);
-    if (!status && header.has_journal && koksma__schema_is_ours(&header)) {
-        status = koksma__database_open(path, KOKSMA__DATABASE_LOCK, &database);
-        koksma__database_close(database);
-    }
-    return status;
-}
-
 static koksma_status open_to_read(const char *path, koksma__store **out)
 {
     koksma__database *database;
@@ -211,7 +196,7 @@ static koksma_status open_to_read(const char *path, koksma__store **out)
     int schema;
     koksma_status status = look(path, &exists, &schema, &database);
     if (!status && !exists) {
-        status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, access(path, F_OK) ? strerror(errno) : "it is empty");
+        status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, strerror(ENOENT));
     }
     if (status) {
         return status;
@@ -254,8 +239,7 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     int schema = KOKSMA__SCHEMA;
     KOKSMA__FAIL_IF(access(path, W_OK) && errno != ENOENT, KOKSMA_IO, "%s: can't be written: %s", path,
                     strerror(errno));
-    koksma_status status = end_journal(path);
-    status = status ? status : look(path, &exists, &schema, &database);
+    koksma_status status = look(path, &exists, &schema, &database);
     koksma__database_close(status ? NULL : database);
     if (!status && !exists) {
         remove_log(path);

@@ -101,15 +101,10 @@ static koksma_status old_schema(koksma__database *database, int *schema)
     return status;
 }
 
-bool koksma__schema_is_ours(const koksma__database_header *header)
-{
-    return header->application_id == APPLICATION;
-}
-
 koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema)
 {
     const char *path = koksma__database_path(database);
-    const bool ours = koksma__schema_is_ours(header);
+    const bool ours = header->application_id == APPLICATION;
     int n = 0;
     KOKSMA__FAIL_IF(ours && header->version != KOKSMA__SCHEMA && header->version != FIRST_WITH_ID, KOKSMA_MALFORMED,
                     "%s: the file has schema %u, but this program has schema %d; choose another folder", path,

@@ -206,8 +206,9 @@ static koksma_status add_scene(const koksma__report_scope *scope, koksma__docume
     const size_t shown = patterns->n < MAX_SHOWN ? patterns->n : MAX_SHOWN;
     const long long trials = first->trials < SPECTRUM_TRIALS ? first->trials : SPECTRUM_TRIALS;
     koksma__reference_image *reference = &study->references[first->references[first->n_series - 1]];
-    bool done = koksma__reference_exists(study, reference);
-    koksma_status status = done ? are_done(study, first, shown, 1, &done) : KOKSMA_OK;
+    bool done;
+    koksma_status status = koksma__reference_find(study, reference, &done);
+    status = status || !done ? status : are_done(study, first, shown, 1, &done);
     if (status || !done) {
         return status;
     }
