@@ -13,7 +13,7 @@
 
 #include "target.h"
 
-enum { MAX_FILE = 1 << 20, MAX_WORDS = 60, LONGEST_WORD = 16, HASH = 40 };
+enum { MAX_FILE = 1 << 20, MAX_WORDS = 30, LONGEST_WORD = 16, HASH = 40 };
 
 static uint8_t file[MAX_FILE];
 static size_t file_size;
