@@ -82,8 +82,11 @@ koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place plac
 koksma_status koksma__import_path(const koksma__import *im, koksma__text_place place, const char *name,
                                   char out[KOKSMA__MAX_PATH])
 {
-    bool fits = koksma__path_beside(im->path, name, out);
     char other[KOKSMA__MAX_PATH];
+    if (!*name) {
+        return koksma__import_fail(place, "the name of a file (filename) is missing or empty");
+    }
+    bool fits = koksma__path_beside(im->path, name, out);
     for (size_t i = 0; fits && access(out, F_OK) && i < im->n_folders; i++) {
         fits = koksma__path_beside(im->folders[i], name, other);
         if (fits && !access(other, F_OK)) {
@@ -519,20 +522,22 @@ bool koksma__import_invert(const double m[12], double out[12])
     return whole;
 }
 
-void koksma__import_rotation(double angle_deg, const double axis[3], double out[12])
+bool koksma__import_rotation(double angle_deg, const double axis[3], double out[12])
 {
     double a[3] = {axis[0], axis[1], axis[2]};
     const double angle = angle_deg * TURN / 360, c = cos(angle), s = sin(angle);
-    memcpy(out, koksma__import_identity, sizeof koksma__import_identity);
-    if (koksma__normalise(a)) {
-        for (int r = 0; r < 3; r++) {
-            for (int k = 0; k < 3; k++) {
-                const int third = 3 - r - k;
-                const double turn = r == k ? 0 : (k == (r + 1) % 3 ? -1 : 1) * s * a[third];
-                out[4 * r + k] = a[r] * a[k] * (1 - c) + (r == k ? c : 0) + turn;
-            }
-        }
+    if (!koksma__normalise(a)) {
+        return false;
     }
+    for (int r = 0; r < 3; r++) {
+        for (int k = 0; k < 3; k++) {
+            const int third = 3 - r - k;
+            const double turn = r == k ? 0 : (k == (r + 1) % 3 ? -1 : 1) * s * a[third];
+            out[4 * r + k] = a[r] * a[k] * (1 - c) + (r == k ? c : 0) + turn;
+        }
+        out[4 * r + 3] = 0;
+    }
+    return true;
 }
 
 koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double m[12], double right,

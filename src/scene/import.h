@@ -146,6 +146,8 @@ koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place
 
 /* Finds the inverse of a matrix; returns false if there is none. */
 bool koksma__import_invert(const double matrix[12], double out[12]);
-void koksma__import_rotation(double angle_deg, const double axis[3], double out[12]);
+
+/* Finds the matrix of a rotation about an axis; returns false if the axis has no direction. */
+bool koksma__import_rotation(double angle_deg, const double axis[3], double out[12]);
 
 #endif

@@ -13,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/c_locale.h"
 #include "core/capacity.h"
 #include "core/vector.h"
 #include "render/fields.h"
@@ -21,16 +20,30 @@
 #include "render/materials/materials.h"
 #include "render/medium.h"
 #include "scene/import_shapes.h"
-#include "scene/import_spectrum.h"
-#include "scene/xml.h"
+#include "scene/mitsuba_values.h"
 
 enum { MOST_NESTED = 16 };
 
 typedef koksma__xml_node node;
 
+/* A value of another type than it is read as. */
+typedef struct mistake {
+    const node *at; /* or NULL */
+    const char *expected;
+} mistake;
+
+/* The name by which a <ref> finds an element. */
+typedef struct identity {
+    const char *name;
+    const node *at; /* an <alias> has the element's name in its attribute "id" */
+} identity;
+
 typedef struct reader {
     koksma__import *im;
     koksma__xml xml;
+    mistake *mistake;     /* the first one */
+    identity *identities; /* sorted by name */
+    size_t n_identities;
     int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
     /* for each node: used: the function that converts its parent has looked it up; read: it is converted as the file
        describes it, so that each of its properties that nothing looks up gives a warning */
@@ -83,123 +96,122 @@ static void set_read(const reader *r, const node *n)
     r->read[n - r->xml.nodes] = true;
 }
 
+/* Notes that a value has another type than it is read as. The first one is the error in which reading ends. */
+static void note(const reader *r, const node *n, const char *expected)
+{
+    if (!r->mistake->at) {
+        *r->mistake = (mistake){n, expected};
+    }
+}
+
 static const char *text(const reader *r, const node *n, const char *name, const char *otherwise)
 {
     const node *c = property(r, n, name);
-    const char *value = c ? koksma__xml_attribute(c, "value") : NULL;
+    const char *value = c && is(c, "string") ? koksma__xml_attribute(c, "value") : NULL;
+    if (c && !value) {
+        note(r, c, "a text");
+    }
     return value ? value : otherwise;
+}
+
+/* The index of the text in the list of those that are possible, which ends with NULL; without a text, 0. */
+static size_t choice(const reader *r, const node *n, const char *name, const char *const *all)
+{
+    const char *value = text(r, n, name, all[0]);
+    size_t i = 0;
+    while (all[i] && strcmp(all[i], value) != 0) {
+        i++;
+    }
+    if (!all[i]) {
+        note(r, property(r, n, name), "a value that this property can have");
+    }
+    return all[i] ? i : 0;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(((const identity *)a)->name, ((const identity *)b)->name);
+}
+
+/* The element to which a <ref> or an <alias> leads, or NULL; any other element is itself. */
+static const node *target(const reader *r, const node *n)
+{
+    for (int hops = 0; n && (is(n, "ref") || is(n, "alias")); hops++) {
+        const identity wanted = {koksma__xml_attribute(n, "id"), NULL};
+        const identity *found = wanted.name && hops < MOST_NESTED
+                                    ? bsearch(&wanted, r->identities, r->n_identities, sizeof wanted, by_name)
+                                    : NULL;
+        n = found ? found->at : NULL;
+    }
+    return n;
+}
+
+/* The same after find_identities(), which has checked that no <ref> leads nowhere. */
+static const node *resolve(const reader *r, const node *n)
+{
+    const node *to = target(r, n);
+    return to ? to : n;
+}
+
+/* Lists the names of all elements, and checks that each name is given once and that each <ref> leads to one. */
+static koksma_status find_identities(reader *r)
+{
+    r->identities = calloc(r->xml.n + 1, sizeof *r->identities);
+    KOKSMA__REQUIRE_MEMORY(r->identities, (r->xml.n + 1) * sizeof *r->identities);
+    for (const node *n = r->xml.nodes; n < r->xml.nodes + r->xml.n; n++) {
+        const char *name = koksma__xml_attribute(n, is(n, "alias") ? "as" : "id");
+        if (name && !is(n, "ref")) {
+            r->identities[r->n_identities++] = (identity){name, n};
+        }
+    }
+    qsort(r->identities, r->n_identities, sizeof *r->identities, by_name);
+    for (size_t i = 1; i < r->n_identities; i++) {
+        const identity *a = &r->identities[i - 1], *b = a + 1;
+        if (!by_name(a, b)) {
+            return koksma__import_fail((a->at > b->at ? a : b)->at->place, "the id '%.60s' is given twice", a->name);
+        }
+    }
+    for (const node *n = r->xml.nodes; n < r->xml.nodes + r->xml.n; n++) {
+        if (!target(r, n)) {
+            const char *id = koksma__xml_attribute(n, "id");
+            return koksma__import_fail(n->place, "%s: no element has the id '%.60s'", n->tag, id ? id : "");
+        }
+    }
+    return KOKSMA_OK;
 }
 
 static double number(const reader *r, const node *n, const char *name, double otherwise)
 {
-    const char *value = text(r, n, name, "");
-    char *end;
-    const double x = koksma__strtod(value, &end);
-    return end == value ? otherwise : x;
+    const node *c = property(r, n, name), *to = c ? resolve(r, c) : NULL;
+    double x = otherwise;
+    if (to && (is(to, "texture") || (koksma__mitsuba_is_colour(to) && !koksma__mitsuba_is_number(to)))) {
+        r->used[c - r->xml.nodes] = false; /* it varies, which is not read here: name_unused() says so */
+    } else if (c && (!koksma__mitsuba_is_number(c) || koksma__mitsuba_number(c, "value", &x))) {
+        note(r, c, "a number");
+    }
+    return x;
 }
 
 static bool flag(const reader *r, const node *n, const char *name, bool otherwise)
 {
-    const char *value = text(r, n, name, "");
-    return *value ? !strcmp(value, "true") : otherwise;
-}
-
-/* Reads up to n numbers separated by blanks or commas; returns how many it found. */
-static size_t numbers(const char *value, size_t n, double *out)
-{
-    size_t found = 0;
-    while (value && found < n) {
-        char *end;
-        value += strspn(value, " ,\t\r\n");
-        out[found] = koksma__strtod(value, &end);
-        if (end == value) {
-            break;
-        }
-        value = end;
-        found++;
+    const node *c = property(r, n, name);
+    bool is_set = otherwise;
+    if (c && (!is(c, "boolean") || koksma__mitsuba_flag(c, &is_set))) {
+        note(r, c, "true or false");
     }
-    return found;
-}
-
-/* Reads an attribute of an element as a number; `otherwise` if there is none. */
-static double coordinate(const node *n, const char *name, double otherwise)
-{
-    const char *value = koksma__xml_attribute(n, name);
-    return value ? koksma__strtod(value, NULL) : otherwise;
+    return is_set;
 }
 
 /* Reads an element of the form <point name x y z> or <point name value="x, y, z">. */
 static void point(const reader *r, const node *n, const char *name, double out[3])
 {
     const node *c = property(r, n, name);
-    for (int k = 0; c && k < 3; k++) {
-        out[k] = coordinate(c, (const char *[]){"x", "y", "z"}[k], out[k]);
-    }
-    if (c && koksma__xml_attribute(c, "value")) {
-        numbers(koksma__xml_attribute(c, "value"), 3, out);
+    if (c && ((!is(c, "point") && !is(c, "vector")) || koksma__mitsuba_triple(c, (double)INFINITY, out))) {
+        note(r, c, "a point or vector");
     }
 }
 
 /* ---- Transforms -------------------------------------------------------------------------------------------- */
-
-static koksma_status look_at(const node *n, double m[12])
-{
-    double origin[3] = {0}, target[3] = {0, 0, 1}, up[3] = {0, 1, 0}, ahead[3], left[3], over[3];
-    numbers(koksma__xml_attribute(n, "origin"), 3, origin);
-    numbers(koksma__xml_attribute(n, "target"), 3, target);
-    numbers(koksma__xml_attribute(n, "up"), 3, up);
-    koksma__subtract(target, origin, ahead);
-    if (!koksma__normalise(ahead)) {
-        return koksma__import_fail(n->place, "lookat: origin and target are the same point");
-    }
-    koksma__cross(up, ahead, left);
-    if (!koksma__normalise(left)) {
-        return koksma__import_fail(n->place, "lookat: up is along the line of sight");
-    }
-    koksma__cross(ahead, left, over);
-    for (int k = 0; k < 3; k++) {
-        m[4 * k] = left[k], m[4 * k + 1] = over[k], m[4 * k + 2] = ahead[k], m[4 * k + 3] = origin[k];
-    }
-    return KOKSMA_OK;
-}
-
-static koksma_status operation(const node *n, double m[12])
-{
-    const char *value = koksma__xml_attribute(n, "value");
-    double v[16] = {0};
-    memcpy(m, koksma__import_identity, sizeof koksma__import_identity);
-    const size_t given = numbers(value, 16, v);
-    if (is(n, "lookat")) {
-        return look_at(n, m);
-    }
-    if (is(n, "matrix")) {
-        if (given != 16 && given != 9) {
-            return koksma__import_fail(n->place, "a matrix must have 16 or 9 numbers");
-        }
-        for (int i = 0; i < 12; i++) {
-            m[i] = given == 16 ? v[i] : i % 4 < 3 ? v[i / 4 * 3 + i % 4] : 0;
-        }
-        return KOKSMA_OK;
-    }
-    const bool scales = is(n, "scale");
-    if (!given) {
-        for (int k = 0; k < 3; k++) {
-            v[k] = coordinate(n, (const char *[]){"x", "y", "z"}[k], scales);
-        }
-    } else if (given == 1) {
-        v[1] = v[2] = v[0];
-    }
-    if (is(n, "rotate")) {
-        koksma__import_rotation(coordinate(n, "angle", 0), v, m);
-    } else if (scales || is(n, "translate")) {
-        for (int k = 0; k < 3; k++) {
-            m[scales ? 5 * k : 4 * k + 3] = v[k];
-        }
-    } else {
-        return koksma__import_fail(n->place, "transform '%s' is not supported", n->tag);
-    }
-    return KOKSMA_OK;
-}
 
 /* Reads a transform, whose first operation is applied first. */
 static koksma_status transform(const reader *r, const node *n, const char *name, double out[12])
@@ -213,7 +225,7 @@ static koksma_status transform(const reader *r, const node *n, const char *name,
     }
     for (const node *c = t ? first_of(r, t) : NULL; c; c = next_of(r, c)) {
         double by[12], product[12];
-        KOKSMA__TRY(operation(c, by));
+        KOKSMA__TRY(koksma__mitsuba_operation(c, by));
         koksma__matrix_multiply(by, out, product);
         memcpy(out, product, sizeof product);
     }
@@ -222,67 +234,33 @@ static koksma_status transform(const reader *r, const node *n, const char *name,
 
 /* ---- Colours and textures ----------------------------------------------------------------------------------- */
 
-static const node *resolve(const reader *r, const node *n)
-{
-    const char *id = is(n, "ref") ? koksma__xml_attribute(n, "id") : NULL;
-    for (size_t i = 0; id && i < r->xml.n; i++) {
-        const char *has = is(&r->xml.nodes[i], "ref") ? NULL : koksma__xml_attribute(&r->xml.nodes[i], "id");
-        if (has && !strcmp(has, id)) {
-            return &r->xml.nodes[i];
-        }
-    }
-    return n;
-}
-
-/* Reads pairs "WAVELENGTH:VALUE, ..." as the colour of a reflectance or of an emission. */
-static koksma_status sampled(reader *r, const node *n, const char *value, bool emits, double rgb[3])
-{
-    koksma__sampled_spectrum s = {0};
-    while (value && *value) {
-        char *colon, *end;
-        const double wavelength = koksma__strtod(value, &colon);
-        if (colon == value || *colon != ':') {
-            break;
-        }
-        if (!koksma__sampled_spectrum_add(&s, wavelength, koksma__strtod(colon + 1, &end))) {
-            return koksma__import_fail(n->place, "wavelengths of a spectrum must increase");
-        }
-        value = end + strspn(end, " ,\t\r\n");
-    }
-    if (!s.n) {
-        rgb[0] = rgb[1] = rgb[2] = 1;
-        return koksma__import_unknown(r->im, n->place, "a spectrum is replaced by white");
-    }
-    (emits ? koksma__sampled_spectrum_emission : koksma__sampled_spectrum_reflectance)(&s, rgb);
-    return KOKSMA_OK;
-}
-
 static koksma_status value_of(reader *r, const node *n, bool emits, double rgb[3])
 {
-    const char *value = koksma__xml_attribute(n, "value");
-    double v[3];
-    if (value && *value == '#') {
-        const unsigned long hex = strtoul(value + 1, NULL, 16); /* levels of sRGB */
-        for (int k = 0; k < 3; k++) {
-            const double level = (double)(hex >> (16 - 8 * k) & 255) / 255;
-            rgb[k] = level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4);
-        }
+    koksma__mitsuba_colour c;
+    if (!koksma__mitsuba_is_colour(n)) {
+        rgb[0] = rgb[1] = rgb[2] = 1;
+        return koksma__xml_attribute(n, "type")
+                   ? koksma__import_unknown(r->im, n->place, "'%s' is replaced by white where a colour is", n->tag)
+                   : koksma__import_fail(n->place, "<%s> is not a colour", n->tag);
+    }
+    KOKSMA__TRY(koksma__mitsuba_colour_read(n, &c));
+    if (c.form == KOKSMA__ONE_NUMBER && emits && is(n, "spectrum")) {
+        /* one number stands for the same emission at all wavelengths */
+        c.form = KOKSMA__PAIRS;
+        (void)(koksma__sampled_spectrum_add(&c.pairs, 360, c.rgb[0]) &&
+               koksma__sampled_spectrum_add(&c.pairs, 830, c.rgb[0]));
+    }
+    if (c.form == KOKSMA__PAIRS) {
+        (emits ? koksma__sampled_spectrum_emission : koksma__sampled_spectrum_reflectance)(&c.pairs, rgb);
         return KOKSMA_OK;
     }
-    const size_t given = value && strchr(value, ':') ? 0 : numbers(value, 3, v);
-    for (int k = 0; given && k < 3; k++) {
-        rgb[k] = v[given == 3 ? k : 0];
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = c.form == KOKSMA__NO_COLOUR ? 1 : c.rgb[k];
     }
-    if (is(n, "blackbody")) {
-        koksma__import_black_body(coordinate(n, "temperature", 6500), rgb);
-        return koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1");
-    }
-    if (given && emits && is(n, "spectrum")) { /* one number stands for the same emission at all wavelengths */
-        koksma__sampled_spectrum s = {0};
-        (void)(koksma__sampled_spectrum_add(&s, 360, v[0]) && koksma__sampled_spectrum_add(&s, 830, v[0]));
-        koksma__sampled_spectrum_emission(&s, rgb);
-    }
-    return given ? KOKSMA_OK : sampled(r, n, value, emits, rgb);
+    return c.form == KOKSMA__NO_COLOUR ? koksma__import_unknown(r->im, n->place, "a spectrum is replaced by white")
+           : c.form == KOKSMA__BLACK_BODY
+               ? koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1")
+               : KOKSMA_OK;
 }
 
 static koksma_status colour(reader *r, const node *n, const char *name, double otherwise, koksma__import_colour *out,
@@ -291,16 +269,12 @@ static koksma_status colour(reader *r, const node *n, const char *name, double o
 /* Reads how an image is mapped. The third row and column of its transform have no effect. */
 static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
 {
-    static const struct {
-        const char *name;
-        koksma__wrap wrap;
-    } wraps[] = {{"repeat", KOKSMA__WRAP_REPEAT}, {"clamp", KOKSMA__WRAP_CLAMP}, {"mirror", KOKSMA__WRAP_MIRROR}};
-    const char *wrap = text(r, n, "wrap_mode", "repeat");
+    static const char *const wraps[] = {"repeat", "clamp", "mirror", NULL}, *const filters[] = {"bilinear", "nearest",
+                                                                                                NULL};
+    static const koksma__wrap kinds[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR};
     double m[12];
-    for (size_t i = 0; i < sizeof wraps / sizeof *wraps; i++) {
-        to->wrap[0] = to->wrap[1] = !strcmp(wraps[i].name, wrap) ? wraps[i].wrap : to->wrap[0];
-    }
-    to->nearest = !strcmp(text(r, n, "filter_type", "bilinear"), "nearest");
+    to->wrap[0] = to->wrap[1] = kinds[choice(r, n, "wrap_mode", wraps)];
+    to->nearest = choice(r, n, "filter_type", filters);
     to->moved = property(r, n, "to_uv");
     KOKSMA__TRY(transform(r, n, "to_uv", m));
     for (int i = 0; i < 6; i++) {
@@ -313,7 +287,7 @@ static koksma_status texture(reader *r, const node *n, koksma__import_colour *ou
 {
     const char *type = type_of(n);
     double m[12];
-    if (!strcmp(type, "bitmap") && *text(r, n, "filename", "")) {
+    if (!strcmp(type, "bitmap")) {
         const char *name = text(r, n, "filename", ""), *dot = strrchr(name, '.');
         const bool linear = dot && (koksma__xml_alike(dot, ".exr") || koksma__xml_alike(dot, ".pfm"));
         set_read(r, n);
@@ -394,11 +368,17 @@ static double index_of(const reader *r, const node *n, const char *name, double 
     static const struct {
         const char *name;
         double ior;
-    } known[] = {{"vacuum", 1},           {"air", 1.000277},       {"water", 1.333},
-                 {"water ice", 1.31},     {"bk7", 1.5046},         {"diamond", 2.419},
-                 {"acrylic glass", 1.49}, {"polypropylene", 1.49}, {"fused quartz", 1.458}};
-    const char *value = text(r, n, name, "");
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    } known[] = {{"vacuum", 1},        {"helium", 1.000036},        {"hydrogen", 1.000132},
+                 {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
+                 {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
+                 {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
+                 {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
+                 {"pyrex", 1.47},      {"acrylic glass", 1.49},     {"polypropylene", 1.49},
+                 {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
+                 {"pet", 1.575},       {"diamond", 2.419}};
+    const node *c = property(r, n, name);
+    const char *value = c && is(c, "string") ? text(r, n, name, "") : NULL;
+    for (size_t i = 0; value && i < sizeof known / sizeof *known; i++) {
         if (!strcmp(known[i].name, value)) {
             return known[i].ior;
         }
@@ -446,6 +426,7 @@ static koksma_status principled(reader *r, const node *n, int *out)
 static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
 {
     static const bsdf_kind other = {"", KOKSMA__MATTE, "reflectance", 0.5, 0, "Lambert"};
+    static const char *const distributions[] = {"beckmann", "ggx", "phong", "as", NULL};
     const char *type = type_of(n);
     const bsdf_kind *found = &other;
     koksma__import_material m = {0};
@@ -485,7 +466,7 @@ static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
     m.alpha = sqrt(fmax(u * v, 0));
     m.ior = index_of(r, n, "int_ior", m.kind == KOKSMA__COATED ? 1.49 : 1.5046) / index_of(r, n, "ext_ior", 1.000277);
     if (!strncmp(type, "rough", 5) && m.kind != KOKSMA__MATTE && m.kind != KOKSMA__COATED &&
-        strcmp(text(r, n, "distribution", "beckmann"), "ggx") != 0) {
+        choice(r, n, "distribution", distributions) != 1) {
         KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "Beckmann's distribution is replaced by GGX"));
     }
     if (u != v) {
@@ -583,7 +564,7 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
         cylinder(r, n, m);
     } else if (item->form == KOKSMA__FORM_MESH && (!strcmp(type, "obj") || !strcmp(type, "ply") || numbered)) {
         const double part = numbered ? number(r, n, "shape_index", 0) : -1;
-        if (numbered && !(part >= 0 && part <= 1e9)) {
+        if (numbered && !(part >= 0 && part <= 1e9 && part == floor(part))) {
             return koksma__import_fail(n->place, "a shape_index of %g: it is a whole number from 0 on", part);
         }
         return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename", ""), (long)part,
@@ -750,6 +731,7 @@ static koksma_status shape(reader *r, const node *n, const double outer[12], int
 static koksma_status instance(reader *r, const node *n, const double outer[12], int depth)
 {
     double m[12], matrix[12];
+    bool found = false;
     if (depth > MOST_NESTED) {
         return koksma__import_fail(n->place, "instances are nested more than %d deep", MOST_NESTED);
     }
@@ -757,11 +739,12 @@ static koksma_status instance(reader *r, const node *n, const double outer[12], 
     koksma__matrix_multiply(outer ? outer : koksma__import_identity, m, matrix);
     for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
         const node *group = resolve(r, c);
+        found |= is(group, "shape");
         for (const node *s = is(group, "shape") ? first_of(r, group) : NULL; s; s = next_of(r, s)) {
             KOKSMA__TRY(is(s, "shape") ? shape(r, s, matrix, depth + 1) : KOKSMA_OK);
         }
     }
-    return KOKSMA_OK;
+    return found ? KOKSMA_OK : koksma__import_fail(n->place, "an instance without a reference to a shape group");
 }
 
 static koksma_status shape(reader *r, const node *n, const double outer[12], int depth)
@@ -850,9 +833,11 @@ static koksma_status film(reader *r, const node *n)
         if (is(c, "film")) {
             width = number(r, c, "width", width);
             height = number(r, c, "height", height);
-            if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
-                return koksma__import_fail(c->place, "a film of %g x %g pixels; each side must be 1 to %d", width,
-                                           height, KOKSMA_MAX_IMAGE_SIDE);
+            if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE &&
+                  width == floor(width) && height == floor(height))) {
+                return koksma__import_fail(c->place,
+                                           "a film of %g x %g pixels; each side must be a whole number, 1 to %d",
+                                           width, height, KOKSMA_MAX_IMAGE_SIDE);
             }
             if (property(r, c, "crop_width") || property(r, c, "crop_height")) {
                 KOKSMA__TRY(koksma__import_unknown(r->im, c->place, "a film's crop is ignored"));
@@ -864,21 +849,31 @@ static koksma_status film(reader *r, const node *n)
     return KOKSMA_OK;
 }
 
+/* The focal length in mm: a number, or a text that may end in "mm". */
+static double focal_length(const reader *r, const node *n)
+{
+    const node *c = property(r, n, "focal_length");
+    double length_mm = 50;
+    if (!c || koksma__mitsuba_is_number(c)) {
+        return number(r, n, "focal_length", length_mm);
+    }
+    if (!koksma__mitsuba_measure(text(r, n, "focal_length", ""), "mm", &length_mm)) {
+        note(r, c, "a length in mm");
+    }
+    return length_mm;
+}
+
 /* The vertical angle of view. */
 static double height_angle(const reader *r, const node *n, double width, double height)
 {
-    const char *axis = text(r, n, "fov_axis", "x");
-    const double length_mm = number(r, n, "focal_length", 50), half = number(r, n, "fov", 0) * TURN / 720;
-    double side = !strcmp(axis, "y")          ? height
-                  : !strcmp(axis, "diagonal") ? hypot(width, height)
-                  : !strcmp(axis, "smaller")  ? fmin(width, height)
-                  : !strcmp(axis, "larger")   ? fmax(width, height)
-                                              : width;
+    static const char *const axes[] = {"x", "y", "diagonal", "smaller", "larger", NULL};
+    const double sides[] = {width, height, hypot(width, height), fmin(width, height), fmax(width, height)};
+    const double side = sides[choice(r, n, "fov_axis", axes)], half = number(r, n, "fov", 0) * TURN / 720;
     if (property(r, n, "fov")) {
         return 2 * atan(tan(half) * height / side);
     }
     /* focal_length refers to the diagonal of 35 mm film */
-    return 2 * atan(hypot(36, 24) / 2 / length_mm * height / hypot(width, height));
+    return 2 * atan(hypot(36, 24) / 2 / focal_length(r, n) * height / hypot(width, height));
 }
 
 static koksma_status sensor(reader *r, const node *n)
@@ -987,7 +982,8 @@ static koksma_status read_root(reader *r)
 
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t size)
 {
-    reader r = {.im = im};
+    mistake first = {0};
+    reader r = {.im = im, .mistake = &first};
     im->rows_down = im->smooths = true;
     koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
     if (!status) {
@@ -999,8 +995,15 @@ koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t
             r.materials[i] = -2;
         }
     }
+    status = status ? status : koksma__mitsuba_check(&r.xml);
+    status = status ? status : find_identities(&r);
     status = status ? status : read_root(&r);
-    KOKSMA__FREE(r.materials, r.used, r.read);
+    if (first.at && status != KOKSMA_MEMORY) {
+        const char *name = koksma__xml_attribute(first.at, "name"), *value = koksma__xml_attribute(first.at, "value");
+        status = koksma__import_fail(first.at->place, "%s: <%s> '%.60s' is not %s", name, first.at->tag,
+                                     value ? value : "", first.expected);
+    }
+    KOKSMA__FREE(r.materials, r.used, r.read, r.identities);
     koksma__xml_fini(&r.xml);
     return status;
 }

@@ -64,6 +64,7 @@ typedef struct reader {
     object *open;    /* the object to which shapes are added, or NULL */
     double times[2]; /* when motions start and end */
     koksma__pbrt_parameters *parameters;
+    koksma__pbrt_mistake mistake;
     bool used[KOKSMA__MAX_PBRT_PARAMETERS]; /* of the parameters */
     /* The camera, completed when the aspect ratio of the film is known. */
     bool has_camera;
@@ -125,8 +126,9 @@ static koksma_status take_rotate(reader *r, source *s)
 {
     double v[4], m[12];
     KOKSMA__TRY(koksma__pbrt_numbers(s, 4, v));
-    koksma__import_rotation(v[0], v + 1, m);
-    return concat(r, m);
+    return koksma__import_rotation(v[0], v + 1, m)
+               ? concat(r, m)
+               : koksma__import_fail(s->place, "Rotate: the axis has no direction");
 }
 
 static koksma_status take_look_at(reader *r, source *s)
@@ -397,21 +399,12 @@ static void move_point(const double m[12], const double p[3], double w, double o
     }
 }
 
-static void point_of(const koksma__pbrt_parameters *p, const char *name, double z, double out[3])
-{
-    const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
-    out[0] = out[1] = 0, out[2] = z;
-    if (found && found->n == 3) {
-        memcpy(out, found->numbers, 3 * sizeof *out);
-    }
-}
-
 static koksma_status take_light(reader *r, source *s)
 {
     char type[64];
     const koksma__pbrt_parameters *p = r->parameters;
     koksma__light light = {.kind = &koksma__light_point};
-    double from[3], to[3], along[3];
+    double from[3] = {0}, to[3] = {0, 0, 1}, along[3];
     KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
     const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
@@ -419,8 +412,8 @@ static koksma_status take_light(reader *r, source *s)
     KOKSMA__TRY(moves(r->now.matrix[0], r->now.matrix[1])
                     ? koksma__import_unknown(r->im, p->place, "a moving light stays where it is at the start")
                     : KOKSMA_OK);
-    point_of(p, "from", 0, from);
-    point_of(p, "to", 1, to);
+    koksma__pbrt_point(p, "from", from);
+    koksma__pbrt_point(p, "to", to);
     if (around && *koksma__pbrt_word(p, "filename", "")) {
         return koksma__import_sky(r->im, p->place, koksma__pbrt_word(p, "filename", ""), true, light.radiance,
                                   r->now.matrix[0]);
@@ -473,7 +466,7 @@ static koksma_status take_camera(reader *r, source *s)
     r->focus_distance = koksma__pbrt_number(p, "focaldistance", 1e6);
     r->shutter[0] = koksma__pbrt_number(p, "shutteropen", 0);
     r->shutter[1] = koksma__pbrt_number(p, "shutterclose", 1);
-    const koksma__pbrt_parameter *window = koksma__pbrt_find(p, "screenwindow");
+    const koksma__pbrt_parameter *window = koksma__pbrt_find_typed(p, "screenwindow", "float");
     r->has_window = window && window->n == 4;
     if (window && !r->has_window) {
         return koksma__import_fail(p->place, "a screen window is four numbers: x from, x to, y from, y to");
@@ -491,8 +484,8 @@ static koksma_status take_film(reader *r, source *s)
     const koksma__pbrt_parameters *p = r->parameters;
     KOKSMA__TRY(koksma__pbrt_text(s, type, sizeof type));
     KOKSMA__TRY(koksma__pbrt_parameters_read(s, r->parameters));
-    const double width = koksma__pbrt_number(p, "xresolution", 1280),
-                 height = koksma__pbrt_number(p, "yresolution", 720);
+    const double width = koksma__pbrt_whole(p, "xresolution", 1280),
+                 height = koksma__pbrt_whole(p, "yresolution", 720);
     if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
         return koksma__import_fail(p->place, "a film of %g x %g pixels; each side must be 1 to %d", width, height,
                                    KOKSMA_MAX_IMAGE_SIDE);
@@ -720,7 +713,9 @@ static koksma_status read_source(reader *r, source *s)
         }
         const size_t before = directives[i].describes ? count_unknown(r) : 0;
         memset(r->used, 0, sizeof r->used);
-        koksma_status status = directives[i].take(r, s);
+        r->mistake.at = NULL;
+        s->directive = directives[i].name;
+        koksma_status status = koksma__pbrt_end(r->parameters, directives[i].take(r, s));
         /* otherwise a warning names the replacement of the whole directive */
         if (!status && directives[i].describes && before == count_unknown(r)) {
             status = name_unused(r, directives[i].name);
@@ -855,6 +850,7 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
     KOKSMA__REQUIRE_MEMORY(r.parameters, sizeof *r.parameters);
     r.parameters->place = s.place;
     r.parameters->used = r.used;
+    r.parameters->mistake = &r.mistake;
     koksma_status status = take_identity(&r, &s);
     status = status ? status : name_space(&r, "world", r.now.matrix[0], r.now.matrix[1]);
     status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);

@@ -6,6 +6,7 @@
  */
 #include "scene/pbrt_tokens.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,43 +76,67 @@ koksma_status koksma__pbrt_text(koksma__pbrt_source *s, char *out, size_t size)
     return KOKSMA_OK;
 }
 
-static koksma_status number_of(const koksma__pbrt_source *s, const koksma__pbrt_token *t, bool whole, double *out)
+/* Fails with "FILE:LINE: NAME: 'TOKEN' is not EXPECTED". */
+static koksma_status wrong(const koksma__pbrt_source *s, const koksma__pbrt_token *t, const char *name,
+                           const char *expected)
+{
+    return t->kind == KOKSMA__PBRT_END
+               ? koksma__import_fail(s->place, "%s: the file ends where %s belongs", name, expected)
+               : koksma__import_fail(s->place, "%s: '%.*s' is not %s", name, t->length < 40 ? (int)t->length : 40,
+                                     t->at, expected);
+}
+
+static koksma_status number_of(const koksma__pbrt_source *s, const koksma__pbrt_token *t, const char *name,
+                               bool whole, double *out)
 {
     const char *at = t->at, *end = t->at + t->length;
     const bool negative = t->length && *at == '-';
     long long count;
     float value = 0;
     bool read = false;
-    if (whole) {
+    if (t->kind == KOKSMA__PBRT_WORD && whole) {
         at += negative;
         read = koksma__text_whole(&at, end, &count) && at == end;
         *out = negative ? -(double)count : (double)count;
     }
-    if (!read) { /* integers may be written with a decimal point */
+    if (t->kind == KOKSMA__PBRT_WORD && !read) { /* integers may be written with a decimal point */
         at = t->at;
-        read = koksma__text_float(&at, end, &value) && at == end;
+        read = koksma__text_float(&at, end, &value) && at == end && (!whole || value == floorf(value));
         *out = (double)value;
     }
-    return t->kind == KOKSMA__PBRT_WORD && read ? KOKSMA_OK
-                                                : koksma__import_fail(s->place, "'%.*s': expected a number",
-                                                                      t->length < 40 ? (int)t->length : 40, t->at);
+    return read ? KOKSMA_OK : wrong(s, t, name, whole ? "a whole number" : "a number");
 }
 
 koksma_status koksma__pbrt_numbers(koksma__pbrt_source *s, size_t n, double *out)
 {
     koksma__pbrt_token t;
+    const char *name = s->directive ? s->directive : "";
     KOKSMA__TRY(koksma__pbrt_token_peek(s, &t));
     const bool bracket = t.kind == KOKSMA__PBRT_BRACKET && *t.at == '[';
     for (size_t i = 0; i < n + (bracket ? 2 : 0); i++) {
         KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
         if (!bracket || (i > 0 && i <= n)) {
-            KOKSMA__TRY(number_of(s, &t, false, out + i - bracket));
+            KOKSMA__TRY(number_of(s, &t, name, false, out + i - bracket));
         }
     }
     return bracket && (t.kind != KOKSMA__PBRT_BRACKET || *t.at != ']')
-               ? koksma__import_fail(s->place, "expected %zu numbers", n)
+               ? koksma__import_fail(s->place, "%s: expected %zu numbers", name, n)
                : KOKSMA_OK;
 }
+
+/* The types of parameters. "point", "vector", "normal3" and "color" are names of earlier versions. */
+typedef struct parameter_type {
+    const char *name;
+    enum { NUMBERS, WHOLE, FLAGS, TEXTS, EITHER } holds; /* EITHER: all values are numbers, or all are texts */
+    size_t each;                                         /* number of numbers in each value */
+} parameter_type;
+
+static const parameter_type types[] = {{"float", NUMBERS, 1},   {"integer", WHOLE, 1},  {"bool", FLAGS, 1},
+                                       {"string", TEXTS, 1},    {"texture", TEXTS, 1},  {"point2", NUMBERS, 2},
+                                       {"vector2", NUMBERS, 2}, {"point3", NUMBERS, 3}, {"vector3", NUMBERS, 3},
+                                       {"normal", NUMBERS, 3},  {"rgb", NUMBERS, 3},    {"blackbody", NUMBERS, 1},
+                                       {"spectrum", EITHER, 2}, {"point", NUMBERS, 3},  {"vector", NUMBERS, 3},
+                                       {"normal3", NUMBERS, 3}, {"color", NUMBERS, 3}};
 
 /* Reads the text "type name" of a parameter. */
 static koksma_status take_name(koksma__pbrt_source *s, koksma__pbrt_parameter *p)
@@ -131,41 +156,68 @@ static koksma_status take_name(koksma__pbrt_source *s, koksma__pbrt_parameter *p
     return KOKSMA_OK;
 }
 
-static koksma_status take_value(koksma__pbrt_source *s, const koksma__pbrt_token *t, koksma__pbrt_parameter *p)
+static koksma_status take_text(koksma__pbrt_source *s, const koksma__pbrt_token *t, koksma__pbrt_parameter *p)
 {
-    const bool flag = !strcmp(p->type, "bool");
-    if (t->kind == KOKSMA__PBRT_TEXT || (flag && t->kind == KOKSMA__PBRT_WORD)) {
-        if (t->length >= sizeof p->text) {
-            return koksma__import_fail(s->place, "%s: the text is longer than %zu characters", p->name,
-                                       sizeof p->text - 1);
-        }
-        if (!p->n_texts++) {
-            memcpy(p->text, t->at, t->length);
-            p->text[t->length] = 0;
-        }
-        return KOKSMA_OK;
+    if (t->length >= sizeof p->text) {
+        return koksma__import_fail(s->place, "%s: the text is longer than %zu characters", p->name,
+                                   sizeof p->text - 1);
     }
-    double *to = koksma__add_one(&p->numbers, &p->n, sizeof *to);
-    return to ? number_of(s, t, !strcmp(p->type, "integer"), to) : KOKSMA_MEMORY;
+    if (!p->n_texts++) {
+        memcpy(p->text, t->at, t->length);
+        p->text[t->length] = 0;
+    }
+    return KOKSMA_OK;
 }
 
+static koksma_status take_value(koksma__pbrt_source *s, const koksma__pbrt_token *t, const parameter_type *type,
+                                koksma__pbrt_parameter *p)
+{
+    const bool quoted = t->kind == KOKSMA__PBRT_TEXT;
+    if (type->holds == FLAGS) {
+        return t->kind != KOKSMA__PBRT_BRACKET &&
+                       (koksma__text_is(t->at, t->length, "true") || koksma__text_is(t->at, t->length, "false"))
+                   ? take_text(s, t, p)
+                   : wrong(s, t, p->name, "true or false");
+    }
+    if (type->holds == TEXTS || (type->holds == EITHER && (p->n_texts || (quoted && !p->n)))) {
+        return quoted ? take_text(s, t, p) : wrong(s, t, p->name, "a text in quotation marks");
+    }
+    double *to = koksma__add_one(&p->numbers, &p->n, sizeof *to);
+    return to ? number_of(s, t, p->name, type->holds == WHOLE, to) : KOKSMA_MEMORY;
+}
+
+/* Reads the values of a parameter: one without brackets, or some within them. */
 static koksma_status take_values(koksma__pbrt_source *s, koksma__pbrt_parameter *p)
 {
+    const parameter_type *type = NULL;
     koksma__pbrt_token t;
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
+        type = !strcmp(types[i].name, p->type) ? &types[i] : type;
+    }
+    if (!type) {
+        return koksma__import_fail(s->place, "%s: '%s' is not a type of pbrt-v4", p->name, p->type);
+    }
     KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
     if (t.kind != KOKSMA__PBRT_BRACKET) {
-        return take_value(s, &t, p);
+        KOKSMA__TRY(take_value(s, &t, type, p));
     }
-    for (;;) {
-        KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
-        if (t.kind == KOKSMA__PBRT_BRACKET && *t.at == ']') {
-            return KOKSMA_OK;
+    while (t.kind == KOKSMA__PBRT_BRACKET) {
+        koksma__pbrt_token value;
+        KOKSMA__TRY(koksma__pbrt_token_next(s, &value));
+        if (value.kind == KOKSMA__PBRT_BRACKET && *value.at == ']') {
+            break;
         }
-        if (t.kind == KOKSMA__PBRT_END) {
+        if (value.kind == KOKSMA__PBRT_END) {
             return koksma__import_fail(s->place, "%s: the list has no closing bracket", p->name);
         }
-        KOKSMA__TRY(take_value(s, &t, p));
+        KOKSMA__TRY(take_value(s, &value, type, p));
     }
+    if (!p->n && !p->n_texts) {
+        return koksma__import_fail(s->place, "%s: a list without values", p->name);
+    }
+    return p->n % type->each ? koksma__import_fail(s->place, "%s: %zu numbers, but each '%s' has %zu", p->name, p->n,
+                                                   p->type, type->each)
+                             : KOKSMA_OK;
 }
 
 koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *s, koksma__pbrt_parameters *out)
@@ -186,6 +238,7 @@ koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *s, koksma__pbrt_
         p->numbers = NULL;
         p->n = p->n_texts = 0;
         KOKSMA__TRY(take_name(s, p));
+        p->line = s->place.line;
         KOKSMA__TRY(take_values(s, p));
     }
 }
@@ -200,31 +253,103 @@ void koksma__pbrt_parameters_fini(koksma__pbrt_parameters *parameters)
 
 const koksma__pbrt_parameter *koksma__pbrt_find(const koksma__pbrt_parameters *p, const char *name)
 {
+    const koksma__pbrt_parameter *found = NULL;
     for (size_t i = 0; i < p->n; i++) {
         if (!strcmp(p->items[i].name, name)) {
+            found = &p->items[i];
             if (p->used) {
                 p->used[i] = true;
             }
-            return &p->items[i];
         }
     }
-    return NULL;
+    return found;
+}
+
+bool koksma__pbrt_is(const koksma__pbrt_parameter *parameter, const char *list)
+{
+    const size_t length = strlen(parameter->type);
+    for (; *list; list += strspn(list, " ")) {
+        const size_t word = strcspn(list, " ");
+        if (word == length && !memcmp(list, parameter->type, length)) {
+            return true;
+        }
+        list += word;
+    }
+    return false;
+}
+
+static void note(const koksma__pbrt_parameters *p, const koksma__pbrt_parameter *at, const char *expected)
+{
+    if (!p->mistake->at) {
+        *p->mistake = (koksma__pbrt_mistake){at, expected};
+    }
+}
+
+const koksma__pbrt_parameter *koksma__pbrt_find_typed(const koksma__pbrt_parameters *p, const char *name,
+                                                      const char *list)
+{
+    const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
+    if (found && !koksma__pbrt_is(found, list)) {
+        note(p, found, list);
+        return NULL;
+    }
+    return found;
+}
+
+/* Finds a parameter with `count` numbers, or one text. */
+static const koksma__pbrt_parameter *find_values(const koksma__pbrt_parameters *p, const char *name, const char *list,
+                                                 size_t count)
+{
+    const koksma__pbrt_parameter *found = koksma__pbrt_find_typed(p, name, list);
+    if (found && found->n_texts != 1 && found->n != count) {
+        note(p, found, "one value");
+        return NULL;
+    }
+    return found;
 }
 
 double koksma__pbrt_number(const koksma__pbrt_parameters *p, const char *name, double otherwise)
 {
     const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
-    return found && found->n ? found->numbers[0] : otherwise;
+    if (found && p->used && koksma__pbrt_is(found, "texture spectrum rgb")) {
+        p->used[found - p->items] = false;
+        return otherwise;
+    }
+    found = find_values(p, name, "float integer", 1);
+    return found ? found->numbers[0] : otherwise;
+}
+
+double koksma__pbrt_whole(const koksma__pbrt_parameters *p, const char *name, double otherwise)
+{
+    const koksma__pbrt_parameter *found = find_values(p, name, "integer", 1);
+    return found ? found->numbers[0] : otherwise;
 }
 
 const char *koksma__pbrt_word(const koksma__pbrt_parameters *p, const char *name, const char *otherwise)
 {
-    const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
-    return found && found->n_texts ? found->text : otherwise;
+    const koksma__pbrt_parameter *found = find_values(p, name, "string", 1);
+    return found ? found->text : otherwise;
 }
 
 bool koksma__pbrt_flag(const koksma__pbrt_parameters *p, const char *name, bool otherwise)
 {
-    const char *word = koksma__pbrt_word(p, name, "");
-    return *word ? !strcmp(word, "true") : otherwise;
+    const koksma__pbrt_parameter *found = find_values(p, name, "bool", 1);
+    return found ? !strcmp(found->text, "true") : otherwise;
+}
+
+void koksma__pbrt_point(const koksma__pbrt_parameters *p, const char *name, double out[3])
+{
+    const koksma__pbrt_parameter *found = find_values(p, name, "point3 point vector3 vector", 3);
+    if (found) {
+        memcpy(out, found->numbers, 3 * sizeof *out);
+    }
+}
+
+koksma_status koksma__pbrt_end(const koksma__pbrt_parameters *p, koksma_status status)
+{
+    const koksma__pbrt_parameter *at = p->mistake->at;
+    return at && status != KOKSMA_MEMORY ? koksma__import_fail((koksma__text_place){p->place.file, at->line},
+                                                               "%s: a '%s' of %zu values; expected: %s", at->name,
+                                                               at->type, at->n + at->n_texts, p->mistake->expected)
+                                         : status;
 }

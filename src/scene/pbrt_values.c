@@ -96,18 +96,21 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
     }
     *out->image = 0;
     out->is_checker = false;
-    if (p->n_texts) {
+    if (!koksma__pbrt_is(p, "float rgb color spectrum blackbody")) {
+        return koksma__import_fail(place, "%s: a '%s' is not a colour", p->name, p->type);
+    }
+    if (p->n_texts == 1) {
         return named_spectrum(scene, place, p->text, out->rgb);
     }
-    if (!strcmp(p->type, "blackbody") && p->n) {
+    if (!strcmp(p->type, "blackbody") && p->n == 1) {
         koksma__import_black_body(p->numbers[0], out->rgb);
         return KOKSMA_OK;
     }
-    if (!strcmp(p->type, "spectrum")) {
+    if (!strcmp(p->type, "spectrum") && p->n) {
         return sampled(place, p->numbers, p->n, emits, out->rgb);
     }
-    if (p->n != 1 && p->n != 3) {
-        return koksma__import_fail(place, "%s: a colour has one number or three", p->name);
+    if (p->n != (koksma__pbrt_is(p, "rgb color") ? 3 : 1)) {
+        return koksma__import_fail(place, "%s: more than one colour", p->name);
     }
     for (size_t k = 0; k < 3; k++) {
         out->rgb[k] = p->numbers[p->n == 3 ? k : 0];
@@ -141,7 +144,8 @@ koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbr
         rgb[k] = colour.rgb[k] * koksma__pbrt_number(p, "scale", 1);
     }
     for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
-        if (koksma__pbrt_find(p, unknown[i]) && koksma__pbrt_flag(p, unknown[i], true)) {
+        const koksma__pbrt_parameter *found = koksma__pbrt_find(p, unknown[i]);
+        if (found && !(koksma__pbrt_is(found, "bool") && !strcmp(found->text, "false"))) {
             KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "a light's '%s' is ignored", unknown[i]));
         }
     }
@@ -211,7 +215,7 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
             status =
                 koksma__import_unknown(scene->im, p->place, "an image times a colour is replaced by the image alone");
         }
-    } else if (!strcmp(kind, "checkerboard") && koksma__pbrt_number(p, "dimension", 2) == 2) {
+    } else if (!strcmp(kind, "checkerboard") && koksma__pbrt_whole(p, "dimension", 2) == 2) {
         status = find_colour(scene, p, "tex1", 1, c);
         status = status ? status : find_colour(scene, p, "tex2", 0, &second);
         *c->image = 0;
@@ -319,7 +323,8 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
     koksma__import_material m = {.ior = 1.5};
     if (!strcmp(type, "mix")) {
         KOKSMA__TRY(koksma__import_unknown(scene->im, p->place, "material 'mix' is replaced by its first material"));
-        return koksma__pbrt_find_material(scene, p->place, koksma__pbrt_word(p, "materials", ""), out);
+        const koksma__pbrt_parameter *both = koksma__pbrt_find_typed(p, "materials", "string");
+        return koksma__pbrt_find_material(scene, p->place, both ? both->text : "", out);
     }
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         found = !strcmp(kinds[i].name, type) ? &kinds[i] : found;
@@ -337,8 +342,10 @@ koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type,
     m.kind = (unsigned)found->kind;
     KOKSMA__TRY(m.kind == KOKSMA__METAL ? metal(scene, p, found->prefix, &m)
                                         : find_colour(scene, p, found->colour ? found->colour : "", 0.5, &m.colour));
-    m.ior = koksma__pbrt_number(p, "eta", 1.5);
-    if (*koksma__pbrt_word(p, "eta", "") && m.kind == KOKSMA__GLASS) {
+    const bool refracts = m.kind == KOKSMA__GLASS || m.kind == KOKSMA__COATED;
+    m.ior = refracts ? koksma__pbrt_number(p, "eta", 1.5) : 1.5;
+    const koksma__pbrt_parameter *eta = refracts ? koksma__pbrt_find(p, "eta") : NULL;
+    if (eta && !koksma__pbrt_is(eta, "float integer")) {
         KOKSMA__TRY(
             koksma__import_unknown(scene->im, p->place, "the spectrum of a glass is replaced by the index 1.5"));
     }
@@ -376,8 +383,8 @@ koksma_status koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text
 static koksma_status take_floats(const koksma__pbrt_parameters *p, const char *name, size_t each, size_t n, float *to)
 {
     const koksma__pbrt_parameter *from = koksma__pbrt_find(p, name);
-    if (from->n != each * n) {
-        return koksma__import_fail(p->place, "%s: %zu numbers for %zu vertices", name, from->n, n);
+    if (!from || from->n != each * n) {
+        return koksma__import_fail(p->place, "%s: %zu numbers for %zu vertices", name, from ? from->n : 0, n);
     }
     for (size_t i = 0; i < from->n; i++) {
         to[i] = (float)from->numbers[i];
@@ -405,13 +412,17 @@ static koksma_status take_indices(const koksma__pbrt_parameters *p, const koksma
 
 static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv, bool quads, koksma__mesh *mesh)
 {
-    const koksma__pbrt_parameter *points = koksma__pbrt_find(p, "P"), *indices = koksma__pbrt_find(p, "indices");
+    const koksma__pbrt_parameter *points = koksma__pbrt_find_typed(p, "P", "point3 point"),
+                                 *indices = koksma__pbrt_find_typed(p, "indices", "integer");
     const size_t n = points ? points->n / 3 : 0, each = quads ? 4 : 3;
     if (!n || (!indices && n != each)) {
         return koksma__import_fail(p->place, "a mesh needs 'P', and 'indices' if it has more than one face");
     }
+    if (indices && indices->n % each) {
+        return koksma__import_fail(p->place, "indices: %zu numbers, but each face has %zu", indices->n, each);
+    }
     const size_t faces = indices ? indices->n / each : 1;
-    const bool normals = koksma__pbrt_find(p, "N");
+    const bool normals = koksma__pbrt_find_typed(p, "N", "normal normal3");
     KOKSMA__TRY(koksma__mesh_init(n, faces * (quads ? 2 : 1), normals, *uv != 0, mesh));
     KOKSMA__TRY(take_floats(p, "P", 3, n, mesh->vertices));
     KOKSMA__TRY(normals ? take_floats(p, "N", 3, n, mesh->normals) : KOKSMA_OK);
@@ -424,7 +435,7 @@ static koksma_status fill_mesh(const koksma__pbrt_parameters *p, const char *uv,
 static koksma_status divide(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, koksma__mesh *mesh)
 {
     koksma__mesh fine = {0};
-    const double asked = koksma__pbrt_number(p, "levels", 3);
+    const double asked = koksma__pbrt_whole(p, "levels", 3);
     const size_t left = scene->n_divided < MOST_DIVIDED ? MOST_DIVIDED - scene->n_divided : 0;
     int levels = 0;
     if (koksma__mesh_check(mesh)) {
@@ -452,7 +463,10 @@ static koksma_status triangles(koksma__pbrt_scene *scene, const koksma__pbrt_par
                                int *out)
 {
     koksma__mesh mesh = {0};
-    const char *uv = koksma__pbrt_find(p, "uv") ? "uv" : koksma__pbrt_find(p, "st") ? "st" : "";
+    const char *const pairs = "point2 float";
+    const char *uv = koksma__pbrt_find_typed(p, "uv", pairs)   ? "uv"
+                     : koksma__pbrt_find_typed(p, "st", pairs) ? "st"
+                                                               : "";
     koksma_status status = fill_mesh(p, uv, quads, &mesh);
     status = status || !divided ? status : divide(scene, p, &mesh);
     if (status) {

@@ -563,7 +563,7 @@ static void media_of_mitsuba_are_read(void **state)
         (double[]){.1, .32, 0}, (double[]){.1, .08, .6}, 0.6, -INFINITY);
     check_medium(
         FOGGY("<float name=\"albedo\" value=\"1\"/><float name=\"sigma_t\" value=\"1e999\"/><float name=\"scale\" "
-              "value=\"nan\"/>",
+              "value=\"-1\"/>",
               ""),
         (double[]){0, 0, 0}, (double[]){0, 0, 0}, 0, -INFINITY);
     check_medium(FOGGY("<float name=\"albedo\" value=\"2\"/><float name=\"scale\" value=\"1e999\"/>", ""),
@@ -941,7 +941,7 @@ static const struct {
     {"b.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [500 1 400 2]",
      ":2: wavelengths of a spectrum must increase"},
     {"b.pbrt", "\nCamera \"perspective\" \"float fov\" [ 30", ":2: fov: the list has no closing bracket"},
-    {"b.pbrt", "Camera \"perspective\" \"float fov\" [ x ]", ":1: 'x': expected a number"},
+    {"b.pbrt", "Camera \"perspective\" \"float fov\" [ x ]", ":1: fov: 'x' is not a number"},
     {"b.pbrt", "Camera \"perspective", "a text has no closing quotation mark"},
     {"b.pbrt", "Camera \"perspective\" \"float fov\" 200", "the camera's angle of view"},
     {"b.pbrt", "Scale 0 1 1 Camera \"perspective\"", "the camera's matrix has no inverse"},
