@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions that the readers of other renderers' scenes share: paths, warnings about unsupported features,
- * materials, lights and the camera; import_shapes.c has the shapes. Every material becomes the nearest kind that
- * Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
+ * Functions that the readers of other renderers' scenes share: paths, warnings about unsupported features, materials,
+ * lights and the camera; import_shapes.c has the shapes, import_text.c the texts. Every material becomes the nearest
+ * kind that Koksma has. Two differences apply to all scenes and are documented in docs/scenes.md: a conductor's Fresnel
  * reflectance becomes Schlick's approximation, and surfaces have two sides. Any other difference is reported in a
  * warning with file and line.
  */
@@ -18,17 +18,15 @@
 
 #include "core/c_locale.h"
 #include "core/capacity.h"
-#include "core/hash.h"
 #include "core/vector.h"
 #include "image/formats.h"
 #include "image/image.h"
 #include "image/registry.h"
-#include "meshes/inflate.h"
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 
-enum { MOST_INCLUDES = 4096, MOST_UNKNOWN = 256, FINE = 512 };
+enum { MOST_UNKNOWN = 256, FINE = 512 };
 
 const double koksma__import_identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -106,62 +104,6 @@ koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place
                    koksma__path_beside(im->path, with_slash, im->folders[im->n_folders++])
                ? KOKSMA_OK
                : koksma__import_fail(place, "the path is too long");
-}
-
-/* Whether the file `full` is below the folder of the scene, after following symbolic links. A file that does not
-   exist passes; opening it fails later. */
-static bool is_below(const char *scene, const char *full)
-{
-    char folder[KOKSMA__MAX_PATH];
-    const char *slash = strrchr(scene, '/');
-    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - scene) + 1 : 1, slash ? scene : ".");
-    char *above = realpath(folder, NULL), *real = realpath(full, NULL);
-    const size_t length = above ? strlen(above) : 0;
-    const bool below = !real || (above && !strncmp(real, above, length) && (length == 1 || real[length] == '/'));
-    free(above);
-    free(real);
-    return below;
-}
-
-/* Reads a text file, which is compressed by gzip if its name ends in .gz. */
-static koksma_status read_text(const char *path, unsigned char **bytes, size_t *size)
-{
-    const char *dot = strrchr(path, '.');
-    if (!dot || strcmp(dot, ".gz") != 0) {
-        return koksma__read_file(path, KOKSMA__FILE_SCENE, KOKSMA__BY_FILE, koksma__check_text, bytes, size);
-    }
-    unsigned char *packed = NULL;
-    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_SCENE, KOKSMA__BY_FILE, NULL, &packed, size));
-    koksma_status status =
-        koksma__inflate_all(packed, *size, (size_t)koksma__file_most(KOKSMA__FILE_SCENE), bytes, size);
-    free(packed);
-    status = status ? status : koksma__check_text(*bytes, *size);
-    if (status) {
-        free(*bytes);
-        *bytes = NULL;
-        return koksma__fail_in(status, path);
-    }
-    return KOKSMA_OK;
-}
-
-koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
-                                  size_t *size)
-{
-    char full[KOKSMA__MAX_PATH];
-    unsigned char *read = NULL;
-    KOKSMA__TRY(koksma__import_path(im, place, path, full));
-    if (++im->n_files > MOST_INCLUDES) {
-        return koksma__import_fail(place, "more than %d files are included", MOST_INCLUDES);
-    }
-    if (!is_below(im->path, full)) {
-        return koksma__import_fail(place, "it includes '%s', which is not below the scene's own folder", path);
-    }
-    const koksma_status status = read_text(full, &read, size);
-    *bytes = (char *)read;
-    if (!status) {
-        im->scene->hash += koksma__hash(read, *size) * im->n_files;
-    }
-    return koksma__import_fail_at(place, status);
 }
 
 /* ---- Colours ---------------------------------------------------------------------------------------------- */

@@ -18,10 +18,13 @@ typedef struct koksma__text_place {
 
 typedef struct koksma__import {
     koksma_scene *scene;
-    const char *path;                  /* path of the scene's own file */
-    bool rows_down;                    /* images lie upside down: texture coordinate 0 is their upper edge */
-    bool smooths;                      /* meshes from files without normals get smooth normals */
-    size_t n_files;                    /* number of texts that were read */
+    const char *path;                /* path of the scene's own file */
+    bool rows_down;                  /* images lie upside down: texture coordinate 0 is their upper edge */
+    bool smooths;                    /* meshes from files without normals get smooth normals */
+    size_t n_files;                  /* number of texts that were read */
+    struct koksma__text_file *texts; /* the different files among them */
+    size_t n_texts;
+    uint64_t surplus;                  /* bytes of text beyond those on the disk: import_text.h */
     char folders[8][KOKSMA__MAX_PATH]; /* folders to search for files that are not beside the scene */
     size_t n_folders;
     struct koksma__known_mesh *known;
@@ -95,11 +98,6 @@ koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status sta
    one, with the number of places. Errors: MEMORY. */
 koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
     KOKSMA_PRINTF(3, 4);
-
-/* Reads a file that the scene includes. The file must be below the scene's folder, and a scene can include at most
-   MOST_INCLUDES files. The caller frees *bytes. */
-koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
-                                  size_t *size);
 
 /* Adds a folder, relative to the scene's own, to search for files that are not beside the scene. Error: MALFORMED
    (too many, or the path is too long). */

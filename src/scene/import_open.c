@@ -45,6 +45,7 @@ static koksma_status open_text(const char *path, const char *text, size_t size, 
     scene->hash = koksma__hash(text, size) + READER_REVISION;
     const koksma_status status = (is_pbrt(path) ? koksma__pbrt_read : koksma__mitsuba_read)(&im, text, size);
     koksma__import_shapes_fini(&im);
+    free(im.texts);
     if (!status) {
         koksma__scene_finish(scene);
     }

@@ -17,11 +17,13 @@
 
 #include "core/capacity.h"
 #include "core/vector.h"
+#include "meshes/mesh_text.h"
 #include "render/description_build.h"
 #include "render/fields.h"
 #include "render/lights/lights.h"
 #include "render/medium.h"
 #include "scene/import_shapes.h"
+#include "scene/import_text.h"
 #include "scene/pbrt_values.h"
 
 enum { MOST_INCLUDED = 16, MOST_STATES = 1024 };
@@ -704,7 +706,7 @@ static koksma_status read_source(reader *r, source *s)
         }
         size_t i = 0;
         const size_t n = sizeof directives / sizeof *directives;
-        while (i < n && (strlen(directives[i].name) != t.length || memcmp(directives[i].name, t.at, t.length) != 0)) {
+        while (i < n && (*directives[i].name != *t.at || !koksma__text_is(t.at, t.length, directives[i].name))) {
             i++;
         }
         if (t.kind != KOKSMA__PBRT_WORD || i == n) {

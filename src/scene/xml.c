@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "scene/import_text.h"
 
 #ifdef KOKSMA_EXPAT
 #include <expat.h>

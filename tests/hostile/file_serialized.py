@@ -179,6 +179,17 @@ def included(bench):
                               ("long", gzip.compress(b" " * ((64 << 20) + 1)), f"more than {64 << 20} bytes")):
         bench.put("body.pbrt.gz", data)
         bench.checks.refused(f"a packed text, {what}", bench.run("scene", "check", "s.pbrt"), 3, "s.pbrt:2: ", "body.pbrt.gz", words)
+    # small files cannot make a long text: 64 MiB of blanks are 64 KiB of gzip; a plain text counts when it is read again
+    bench.put("long.pbrt.gz", gzip.compress(b" " * (64 << 20)))
+    bench.put("long.pbrt", b" " * (60 << 20))
+    for name, line in (("long.pbrt.gz", 6), ("long.pbrt", 7)):
+        bench.put("s.pbrt", head + f'Include "{name}"\n' * 4 + body)
+        done = bench.run("scene", "check", "s.pbrt")
+        bench.checks.check(done and done.code in (0, 1), f"four times {name}: {done and done.err}")
+        bench.put("s.pbrt", head + f'Include "{name}"\n' * 4096 + body)
+        done = bench.run("scene", "check", "s.pbrt")
+        said = f"s.pbrt:{line}: the texts that it includes again".encode()  # AddressSanitizer keeps texts that were freed
+        bench.checks.check(done and done.code == 3 and said in done.err, f"4,096 times {name}: {done and done.err}")
 
 
 def hostiles(bench):

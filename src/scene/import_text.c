@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Reads the texts that a scene of another renderer includes, perhaps packed by gzip, within limits. */
+#include "scene/import_text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/capacity.h"
+#include "core/hash.h"
+#include "meshes/inflate.h"
+
+enum { MOST_INCLUDES = 4096, MOST_RATIO = 16, MOST_SURPLUS = 256 << 20 };
+
+struct koksma__text_file {
+    dev_t device;
+    ino_t number;
+};
+
+/* Whether the file `full` is below the folder of the scene, after following symbolic links. A file that does not
+   exist passes; opening it fails later. */
+static bool is_below(const char *scene, const char *full)
+{
+    char folder[KOKSMA__MAX_PATH];
+    const char *slash = strrchr(scene, '/');
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - scene) + 1 : 1, slash ? scene : ".");
+    char *above = realpath(folder, NULL), *real = realpath(full, NULL);
+    const size_t length = above ? strlen(above) : 0;
+    const bool below = !real || (above && !strncmp(real, above, length) && (length == 1 || real[length] == '/'));
+    free(above);
+    free(real);
+    return below;
+}
+
+/* Reads a text file, which is compressed by gzip if its name ends in .gz. */
+static koksma_status read_text(const char *path, unsigned char **bytes, size_t *size)
+{
+    const char *dot = strrchr(path, '.');
+    if (!dot || strcmp(dot, ".gz") != 0) {
+        return koksma__read_file(path, KOKSMA__FILE_SCENE, KOKSMA__BY_FILE, koksma__check_text, bytes, size);
+    }
+    unsigned char *packed = NULL;
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_SCENE, KOKSMA__BY_FILE, NULL, &packed, size));
+    koksma_status status =
+        koksma__inflate_all(packed, *size, (size_t)koksma__file_most(KOKSMA__FILE_SCENE), bytes, size);
+    free(packed);
+    status = status ? status : koksma__check_text(*bytes, *size);
+    if (status) {
+        free(*bytes);
+        *bytes = NULL;
+        return koksma__fail_in(status, path);
+    }
+    return KOKSMA_OK;
+}
+
+/* Counts a text that was read against what the files on the disk stand for. */
+static koksma_status count_text(koksma__import *im, koksma__text_place place, const char *path, size_t size)
+{
+    struct stat file;
+    bool again = stat(path, &file) != 0;
+    for (size_t i = 0; !again && i < im->n_texts; i++) {
+        again = im->texts[i].device == file.st_dev && im->texts[i].number == file.st_ino;
+    }
+    if (!again) {
+        struct koksma__text_file *to = koksma__add_one(&im->texts, &im->n_texts, sizeof *to);
+        KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+        *to = (struct koksma__text_file){file.st_dev, file.st_ino};
+    }
+    const uint64_t free_bytes = again ? 0 : MOST_RATIO * (uint64_t)file.st_size;
+    im->surplus += size > free_bytes ? size - free_bytes : 0;
+    return im->surplus <= MOST_SURPLUS
+               ? KOKSMA_OK
+               : koksma__import_fail(place,
+                                     "the texts that it includes again, or from files packed to less than 1/%d of "
+                                     "their length, are longer than %d MiB together",
+                                     MOST_RATIO, MOST_SURPLUS >> 20);
+}
+
+koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
+                                  size_t *size)
+{
+    char full[KOKSMA__MAX_PATH];
+    unsigned char *read = NULL;
+    KOKSMA__TRY(koksma__import_path(im, place, path, full));
+    if (++im->n_files > MOST_INCLUDES) {
+        return koksma__import_fail(place, "more than %d files are included", MOST_INCLUDES);
+    }
+    if (!is_below(im->path, full)) {
+        return koksma__import_fail(place, "it includes '%s', which is not below the scene's own folder", path);
+    }
+    KOKSMA__TRY(koksma__import_fail_at(place, read_text(full, &read, size)));
+    const koksma_status status = count_text(im, place, full, *size);
+    if (status) {
+        free(read);
+        return status;
+    }
+    *bytes = (char *)read;
+    im->scene->hash += koksma__hash(read, *size) * im->n_files;
+    return KOKSMA_OK;
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The texts that a scene of another renderer includes. */
+#ifndef KOKSMA_SCENE_IMPORT_TEXT_H
+#define KOKSMA_SCENE_IMPORT_TEXT_H
+
+#include "scene/import.h"
+
+/* Reads a file that the scene includes. The file must be below the scene's folder, and a scene can include at most
+   MOST_INCLUDES files. Small files cannot make a long text: what is read again, and what a packed file holds beyond
+   MOST_RATIO times its size, is at most MOST_SURPLUS bytes together. The caller frees *bytes. */
+koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
+                                  size_t *size);
+
+#endif
