@@ -23,17 +23,20 @@ static koksma_status malformed(const char *name, const char *reason)
     return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: %s", name, reason);
 }
 
-/* Returns the text after 'key': in the header's dictionary, or NULL if the dictionary lacks the key. */
-static const char *find_value(const char *header, const char *key)
+/* Sets *value to the text after 'key': in the header's dictionary, or to NULL if the dictionary lacks the key. NumPy takes
+   the last of two values of one key; such a header is refused, because it is either damaged or meant to deceive. */
+static koksma_status find_value(const char *name, const char *header, const char *key, const char **value)
 {
     char quoted[32];
     snprintf(quoted, sizeof quoted, "'%s':", key);
     const char *at = strstr(header, quoted);
-    if (!at) {
-        return NULL;
+    *value = NULL;
+    if (at) {
+        at += strlen(quoted);
+        *value = at + strspn(at, " ");
+        KOKSMA__FAIL_IF(strstr(at, quoted), KOKSMA_MALFORMED, "%s: npy header: '%s' is given twice", name, key);
     }
-    at += strlen(quoted);
-    return at + strspn(at, " ");
+    return KOKSMA_OK;
 }
 
 static koksma_status parse_shape(const char *name, const char *shape, layout *out)
@@ -68,9 +71,10 @@ static koksma_status parse_shape(const char *name, const char *shape, layout *ou
 
 static koksma_status parse_header(const char *name, const char *header, layout *out)
 {
-    const char *type = find_value(header, "descr");
-    const char *order = find_value(header, "fortran_order");
-    const char *shape = find_value(header, "shape");
+    const char *type, *order, *shape;
+    KOKSMA__TRY(find_value(name, header, "descr", &type));
+    KOKSMA__TRY(find_value(name, header, "fortran_order", &order));
+    KOKSMA__TRY(find_value(name, header, "shape", &shape));
     if (!type || !order || !shape || *shape != '(') {
         return malformed(name, "descr, fortran_order or shape is missing");
     }
@@ -82,6 +86,9 @@ static koksma_status parse_header(const char *name, const char *header, layout *
     out->big_endian = type[1] == '>';
     out->item_size = float64 ? 8 : 4;
     out->fortran_order = !strncmp(order, "True", 4);
+    if (!out->fortran_order && strncmp(order, "False", 5) != 0) {
+        return malformed(name, "fortran_order is neither True nor False");
+    }
     return parse_shape(name, shape, out);
 }
 

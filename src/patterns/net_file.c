@@ -302,6 +302,9 @@ static koksma_status sobol_columns(const koksma__number_lines *lines, int k, con
     KOKSMA__FAIL_IF(count < 4 || numbers[0] != (uint64_t)k + 1 || degree != count - 3, KOKSMA_MALFORMED,
                     "%s: line %zu: expected the dimension %d, a degree s, a, and s numbers", lines->name,
                     lines->number, k + 1);
+    KOKSMA__FAIL_IF(a >> (degree - 1), KOKSMA_MALFORMED,
+                    "%s: line %zu: a is %llu, but a polynomial of degree %llu has an a below %llu", lines->name,
+                    lines->number, (unsigned long long)a, (unsigned long long)degree, 1ULL << (degree - 1));
     for (int c = 0; c < SOBOL_COLUMNS; c++) {
         if (c < (int)degree) {
             const uint64_t number = numbers[3 + c];

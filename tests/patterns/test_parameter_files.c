@@ -231,6 +231,22 @@ static void sobol_numbers_give_sobol_points(void **state)
     }
 }
 
+/* Joe and Kuo's a has the inner coefficients of a polynomial: of degree s, s - 1 bits. */
+static void sobol_numbers_have_their_bits(void **state)
+{
+    static const char *const lines[] = {"3 2 3 1 3", "3 2 2 1 3", "3 2 18446744073709551615 1 3", "3 1 1 1"};
+    (void)state;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char text[80];
+        koksma_points points;
+        snprintf(text, sizeof text, "d s a m_i\n2 1 0 1\n%s # last\n", lines[i]);
+        write_file("jk.txt", text);
+        assert_int_equal(points_of("net-file:jk.txt", 16, 3, &points), KOKSMA_MALFORMED);
+        assert_non_null(strstr(koksma_error_text(), "line 3: a is "));
+        koksma_points_fini(&points);
+    }
+}
+
 /* LatNet Builder's own output, from its examples (umontreal-simul/latnetbuilder, examples/examples-IO): the program prints
    one net in two or three forms, which have to give the same points: polynomial lattices to the k = 10 digits that it gives
    their matrices. */
@@ -442,6 +458,7 @@ int main(void)
         cmocka_unit_test(nets_are_matrices_times_digits),
         cmocka_unit_test(polynomial_lattices_are_quotients),
         cmocka_unit_test(sobol_numbers_give_sobol_points),
+        cmocka_unit_test(sobol_numbers_have_their_bits),
         cmocka_unit_test(latnet_builders_forms_agree),
         cmocka_unit_test(latnet_builders_lattices_are_read),
         cmocka_unit_test(latnet_builders_interlaced_nets_are_interlaced),
