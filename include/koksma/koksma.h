@@ -144,7 +144,7 @@ KOKSMA_API void koksma_points_fini(koksma_points *points);
 
 /* Reads points from a file; allocates points.
      path  a .npy file, recognised by its content, or text: one point a line, coordinates separated by blanks, tabs or
-           commas, `#` starts a comment, one CSV header line is allowed. "-" is standard input
+           commas, `#` starts a comment up to the end of the line, one CSV header line is allowed. "-" is standard input
    Every row needs the same number of coordinates, all in [0,1].
    Errors: MISSING, MALFORMED (names file, line and reason), MEMORY. */
 KOKSMA_API koksma_status koksma_points_read(const char *path, koksma_points *points);

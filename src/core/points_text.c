@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Reads and writes points as text: one point per line, with numbers as `%.17g`, after lines `# key value`. Reading
-   accepts blanks, commas and tabs between fields, comments, and a CSV header. If there is a line `# n N` or `# dim
-   D`, it must match the points. Test files with known values have another form: a preamble of lines `key number`,
-   ended by a line `points`. Its lines `n N` and `dim D` must also match. */
+   accepts blanks, commas and tabs between fields, comments from a # to the end of the line, and a CSV header. If there
+   is a line `# n N` or `# dim D`, it must match the points. Test files with known values have another form: a preamble
+   of lines `key number`, ended by a line `points`. Its lines `n N` and `dim D` must also match. */
 #include "core/points_text.h"
 
 #include <errno.h>
@@ -230,6 +230,23 @@ static koksma_status read_row(reader *r, const char *s)
     return KOKSMA_OK;
 }
 
+/* Cuts a comment, and the blanks before it, from the end of a line. Names in a CSV header may contain a #, so that in a
+   line of words a blank must come before it. */
+static void cut_comment(char *s)
+{
+    const bool words = !strchr("+-.0123456789", *s);
+    char *cut = strchr(s, '#');
+    while (cut && words && cut[-1] != ' ' && cut[-1] != '\t') {
+        cut = strchr(cut + 1, '#');
+    }
+    while (cut && cut > s && (cut[-1] == ' ' || cut[-1] == '\t')) {
+        cut--;
+    }
+    if (cut) {
+        *cut = '\0';
+    }
+}
+
 static koksma_status take_line(reader *r)
 {
     bool control = false;
@@ -242,13 +259,14 @@ static koksma_status take_line(reader *r)
     }
     /* the byte order mark that Excel writes before UTF-8 */
     const bool marked = r->line_number == 1 && !strncmp(r->line, "\xef\xbb\xbf", 3);
-    const char *s = skip_blanks(r->line + (marked ? 3 : 0));
+    char *const line = r->line + (marked ? 3 : 0), *const s = line + (skip_blanks(line) - line);
     if (*s == '\0') {
         return KOKSMA_OK;
     }
     if (*s == '#') {
         return read_promise(r, s, "# %7[a-z] %23[0-9]%c");
     }
+    cut_comment(s);
     koksma_status status = KOKSMA_OK;
     if (r->points->dim == 0 && !r->header_seen && take_preamble(r, s, &status)) {
         return status;
