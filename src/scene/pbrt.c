@@ -63,6 +63,7 @@ typedef struct reader {
     object *objects;
     named_medium *media;
     size_t n_spaces, n_objects, n_media;
+    koksma__names space_names, object_names;
     object *open;    /* the object to which shapes are added, or NULL */
     double times[2]; /* when motions start and end */
     koksma__pbrt_parameters *parameters;
@@ -185,7 +186,7 @@ static koksma_status name_space(reader *r, const char *name, const double *start
     snprintf(space->name, sizeof space->name, "%s", name);
     memcpy(space->matrix[0], start, sizeof space->matrix[0]);
     memcpy(space->matrix[1], end, sizeof space->matrix[1]);
-    return KOKSMA_OK;
+    return koksma__names_put(&r->space_names, space->name, r->n_spaces - 1);
 }
 
 static koksma_status take_coordinate_system(reader *r, source *s)
@@ -199,11 +200,10 @@ static koksma_status take_coordinate_transform(reader *r, source *s)
 {
     char name[64];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    for (size_t i = r->n_spaces; i-- > 0;) {
-        if (!strcmp(r->spaces[i].name, name)) {
-            memcpy(r->now.matrix, r->spaces[i].matrix, sizeof r->now.matrix);
-            return KOKSMA_OK;
-        }
+    size_t i;
+    if (koksma__names_find(&r->space_names, name, &i)) {
+        memcpy(r->now.matrix, r->spaces[i].matrix, sizeof r->now.matrix);
+        return KOKSMA_OK;
     }
     return koksma__import_fail(s->place, "no coordinate system '%s'", name);
 }
@@ -321,6 +321,7 @@ static koksma_status take_object_end(reader *r, source *s)
     if (!r->open) {
         return koksma__import_fail(s->place, "ObjectEnd without ObjectBegin");
     }
+    KOKSMA__TRY(koksma__names_put(&r->object_names, r->open->name, (size_t)(r->open - r->objects)));
     r->open = NULL;
     return pop(r, s, false);
 }
@@ -329,21 +330,20 @@ static koksma_status take_instance(reader *r, source *s)
 {
     char name[256];
     KOKSMA__TRY(koksma__pbrt_text(s, name, sizeof name));
-    for (size_t i = r->n_objects; i-- > 0;) {
-        const object *o = &r->objects[i];
-        if (o != r->open && !strcmp(o->name, name)) {
-            koksma__pose poses[2];
-            bool moving = moves(r->now.matrix[0], r->now.matrix[1]);
-            if (moving) {
-                KOKSMA__TRY(find_poses(r, s->place, r->now.matrix[0], r->now.matrix[1], poses, &moving));
-            }
-            for (size_t k = 0; k < o->n; k++) {
-                KOKSMA__TRY(koksma__import_put(r->im, &o->items[k], r->now.matrix[0], moving ? poses : NULL));
-            }
-            return KOKSMA_OK;
-        }
+    size_t i;
+    if (!koksma__names_find(&r->object_names, name, &i)) {
+        return koksma__import_fail(s->place, "no object '%s'", name);
     }
-    return koksma__import_fail(s->place, "no object '%s'", name);
+    const object *o = &r->objects[i];
+    koksma__pose poses[2];
+    bool moving = moves(r->now.matrix[0], r->now.matrix[1]);
+    if (moving) {
+        KOKSMA__TRY(find_poses(r, s->place, r->now.matrix[0], r->now.matrix[1], poses, &moving));
+    }
+    for (size_t k = 0; k < o->n; k++) {
+        KOKSMA__TRY(koksma__import_put(r->im, &o->items[k], r->now.matrix[0], moving ? poses : NULL));
+    }
+    return KOKSMA_OK;
 }
 
 /* ---- Shapes and lights ------------------------------------------------------------------------------------- */
@@ -864,6 +864,8 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
         free(r.objects[i].items);
     }
     KOKSMA__FREE(r.objects, r.spaces, r.media, r.stack, r.parameters);
+    koksma__names_fini(&r.space_names);
+    koksma__names_fini(&r.object_names);
     koksma__pbrt_scene_fini(&r.values);
     return status;
 }

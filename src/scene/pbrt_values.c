@@ -17,7 +17,10 @@
 #include "scene/import_shapes.h"
 #include "scene/import_spectrum.h"
 
-enum { MOST_DIVIDED = 1 << 21 }; /* largest number of triangles that subdivision may make in a scene */
+enum {
+    MOST_DIVIDED = 1 << 21, /* largest number of triangles that subdivision may make in a scene */
+    MOST_TEXTURES = 1 << 16 /* each takes 5 KB, for the path of its image */
+};
 
 struct koksma__pbrt_named {
     char name[256];
@@ -35,6 +38,8 @@ void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene)
         free(scene->texts[i]);
     }
     KOKSMA__FREE(scene->texts, scene->materials, scene->textures);
+    koksma__names_fini(&scene->material_names);
+    koksma__names_fini(&scene->texture_names);
 }
 
 /* ---- Colours ------------------------------------------------------------------------------------------------ */
@@ -86,11 +91,10 @@ static koksma_status colour_of(koksma__pbrt_scene *scene, koksma__text_place pla
                                bool emits, koksma__import_colour *out)
 {
     if (!strcmp(p->type, "texture")) {
-        for (size_t i = scene->n_textures; i-- > 0;) {
-            if (!strcmp(scene->textures[i].name, p->text)) {
-                *out = scene->textures[i].colour;
-                return KOKSMA_OK;
-            }
+        size_t i;
+        if (koksma__names_find(&scene->texture_names, p->text, &i)) {
+            *out = scene->textures[i].colour;
+            return KOKSMA_OK;
         }
         return koksma__import_fail(place, "%s: no texture '%s'", p->name, p->text);
     }
@@ -186,6 +190,9 @@ static void set_mapping(const koksma__pbrt_parameters *p, koksma__mapping *to)
 koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *kind,
                                    const koksma__pbrt_parameters *p)
 {
+    if (scene->n_textures == MOST_TEXTURES) {
+        return koksma__import_fail(p->place, "more than %d textures", MOST_TEXTURES);
+    }
     struct koksma__pbrt_texture *to = koksma__add_one(&scene->textures, &scene->n_textures, sizeof *to);
     koksma__import_colour first, second;
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
@@ -234,6 +241,7 @@ koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, 
             status = koksma__import_unknown(scene->im, p->place, "texture '%s' is replaced by one colour", kind);
         }
     }
+    status = status ? status : koksma__names_put(&scene->texture_names, to->name, scene->n_textures);
     scene->n_textures += !status;
     return status;
 }
@@ -362,17 +370,16 @@ koksma_status koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     snprintf(to->name, sizeof to->name, "%s", name);
     to->material = material;
-    return KOKSMA_OK;
+    return koksma__names_put(&scene->material_names, to->name, scene->n_materials - 1);
 }
 
 koksma_status koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text_place place, const char *name,
                                          int *out)
 {
-    for (size_t i = scene->n_materials; i-- > 0;) {
-        if (!strcmp(scene->materials[i].name, name)) {
-            *out = scene->materials[i].material;
-            return KOKSMA_OK;
-        }
+    size_t i;
+    if (koksma__names_find(&scene->material_names, name, &i)) {
+        *out = scene->materials[i].material;
+        return KOKSMA_OK;
     }
     return koksma__import_fail(place, "material '%s' is not defined before this use", name);
 }

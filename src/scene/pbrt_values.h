@@ -4,6 +4,7 @@
 #define KOKSMA_SCENE_PBRT_VALUES_H
 
 #include "scene/import.h"
+#include "scene/names.h"
 #include "scene/pbrt_tokens.h"
 
 typedef struct koksma__pbrt_scene {
@@ -12,6 +13,7 @@ typedef struct koksma__pbrt_scene {
     struct koksma__pbrt_texture *textures;
     char **texts; /* names of the files that were read */
     size_t n_materials, n_textures, n_texts;
+    koksma__names material_names, texture_names;
     size_t n_divided; /* number of triangles that subdivision made so far */
 } koksma__pbrt_scene;
 

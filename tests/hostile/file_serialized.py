@@ -179,6 +179,14 @@ def included(bench):
                               ("long", gzip.compress(b" " * ((64 << 20) + 1)), f"more than {64 << 20} bytes")):
         bench.put("body.pbrt.gz", data)
         bench.checks.refused(f"a packed text, {what}", bench.run("scene", "check", "s.pbrt"), 3, "s.pbrt:2: ", "body.pbrt.gz", words)
+    # many names, of which the first is looked up a million times
+    names = "".join(f'ObjectBegin "{i}" ObjectEnd CoordinateSystem "{i}"\n' for i in range(200000))
+    bench.put("s.pbrt", head + names + 'ObjectInstance "0" CoordSysTransform "0"\n' * 1000000 + body)
+    done = bench.run("scene", "check", "s.pbrt")
+    bench.checks.check(done and done.code in (0, 1), f"many names: {done and done.err}")
+    bench.put("s.pbrt", head + "".join(f'Texture "{i}" "spectrum" "constant"\n' for i in range(65537)) + body)
+    done = bench.run("scene", "check", "s.pbrt")
+    bench.checks.check(done and done.code == 3 and b"s.pbrt:65538: more than 65536 textures" in done.err, f"many textures: {done and done.err}")
     # small files cannot make a long text: 64 MiB of blanks are 64 KiB of gzip; a plain text counts when it is read again
     bench.put("long.pbrt.gz", gzip.compress(b" " * (64 << 20)))
     bench.put("long.pbrt", b" " * (60 << 20))

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Finds things of a scene by their names, of which there may be a million. */
+#ifndef KOKSMA_SCENE_NAMES_H
+#define KOKSMA_SCENE_NAMES_H
+
+#include <koksma/koksma.h>
+
+/* A hash table of names, which are kept as hashes of 64 bits; zeroed at first. */
+typedef struct koksma__names {
+    struct koksma__names_slot *slots;
+    size_t n, capacity;
+} koksma__names;
+
+/* Gives a name to the thing with this index, in place of an earlier thing of the same name. Error: MEMORY. */
+koksma_status koksma__names_put(koksma__names *names, const char *name, size_t index);
+
+/* Finds the index; returns false if there is none. */
+bool koksma__names_find(const koksma__names *names, const char *name, size_t *index);
+
+void koksma__names_fini(koksma__names *names);
+
+#endif
