@@ -52,8 +52,8 @@ static void put_checksums(uint8_t *bytes, size_t size)
     }
 }
 
-/* Mutates the uncompressed data of the first chunk of pixels. Returns the new size of the file; 0: there is no such chunk, or
-   it would not fit. */
+/* Mutates the uncompressed data of the first chunk of pixels. Returns the new size of the file; 0: there is no such chunk,
+   or it would not fit. */
 static size_t mutate_pixels(uint8_t *bytes, size_t size, size_t max_size)
 {
     static uint8_t pixels[MAX_PIXELS], packed[MAX_PIXELS + 1024];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Mutations of texts for libFuzzer, by words and lines: words are exchanged, replaced by another word of the text or of another
- * input, by a number or a mutated word; lines are removed, doubled and moved. Most changes of single bytes make a word unknown,
- * or the syntax wrong. One input in three, and those with a zero byte, are mutated by bytes.
+ * Mutations of texts for libFuzzer, by words and lines: one is removed, replaced by another one of the text or of another
+ * input, by a number or by mutated bytes, or another one is put before it. Most changes of single bytes make a word
+ * unknown, or the syntax wrong. One input in three, and those with a zero byte, are mutated by bytes.
  */
 #include <ctype.h>
 #include <stdbool.h>
@@ -43,7 +43,8 @@ static bool in_word(uint8_t byte)
     return isalnum(byte) || (byte && strchr("+-._", byte)) || byte > 127;
 }
 
-/* Splits a text into words, each a run of letters, digits and the signs of numbers, or one other character; or into lines. */
+/* Splits a text into lines, or into words: each is a run of letters, digits and the signs of numbers, or one other
+   character. */
 static void split(text *t, const uint8_t *bytes, size_t size, bool lines)
 {
     t->bytes = bytes;

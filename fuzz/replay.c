@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Hands the files of the corpora to a target, as libFuzzer would: replay FOLDER-OR-FILE...
- * replay --words FOLDER-OR-FILE...: hands them over with one word after the other removed, doubled and replaced by words that
- * belong elsewhere. A word is a run of letters, digits and the signs of numbers, or any other character. To take seconds,
- * a run leaves out the inputs that a fuzzer found (their names are hashes), and of files with many words it takes every
- * second, third, ... one.
+ * replay --words FOLDER-OR-FILE...: hands them over with one word after the other removed, doubled and replaced by words
+ * that belong elsewhere. A word is a run of letters, digits and the signs of numbers, or any other character. To take
+ * seconds, a run leaves out the inputs that a fuzzer found (their names are hashes), and of files with many words it takes
+ * every second, third, ... one.
  */
 #include <ctype.h>
 #include <dirent.h>

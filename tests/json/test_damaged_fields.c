@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Plans, scenes and glTF files with every field removed, and replaced by values of each kind, one at a time: each is read, or
-   refused with one line that names the file. The files are those of fuzz/corpus. A field at the same place of several files
-   is damaged in the first of them, or the first two. */
+/* Plans, scenes and glTF files with every field removed, and replaced by values of each kind, one at a time: each is read,
+   or refused with one line that names the file. The files are those of fuzz/corpus. A field at the same place of several
+   files is damaged in the first of them, or the first two. */
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
