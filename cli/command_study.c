@@ -337,6 +337,8 @@ static void put_audit_row(cli_rows *rows, const koksma_audit *a)
     cli_row_whole(rows, "references_missing", a->references_missing);
     cli_row_whole(rows, "differences", a->differences);
     cli_row_end(rows);
+    cli_row_whole(rows, "references_failed", a->references_failed);
+    cli_row_whole(rows, "references_other", a->references_other);
 }
 
 /* Prints the result of an audit. The bound on the share of wrong rows is rounded up to two digits, so that the
@@ -351,9 +353,12 @@ static void print_audit(const koksma_audit *a)
         printf(": with 95 %% confidence fewer than %g %% are wrong\n", ceil(100 * a->bound / unit - 1e-9) * unit);
     }
     printf("%zu reference images rendered again, of which %zu agree", a->references, a->references_agree);
-    printf(a->references_missing ? "; the files of %zu are missing\n" : "\n", a->references_missing);
-    if (a->other_rows) {
-        printf("not compared: %lld rows made by other revisions, such as %s\n", a->other_rows, a->other);
+    printf(a->references_missing ? "; the files of %zu are missing" : "", a->references_missing);
+    printf(a->references_failed ? "; %zu can't be rendered again\n" : "\n", a->references_failed);
+    if (a->other_rows || a->references_other) {
+        printf("not compared: %lld rows", a->other_rows);
+        printf(a->references_other ? " and %zu reference images" : "", a->references_other);
+        printf(" made by other revisions, such as %s\n", a->other);
     }
 }
 

@@ -166,10 +166,14 @@ typedef struct koksma_audit {
                                Pearson 1934); if all rows are drawn, the exact fraction */
     size_t references, references_agree; /* number of reference images rendered again; number of these that are
                                             equal */
-    size_t references_missing;           /* number of reference images whose files are missing */
+    size_t references_missing;           /* number of reference images whose files are missing; only the hashes of
+                                            their pixels were compared */
+    size_t references_failed;            /* number of reference images that can't be rendered again, such as those of
+                                            a scene whose file is missing; these are differences */
+    size_t references_other;             /* number of reference images made by versions whose revisions differ */
     size_t differences;                  /* number of differences found */
-    char other[128];                     /* revisions of one of the other_rows and of this program; empty if
-                                            other_rows is 0 */
+    char other[128];                     /* revisions of one of the other_rows or references_other and of this
+                                            program; empty if there are none */
 } koksma_audit;
 
 /* Audits a study: computes rows again from their keys, renders all reference images again, and compares them with

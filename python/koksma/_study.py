@@ -82,6 +82,8 @@ class Audit:
     differences: tuple[str, ...]
     other: str
 
+    references_failed: int
+    references_other: int
     def __bool__(self) -> bool:
         return not self.differences
 
@@ -281,7 +283,7 @@ def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] 
     raw = s.Audit()
     call(lab().koksma_study_audit, byref(options), byref(raw), threads=threads, run_at=1, progress=progress)
     return Audit(raw.rows, raw.other_rows, raw.drawn, raw.agree, raw.bound, raw.references, raw.references_agree,
-                 raw.references_missing, tuple(lines), raw.other.decode(errors="replace"))
+                 raw.references_missing, raw.references_failed, raw.references_other, tuple(lines), raw.other.decode(errors="replace"))
 
 
 def plans() -> List[str]:

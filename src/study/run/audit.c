@@ -263,6 +263,32 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
 
 /* ---- The whole audit ----------------------------------------------------------------------------------- */
 
+/* Checks whether this build can compute a series or reference again. If not, counts a difference, or names the other
+   revisions that made it. */
+static koksma_status check(audit *a, koksma__audit_series *s)
+{
+    koksma__made_by here;
+    const koksma_status status = koksma__audit_check(a->study, &a->list, s, &here);
+    if (koksma__ends_all(status)) {
+        return status;
+    }
+    if (status) {
+        char name[KOKSMA__REFERENCE_NAME];
+        if (s->is_reference) {
+            koksma__audit_reference_name(&s->key, name, sizeof name);
+        } else {
+            koksma__audit_name(&s->key, s->end - 1, name, sizeof name);
+        }
+        differ(a, "%s can't be %s again: %s", name, s->is_reference ? "rendered" : "computed", koksma_error_text());
+    }
+    if (s->state == KOKSMA__AUDIT_OTHER && !a->out->other[0]) {
+        snprintf(a->out->other, sizeof a->out->other, "%.24s%s%.24s (here: %.24s%s%.24s)", s->key.made_by,
+                 s->is_reference ? "" : "; ", s->key.measured_by, here.points, s->is_reference ? "" : "; ",
+                 here.value);
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status list_series(audit *a)
 {
     char path[KOKSMA__PATH];
@@ -274,27 +300,29 @@ static koksma_status list_series(audit *a)
     }
     for (size_t i = 0; !status && i < a->list.n; i++) {
         koksma__audit_series *s = &a->list.at[i];
-        koksma__made_by here;
-        char name[KOKSMA__REFERENCE_NAME];
-        if (!s->rows) {
-            continue;
+        if (s->rows) {
+            status = check(a, s);
+            *(s->state == KOKSMA__AUDIT_OTHER ? &a->out->other_rows : &a->out->rows) += s->rows;
         }
-        status = koksma__audit_check(a->study, &a->list, s, &here);
-        if (koksma__ends_all(status)) {
-            return status;
-        }
-        if (status) {
-            koksma__audit_name(&s->key, s->end - 1, name, sizeof name);
-            differ(a, "%s can't be computed again: %s", name, koksma_error_text());
-            status = KOKSMA_OK;
-        }
-        if (s->state == KOKSMA__AUDIT_OTHER && !a->out->other_rows) {
-            snprintf(a->out->other, sizeof a->out->other, "%.24s; %.24s (here: %.24s; %.24s)", s->key.made_by,
-                     s->key.measured_by, here.points, here.value);
-        }
-        *(s->state == KOKSMA__AUDIT_OTHER ? &a->out->other_rows : &a->out->rows) += s->rows;
+    }
+    for (size_t i = 0; !status && i < a->list.n_references; i++) {
+        koksma__audit_series *s = &a->list.references[i];
+        status = check(a, s);
+        a->out->references_other += s->state == KOKSMA__AUDIT_OTHER;
+        a->out->references_failed += s->state == KOKSMA__AUDIT_WRONG;
     }
     return status ? status : koksma__audit_plan(a->study, &a->list);
+}
+
+/* Estimates the work of all references in samples. The tasks of the images must have been listed before. */
+static double work_of_references(const koksma_study *study)
+{
+    double sum = 0;
+    for (size_t i = 0; i < study->n_references; i++) {
+        const koksma__reference_image *r = &study->references[i];
+        sum += (double)r->width * r->height * (double)r->reference->spp * (double)r->reference->replicates;
+    }
+    return sum;
 }
 
 static koksma_status compare(audit *a, const koksma_run *run)
@@ -307,8 +335,15 @@ static koksma_status compare(audit *a, const koksma_run *run)
         return koksma__mpi_work(a->study, &control.job);
     }
     koksma_status status = koksma__store_scan(a->study->store, draw_row, a);
+    const double drawn = a->out->rows ? (double)a->out->drawn / (double)a->out->rows : 0;
+    const double sets = drawn * koksma__run_work(a->study, false),
+                 images = drawn * koksma__run_work(a->study, true) + work_of_references(a->study);
+    control.share = sets > 0 ? sets / (sets + images) : 0;
     status = koksma__run_kind(a->study, false, &control, status, &summary, &failures);
+    control.begin = control.share;
+    control.share = 1 - control.begin;
     status = koksma__run_kind(a->study, true, &control, status, &summary, &failures);
+    a->out->references_failed += status ? a->study->n_references - a->out->references : 0;
     /* If a reference fails, counts that as a difference, so that the content of a store does not decide the exit
        code. */
     if (status && !koksma__ends_all(status)) {

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Builds a plan from the series of a store: one block for each row of table `result` (up to four measures of one
    point set), and one for each image with one reference, whose error, coherence and metrics are rows. The jobs of this
-   plan are those of a run, except that an image with several references is rendered once for each reference. */
+   plan are those of a run, except that an image with several references is rendered once for each reference. A block
+   of images without trials stands for each row of table `reference`, so that all references are rendered, also those
+   whose images have no rows. */
 #include "study/run/audit_series.h"
 
 #include <limits.h>
@@ -31,20 +33,39 @@ static void texts_of(koksma__series *key, const char **texts[N_TEXTS])
     memcpy(texts, all, sizeof all);
 }
 
-static koksma_status add_series(void *context, const koksma__series *key, long long id)
+/* Replaces the strings of the key by copies. */
+static koksma_status copy_texts(koksma__series *key)
 {
-    koksma__audit_list *list = context;
-    koksma__audit_series *at = koksma__add_one(&list->at, &list->n, sizeof *at);
     const char **texts[N_TEXTS];
-    KOKSMA__TRY(at ? KOKSMA_OK : KOKSMA_MEMORY);
-    *at = (koksma__audit_series){.key = *key, .id = id};
     bool copied = true;
-    texts_of(&at->key, texts);
+    texts_of(key, texts);
     for (int i = 0; i < N_TEXTS; i++) {
         *texts[i] = strdup(*texts[i]);
         copied = copied && *texts[i];
     }
     return copied ? KOKSMA_OK : koksma__fail_memory(1);
+}
+
+static koksma_status add_series(void *context, const koksma__series *key, long long id)
+{
+    koksma__audit_list *list = context;
+    koksma__audit_series *at = koksma__add_one(&list->at, &list->n, sizeof *at);
+    KOKSMA__TRY(at ? KOKSMA_OK : KOKSMA_MEMORY);
+    *at = (koksma__audit_series){.key = *key, .id = id};
+    return copy_texts(&at->key);
+}
+
+/* The revisions in the row of a reference are those of its image, which a series of image errors has as measured_by. */
+static koksma_status add_reference(void *context, const koksma__series *key, const koksma__reference_row *row)
+{
+    koksma__audit_list *list = context;
+    koksma__audit_series *at = koksma__add_one(&list->references, &list->n_references, sizeof *at);
+    (void)row;
+    KOKSMA__TRY(at ? KOKSMA_OK : KOKSMA_MEMORY);
+    *at = (koksma__audit_series){.key = *key, .is_reference = true};
+    at->key.metric = at->key.made_by = "";
+    at->key.measured_by = key->made_by;
+    return copy_texts(&at->key);
 }
 
 static int compare_ids(const void *a, const void *b)
@@ -74,20 +95,28 @@ koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *
     if (list->n) {
         qsort(list->at, list->n, sizeof *list->at, compare_ids);
     }
+    status = status ? status : koksma__store_visit_references(store, add_reference, list);
     return status ? status : koksma__store_scan(store, see_row, list);
+}
+
+static void fini_series(koksma__audit_series *series, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        const char **texts[N_TEXTS];
+        texts_of(&series[i].key, texts);
+        for (int k = 0; k < N_TEXTS; k++) {
+            free((char *)*texts[k]);
+        }
+        free(series[i].drawn);
+    }
+    free(series);
 }
 
 void koksma__audit_list_fini(koksma__audit_list *list)
 {
-    for (size_t i = 0; i < list->n; i++) {
-        const char **texts[N_TEXTS];
-        texts_of(&list->at[i].key, texts);
-        for (int k = 0; k < N_TEXTS; k++) {
-            free((char *)*texts[k]);
-        }
-        free(list->at[i].drawn);
-    }
-    KOKSMA__FREE(list->at, list->discrepancies, list->images);
+    fini_series(list->at, list->n);
+    fini_series(list->references, list->n_references);
+    KOKSMA__FREE(list->discrepancies, list->images);
     koksma__point_files_fini(&list->files);
 }
 
@@ -104,12 +133,20 @@ void koksma__audit_name(const koksma__series *key, long long trial, char *text, 
              key->what, key->metric[0] ? ", " : "", key->metric, trial);
 }
 
+void koksma__audit_reference_name(const koksma__series *key, char *text, size_t size)
+{
+    snprintf(text, size, "reference %.200s of %.100s%s%.100s, %lld x %lld", key->what, key->scene,
+             key->options[0] ? ", " : "", key->options, key->width, key->height);
+}
+
 /* ---- Checks of series ---------------------------------------------------------------------------------- */
 
-/* Checks that the renderer accepts the options of an image and of its reference. */
-static koksma_status check_image(const koksma__study_scene *scene, const koksma__series *key)
+/* Checks that the renderer accepts the options of an image and of its reference. A reference of its own must have only
+   options that apply to references. */
+static koksma_status check_image(const koksma__study_scene *scene, const koksma__audit_series *series)
 {
-    char name[KOKSMA_MAX_SPEC], pattern[KOKSMA_MAX_SPEC];
+    const koksma__series *key = &series->key;
+    char name[KOKSMA_MAX_SPEC], pattern[KOKSMA_MAX_SPEC], options[KOKSMA__VARIANT_TEXT];
     long long spp, replicates;
     koksma__variant variant;
     const int width = (int)key->width, height = (int)key->height;
@@ -119,7 +156,12 @@ static koksma_status check_image(const koksma__study_scene *scene, const koksma_
         status = koksma__fail(KOKSMA_ARGUMENT, "the image is too large or empty: %lld x %lld pixels, %lld samples",
                               key->width, key->height, key->n);
     }
-    if (!status) {
+    if (!status && series->is_reference) {
+        koksma__variant_of_reference(key->options, options);
+        status = strcmp(options, key->options)
+                     ? koksma__fail(KOKSMA_MALFORMED, "no reference has the options '%.100s'", key->options)
+                     : KOKSMA_OK;
+    } else if (!status) {
         const koksma__picture row = {key->pattern, key->options, false, key->n, width, height, 0};
         status = koksma__picture_set(scene, &row, &variant);
     }
@@ -155,12 +197,13 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
     }
     const koksma__study_scene *scene = !status && image ? koksma__study_scene_of(study, key->scene) : NULL;
     if (!status) {
-        koksma__hash_with_points(&list->files, scene ? scene->hash : "", key->pattern, hash);
+        koksma__hash_with_points(&list->files, scene ? scene->hash : "",
+                                 series->is_reference ? key->what : key->pattern, hash);
         status = !strcmp(hash, key->scene_hash)
                      ? KOKSMA_OK
                      : koksma__fail(KOKSMA_MALFORMED, "its scene, or the file of its points, has changed since");
     }
-    status = !status && scene ? check_image(scene, key) : status;
+    status = !status && scene ? check_image(scene, series) : status;
     series->state = status ? KOKSMA__AUDIT_WRONG : KOKSMA__AUDIT_OURS;
     return status;
 }
@@ -223,24 +266,28 @@ static koksma_status add_measure(koksma__plan *plan, koksma__audit_list *list, k
     return set_text(&b->measures, key->what);
 }
 
-static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, const koksma__series *key)
+/* Adds a block for an image, or for a reference, whose block has the reference's own pattern and no trials. */
+static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, const koksma__audit_series *series)
 {
+    const koksma__series *key = &series->key;
     koksma__image_block *b = add_block((void **)&plan->images, &plan->n_images, sizeof *b, &list->images);
     char name[KOKSMA_MAX_SPEC], pattern[KOKSMA_MAX_SPEC];
     KOKSMA__TRY(b ? KOKSMA_OK : KOKSMA_MEMORY);
     b->width = (int)key->width;
     b->height = (int)key->height;
-    koksma_status status = set_text(&b->scenes, key->scene);
-    status = status ? status : set_text(&b->patterns, key->pattern);
+    koksma__reference made = {0};
+    koksma_status status = koksma__reference_parse(key->what, name, pattern, &made.spp, &made.replicates);
+    status = status ? status : set_text(&b->scenes, key->scene);
+    status = status ? status : set_text(&b->patterns, series->is_reference ? pattern : key->pattern);
     status = status ? status : set_text(&b->variants, key->options);
-    status = status ? status : set_whole(&b->spp, key->n);
+    status = status ? status : set_whole(&b->spp, series->is_reference ? made.spp : key->n);
     b->references = status ? NULL : calloc(1, sizeof *b->references);
     if (!b->references) {
         return status ? status : koksma__fail_memory(sizeof *b->references);
     }
     b->n_references = 1;
     koksma__reference *r = &b->references[0];
-    status = koksma__reference_parse(key->what, name, pattern, &r->spp, &r->replicates);
+    *r = made;
     r->name = strdup(name);
     r->pattern = strdup(pattern);
     return status ? status : r->name && r->pattern ? KOKSMA_OK : koksma__fail_memory(strlen(pattern));
@@ -285,7 +332,7 @@ static koksma_status add_images(koksma__plan *plan, koksma__audit_list *list, ko
     for (size_t i = 0; !status && i < n; i++) {
         const bool same = i > 0 && !compare_images(&images[i - 1], &images[i]) &&
                           plan->images[plan->n_images - 1].metrics.n < KOKSMA__MOST_METRICS;
-        status = same ? KOKSMA_OK : add_image(plan, list, &images[i]->key);
+        status = same ? KOKSMA_OK : add_image(plan, list, images[i]);
         status = status ? status : add_member(plan, list, images[i]);
     }
     return status;
@@ -316,6 +363,11 @@ koksma_status koksma__audit_plan(koksma_study *study, koksma__audit_list *list)
     if (!status && n_images) {
         qsort(images, n_images, sizeof *images, compare_images);
         status = add_images(plan, list, images, n_images);
+    }
+    for (size_t i = 0; !status && i < list->n_references; i++) {
+        if (list->references[i].state == KOKSMA__AUDIT_OURS) {
+            status = add_image(plan, list, &list->references[i]);
+        }
     }
     free(images);
     return status;

@@ -17,6 +17,7 @@ typedef struct koksma__audit_series {
     koksma__series key;      /* the key, with its own copies of the strings */
     long long id, rows, end; /* rows: number of its rows; end: 1 + its largest trial number */
     koksma__audit_state state;
+    bool is_reference;    /* whether it is a row of table `reference`, which has no pattern, trials and id */
     unsigned char *drawn; /* one bit per trial, which tells whether the trial was drawn for the audit */
 } koksma__audit_series;
 
@@ -29,27 +30,33 @@ typedef struct koksma__audit_group {
 
 typedef struct koksma__audit_list {
     size_t n;
-    koksma__audit_series *at;                    /* sorted by id */
+    koksma__audit_series *at; /* sorted by id */
+    size_t n_references;
+    koksma__audit_series *references;            /* rows of table `reference` */
     koksma__audit_group *discrepancies, *images; /* one group per block of the plan */
     koksma__point_files files;
 } koksma__audit_list;
 
-/* Reads all series of the store and counts their rows. */
+/* Reads all series and references of the store, and counts the rows of the series. */
 koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *list);
 void koksma__audit_list_fini(koksma__audit_list *list);
 
 /* Finds the series with the given id; NULL if there is none. */
 koksma__audit_series *koksma__audit_find(const koksma__audit_list *list, long long id);
 
-/* Sets the state of a series and opens its scene. Fails if the state is WRONG; the error text gives the reason.
+/* Sets the state of a series or reference and opens its scene. Fails if the state is WRONG; the error text gives the reason.
    *here: the revisions of this build. */
 koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list, koksma__audit_series *series,
                                   koksma__made_by *here);
 
-/* Builds study->plan from the series whose state is OURS: one block for each group. */
+/* Builds study->plan from what has the state OURS: one block for each group of series, and one without trials for each
+   reference. */
 koksma_status koksma__audit_plan(koksma_study *study, koksma__audit_list *list);
 
 /* Writes a readable name of a row, such as "image checker, jittered, n = 4, 8 x 6, a:regular@4x1, trial 2". */
 void koksma__audit_name(const koksma__series *key, long long trial, char *text, size_t size);
+
+/* Writes the name of a reference, such as "reference a:regular@4x1 of checker, 8 x 6". */
+void koksma__audit_reference_name(const koksma__series *key, char *text, size_t size);
 
 #endif

@@ -165,7 +165,7 @@ static koksma_status request(const worker *w, int phase, double job_s)
 static koksma_status work_phase(worker *w, int phase, bool *run_over)
 {
     koksma_status status = koksma__tasks_open(w->study, phase == 1, &w->tasks);
-    bool over = status || w->tasks.n_jobs == 0;
+    bool over = status || !koksma__tasks_have_work(&w->tasks, phase == 1);
     double job_s = 0;
     w->busy_s = 0;
     w->began_s = koksma__processor_s();

@@ -71,8 +71,10 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
         done_before += (size_t)tasks.at[i].done_before;
     }
     summary->done_before += done_before;
-    if (!status && !before && (done_before < tasks.n_jobs || (koksma__mpi_size() > 1 && tasks.n_jobs))) {
-        status = koksma__mpi_size() > 1 ? koksma__mpi_serve(&phase) : koksma__work_threads(&phase);
+    /* An audit renders the references even if none of the drawn rows needs them. */
+    const bool mpi = koksma__mpi_size() > 1 && koksma__tasks_have_work(&tasks, images);
+    if (!status && !before && (done_before < tasks.n_jobs || mpi || study->sink)) {
+        status = mpi ? koksma__mpi_serve(&phase) : koksma__work_threads(&phase);
     }
     summary->done_now += atomic_load(&phase.done);
     summary->idle_seconds -= 1e-9 * (double)atomic_load(&phase.busy_ns);
@@ -83,9 +85,7 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
     return before ? before : status ? status : added;
 }
 
-/* A rough estimate of the work of one kind of jobs: the number of samples of all images, or of points of all sets
-   times the number of their measures; 0: unknown. */
-static double work_of(koksma_study *study, bool images)
+double koksma__run_work(koksma_study *study, bool images)
 {
     koksma__tasks tasks;
     double sum = 0;
@@ -121,7 +121,7 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
     koksma__failures failures = {.n = 0};
-    const double sets = work_of(study, false), pictures = work_of(study, true);
+    const double sets = koksma__run_work(study, false), pictures = koksma__run_work(study, true);
     control.share = sets > 0 ? sets / (sets + pictures) : 0;
     koksma_status status = koksma__run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
     control.begin = control.share;

@@ -10,4 +10,8 @@
 koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
                                koksma_study_summary *summary, koksma__failures *failures);
 
+/* A rough estimate of the work of one kind of jobs: the number of samples of all images, or of points of all sets
+   times the number of their measures; 0: unknown. */
+double koksma__run_work(koksma_study *study, bool images);
+
 #endif

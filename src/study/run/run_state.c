@@ -38,11 +38,11 @@ bool koksma__run_state_is_over(koksma__run_state *state)
 
 double koksma__run_state_fraction(koksma__run_state *state)
 {
-    const size_t n = state->jobs.n;
     pthread_mutex_lock(&state->lock);
-    const double fraction = n ? 1 - (double)state->jobs.left / (double)n : 1;
+    const double left =
+        state->tile_work * (double)state->tile_queue.left + state->job_work * (double)state->jobs.left;
     pthread_mutex_unlock(&state->lock);
-    return fraction;
+    return state->work > 0 ? 1 - left / state->work : 1;
 }
 
 koksma_status koksma__run_state_status(const koksma__run_state *state)
@@ -140,8 +140,9 @@ size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__refe
     return i;
 }
 
-/* A reference is ready when its file has been written, some time after its last tile was put. The phase cannot end
-   between these two moments, because the jobs that need the reference are not done yet. */
+/* A reference is ready when its file has been written, some time after its last tile was put. A run cannot end between
+   these two moments, because the jobs that need the reference are not done yet. An audit may have no such jobs: its
+   phase ends when all its threads have returned from here. */
 void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums)
 {
     const koksma__reference_tile tile = state->tiles.at[i];
@@ -164,6 +165,31 @@ void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma
 
 /* ---- Opening and closing ------------------------------------------------------------------------------- */
 
+/* Marks the jobs that were done before, and estimates the work of those that are left and of the tiles. */
+static void count_work(koksma__run_state *state)
+{
+    const koksma__tasks *tasks = state->phase->tasks;
+    double jobs = 0, tiles = 0;
+    for (size_t i = 0; i < tasks->n_jobs; i++) {
+        long long trial;
+        const koksma__task *task = koksma__tasks_job(tasks, i, &trial);
+        if (koksma__task_is_done(task, trial)) {
+            koksma__work_queue_put(&state->jobs, i);
+        } else {
+            jobs += task->image ? (double)task->n * task->width * task->height : 1;
+        }
+    }
+    for (size_t i = 0; i < state->tiles.n; i++) {
+        const koksma__reference_image *r = &tasks->study->references[state->tiles.at[i].reference];
+        tiles +=
+            (double)state->tiles.at[i].rows * r->width * (double)r->reference->spp * (double)r->reference->replicates;
+    }
+    const size_t counted = tasks->study->sink ? state->jobs.left : tasks->n_jobs;
+    state->job_work = state->jobs.left ? jobs / (double)state->jobs.left : 0;
+    state->tile_work = state->tiles.n ? tiles / (double)state->tiles.n : 0;
+    state->work = state->job_work * (double)counted + tiles;
+}
+
 koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *state)
 {
     const koksma__tasks *tasks = phase->tasks;
@@ -178,12 +204,8 @@ koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *st
     for (size_t i = 0; i < n_references && !status; i++) {
         state->ready[i] = tasks->study->references[i].image.pixels != NULL;
     }
-    for (size_t i = 0; i < tasks->n_jobs && !status; i++) {
-        long long trial;
-        const koksma__task *task = koksma__tasks_job(tasks, i, &trial);
-        if (koksma__task_is_done(task, trial)) {
-            koksma__work_queue_put(&state->jobs, i);
-        }
+    if (!status) {
+        count_work(state);
     }
     return status;
 }

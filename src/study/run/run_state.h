@@ -51,6 +51,8 @@ typedef struct koksma__run_state {
     pthread_mutex_t lock; /* guards the following fields */
     koksma__reference_tiles tiles;
     koksma__work_queue tile_queue, jobs;
+    double tile_work, job_work; /* mean number of samples of a tile and of a job that is left (of points: 1) */
+    double work; /* the work of the whole phase in these units; an audit's phase has no jobs done before */
     koksma_status status;
     char text[KOKSMA__FAILURE_TEXT];
     bool *ready; /* per reference: whether its pixels are complete */
@@ -65,7 +67,7 @@ void koksma__run_state_close(koksma__run_state *state);
 void koksma__run_state_stop(koksma__run_state *state, koksma_status status, const char *text);
 
 /* koksma__run_state_is_over: whether all results have arrived, or the phase has failed. koksma__run_state_fraction:
-   the completed fraction of the jobs. */
+   the completed fraction of the work of all tiles and jobs. */
 bool koksma__run_state_is_over(koksma__run_state *state);
 double koksma__run_state_fraction(koksma__run_state *state);
 

@@ -63,7 +63,7 @@ static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
     t->key = key_of(t);
     t->series = calloc(t->n_series, sizeof *t->series);
     t->references = calloc(t->n_series, sizeof *t->references);
-    t->done = calloc(((size_t)t->trials + 7) / 8, 1);
+    t->done = calloc((size_t)t->trials / 8 + 1, 1);
     return t->series && t->references && t->done ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
 }
 
@@ -216,6 +216,11 @@ void koksma__tasks_close(koksma__tasks *tasks)
     free(tasks->at);
     free(tasks->rounds);
     *tasks = (koksma__tasks){0};
+}
+
+bool koksma__tasks_have_work(const koksma__tasks *tasks, bool images)
+{
+    return tasks->n_jobs || (images && tasks->study->n_references);
 }
 
 const koksma__task *koksma__tasks_job(const koksma__tasks *tasks, size_t i, long long *trial)

@@ -55,6 +55,10 @@ bool koksma__has_one_set(const char *pattern);
 koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks *tasks);
 void koksma__tasks_close(koksma__tasks *tasks);
 
+/* Whether tasks of one kind have jobs or, for images, the study has references that an audit renders. All ranks of an
+   MPI run get the same answer. */
+bool koksma__tasks_have_work(const koksma__tasks *tasks, bool images);
+
 /* Finds or creates the series of all tasks in the store, and finds which trials are done. */
 koksma_status koksma__tasks_look_up(koksma__tasks *tasks);
 

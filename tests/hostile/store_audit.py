@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""store_audit.py KOKSMA: what `koksma study audit` says of folders that a stranger made. All reference images are
+rendered again, whichever rows are drawn, and those that cannot be are counted."""
+import os
+import re
+import shutil
+import sqlite3
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE + "/../study")
+from reseal import reseal  # noqa: E402
+
+KOKSMA = os.path.abspath(sys.argv[1])
+PLAN = """{"name": "h", "title": "h",
+  "discrepancies": [{"patterns": ["random"], "measures": ["star", "l2-star", "extreme", "l2-extreme"], "n": [4], "trials": 1000}],
+  "images": [{"scenes": ["checker", "./mine.json"], "patterns": ["random"], "spp": [1], "size": [8, 6], "trials": 2,
+              "references": [{"name": "r", "pattern": "jittered", "spp": 4, "replicates": 2}]}]}"""
+problems = 0
+
+
+def check(right, what):
+    global problems
+    if not right:
+        problems += 1
+        print("wrong:", what)
+
+
+def koksma(*arguments, prefix=()):
+    return subprocess.run([*prefix, KOKSMA, *arguments], capture_output=True, text=True, timeout=60)
+
+
+def audit(folder, *more, **how):
+    return koksma("study", "audit", folder, *more, **how)
+
+
+def copy(name, of="sound"):
+    shutil.rmtree(name, ignore_errors=True)
+    shutil.copytree(of, name)
+    return name
+
+
+def change(folder, *statements, sealed=True):
+    database = sqlite3.connect(folder + "/results.sqlite")
+    for statement in statements:
+        database.execute(statement)
+    database.commit()
+    database.close()
+    if sealed:
+        reseal(folder)
+
+
+def says(told, code, *lines):
+    """Whether the audit ended with the exit code, and printed a line that matches each pattern."""
+    check(told.returncode == code and not told.stderr, f"exit code {code}: {told}")
+    for line in lines:
+        check(re.search("^" + line + "$", told.stdout, re.MULTILINE), f"'{line}' is a line of {told.stdout}")
+
+
+# ---- References -----------------------------------------------------------------------------------------------
+
+
+def references():
+    """No drawn row needs a reference (the first draw is of one row), and all are compared."""
+    of_row = "--rows", "1", "-s", "1"
+    says(audit("sound", *of_row), 0, "2 reference images rendered again, of which 2 agree")
+    first, second = (f"r/references/{name}" for name in sorted(os.listdir("sound/references")))
+    copy("r")
+    os.rename(first, "kept")
+    os.rename(second, first)
+    os.rename("kept", second)
+    for more in of_row, ("--rows", "all"), (*of_row, "--threads", "1"):
+        told = audit("r", *more)
+        says(told, 1, "2 reference images rendered again, of which 0 agree")
+        check(told.stdout.count("differ from those rendered now") == 2, f"swapped: {told}")
+    copy("r")
+    open(first, "wb").close()
+    says(audit("r", *of_row), 1, "2 reference images rendered again, of which 1 agree", f"differs: reference .*{first}: empty")
+    # References without any image are still references.
+    copy("r")
+    change("r", "DELETE FROM result WHERE id & 4294967295 IN (SELECT id FROM series WHERE kind <> 'discrepancy')",
+           "DELETE FROM series WHERE kind <> 'discrepancy'")
+    says(audit("r"), 0, "2 reference images rendered again, of which 2 agree")
+    open(first, "wb").close()
+    says(audit("r"), 1, "2 reference images rendered again, of which 1 agree")
+    # Those of a scene that is not there, and of other revisions, are counted, and the rest are compared.
+    copy("r")
+    os.rename("mine.json", "elsewhere.json")
+    told = audit("r", *of_row)
+    says(told, 1, r"differs: reference r:jittered@4x2 of \./mine\.json, 8 x 6 can't be rendered again: .*mine\.json.*No such file.*",
+         r"differs: image \./mine\.json, .*, trial 1 can't be computed again: .*No such file.*",
+         "1 reference images rendered again, of which 1 agree; 1 can't be rendered again")
+    os.rename("elsewhere.json", "mine.json")
+    change("r", "UPDATE reference SET made_by = 'renderer 0, jittered 77' WHERE scene = 'checker'",
+           "UPDATE series SET measured_by = replace(measured_by, 'jittered 0', 'jittered 77') WHERE scene = 'checker'")
+    says(audit("r", *of_row), 0, "1 reference images rendered again, of which 1 agree",
+         r"not compared: 12 rows and 1 reference images made by other revisions, such as .*77.*")
+
+
+os.chdir(tempfile.mkdtemp(prefix="koksma-store-audit-"))
+try:
+    with open("plan.json", "w") as file:
+        file.write(PLAN)
+    shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
+    made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
+    assert made.returncode == 0, made.stderr
+    for part in references,:
+        part()
+finally:
+    here = os.getcwd()
+    os.chdir("/")
+    shutil.rmtree(here)
+print(f"{problems} problems")
+sys.exit(problems > 0)
