@@ -6,6 +6,7 @@
  * `estimate` predicts the cost of a run. `export` and `report` write the results of a run again, `audit` computes
  * results again and compares them, and `images` compares sets of images.
  */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -325,9 +326,10 @@ static void put_difference(void *context, const char *text)
     }
 }
 
-static void put_audit_row(cli_rows *rows, const koksma_audit *a)
+static void put_audit_row(cli_rows *rows, const koksma_audit *a, uint64_t seed)
 {
     cli_row_whole(rows, "rows", (uint64_t)a->rows);
+    cli_row_whole(rows, "seed", seed);
     cli_row_whole(rows, "drawn", (uint64_t)a->drawn);
     cli_row_whole(rows, "agree", (uint64_t)a->agree);
     cli_row_number(rows, "wrong_below", a->bound);
@@ -335,21 +337,21 @@ static void put_audit_row(cli_rows *rows, const koksma_audit *a)
     cli_row_whole(rows, "references", a->references);
     cli_row_whole(rows, "references_agree", a->references_agree);
     cli_row_whole(rows, "references_missing", a->references_missing);
-    cli_row_whole(rows, "differences", a->differences);
-    cli_row_end(rows);
     cli_row_whole(rows, "references_failed", a->references_failed);
     cli_row_whole(rows, "references_other", a->references_other);
+    cli_row_whole(rows, "differences", a->differences);
+    cli_row_end(rows);
 }
 
 /* Prints the result of an audit. The bound on the share of wrong rows is rounded up to two digits, so that the
    printed bound holds. */
-static void print_audit(const koksma_audit *a)
+static void print_audit(const koksma_audit *a, uint64_t seed)
 {
-    printf("%lld rows drawn, of which %lld agree", a->drawn, a->agree);
     if (a->drawn == a->rows) {
-        printf(": these are all\n");
+        printf("%lld rows drawn, of which %lld agree: these are all\n", a->drawn, a->agree);
     } else {
         const double unit = pow(10, floor(log10(100 * a->bound)) - 1);
+        printf("%lld rows drawn with seed %llu, of which %lld agree", a->drawn, (unsigned long long)seed, a->agree);
         printf(": with 95 %% confidence fewer than %g %% are wrong\n", ceil(100 * a->bound / unit - 1e-9) * unit);
     }
     printf("%zu reference images rendered again, of which %zu agree", a->references, a->references_agree);
@@ -362,6 +364,21 @@ static void print_audit(const koksma_audit *a)
     }
 }
 
+/* Reads --seed. Without it, the operating system gives 64 random bits, because whoever knows the seed knows which
+   rows are drawn and can change all others: the confidence limit would not hold. */
+static bool audit_seed(const cli_arguments *arguments, uint64_t *seed)
+{
+    if (cli_text(arguments, "seed", NULL)) {
+        return cli_whole(arguments, "seed", 0, 0, UINT64_MAX, seed);
+    }
+    if (getentropy(seed, sizeof *seed)) {
+        cli_usage_error(arguments, "no random seed from the operating system: %s; give one with --seed",
+                        strerror(errno));
+        return false;
+    }
+    return true;
+}
+
 static int audit(const cli_arguments *arguments)
 {
     cli_work work;
@@ -371,8 +388,8 @@ static int audit(const cli_arguments *arguments)
     if (arguments->n_operands != 2) {
         return cli_usage_error(arguments, "audit takes a study's folder, as in audit DIR");
     }
-    if ((!all && !cli_whole(arguments, "rows", 200, 1, INT64_MAX, &rows)) ||
-        !cli_whole(arguments, "seed", 1, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "auditing", &work)) {
+    if ((!all && !cli_whole(arguments, "rows", 200, 1, INT64_MAX, &rows)) || !audit_seed(arguments, &seed) ||
+        !cli_work_begin(arguments, "auditing", &work)) {
         return CLI_USAGE;
     }
     const bool speaks = koksma_study_mpi_rank() == 0;
@@ -391,11 +408,11 @@ static int audit(const cli_arguments *arguments)
         return CLI_YES;
     }
     if (json) {
-        put_audit_row(to.rows, &found);
+        put_audit_row(to.rows, &found, seed);
         const int written = cli_rows_close(to.rows);
         return written ? written : found.differences ? CLI_NO : CLI_YES;
     }
-    print_audit(&found);
+    print_audit(&found, seed);
     return found.differences ? CLI_NO : CLI_YES;
 }
 
@@ -537,7 +554,7 @@ static const cli_option options[] = {
     {0, "time-limit", "S",
      "run: stop after S seconds, with exit code 1 if jobs remain; estimate: time for sample jobs (default: 5)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
-    {'s', "seed", "SEED", "audit: seed of the random draw (default: 1)"},
+    {'s', "seed", "SEED", "audit: seed of the random draw (default: a random one, which is printed)"},
     {0, "reference", "FILE", "images: the reference image"},
     {0, "metric", "METRIC,..",
      "quick, images: metric of the error that ranks: mae (default), relmse, hdr-flip, ...; quick: also further "
@@ -579,11 +596,14 @@ const cli_command cli_command_study = {
         "'sha256' is the hash of the CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
         "results, fail while a run uses DIR, and fail if anything but a run has changed the results.\n"
         "report: writes DIR/report.html.\n"
-        "audit: computes rows of DIR and all reference images again, and compares them bit for bit. It prints each "
-        "difference and an upper bound of the fraction of wrong rows (95 % confidence). The exit code is 1 if "
+        "audit: computes rows of DIR and, whichever rows are drawn, all reference images again, and compares them "
+        "bit "
+        "for bit. It prints each difference and an upper bound of the fraction of wrong rows (95 % confidence), "
+        "which "
+        "holds because nobody knows before which rows are drawn; --seed repeats a draw. The exit code is 1 if "
         "anything\n"
-        "differs. Rows made by other revisions of a pattern, a measure or the renderer are counted separately. audit "
-        "changes nothing, and also works under mpirun.\n"
+        "differs. Rows and references made by other revisions of a pattern, a measure or the renderer are counted "
+        "separately. audit changes nothing, and also works under mpirun.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in "
         "braces; images that differ only in {trial} form a group. 'behind' is the relative excess of a group's error "
         "over the smallest error of a group with the same spp. It has an interval if both groups have the same "

@@ -148,7 +148,7 @@ KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_f
 typedef struct koksma_audit_options {
     const char *folder; /* folder of the study, which is only read */
     long long rows;     /* number of rows to draw at random, each with the same probability; 0: all */
-    uint64_t seed;      /* seed of the random draw */
+    uint64_t seed; /* seed of the random draw; the bound holds only if nobody who could change the rows knew it */
     /* Called with a line of text for each difference, by one thread at a time; may be NULL. */
     void (*differs)(void *context, const char *text);
     void *context;
@@ -176,8 +176,8 @@ typedef struct koksma_audit {
                                             program; empty if there are none */
 } koksma_audit;
 
-/* Audits a study: computes rows again from their keys, renders all reference images again, and compares them with
-   the stored results. The choice of rows depends on the seed and the stored results, not on the number of threads.
+/* Audits a study: computes rows again from their keys, renders all reference images again, whichever rows are drawn,
+   and compares them with the stored results. The choice of rows depends on the seed and the stored results, not on the number of threads.
    Under mpirun all ranks work and must be able to read the folder; rank 0 gets the result.
    Errors: ARGUMENT (rows below 0), MISSING, MALFORMED (the folder has no results of a study, or they are too
    damaged to read), IO, MEMORY, INTERRUPTED. A difference between stored and recomputed results is not an error. */

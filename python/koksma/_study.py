@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import secrets
 import tempfile
 from ctypes import byref, c_bool, c_char_p, c_void_p
 from dataclasses import dataclass
@@ -64,26 +65,28 @@ class TableRow:
 class Audit:
     """What an audit of a study's folder found; true if nothing differs.
 
-    Of `rows`, which the generators of this version made, `drawn` were made again and `agree` were equal, bit for bit. With
-    95 % confidence a smaller part of `rows` than `bound` is wrong (Clopper & Pearson 1934); if all were drawn, it is the part
-    that differs. `other_rows` are of other versions and cannot be compared; `other` names one. Of `references`, the
-    reference images, `references_agree` were equal, and `references_missing` have no file. `differences` is a line for
-    each thing that differs.
+    Of `rows`, which the generators of this version made, `drawn` were drawn by `seed` and made again, and `agree` were
+    equal, bit for bit. With 95 % confidence a smaller part of `rows` than `bound` is wrong (Clopper & Pearson 1934); if all
+    were drawn, it is the part that differs. `other_rows` are of other versions and cannot be compared; `other` names one.
+    Of `references`, the reference images, all of which are rendered again, `references_agree` were equal, and
+    `references_missing` have no file; `references_failed` more cannot be rendered again, and `references_other` are of
+    other versions. `differences` is a line for each thing that differs.
     """
 
     rows: int
     other_rows: int
+    seed: int
     drawn: int
     agree: int
     bound: float
     references: int
     references_agree: int
     references_missing: int
+    references_failed: int
+    references_other: int
     differences: tuple[str, ...]
     other: str
 
-    references_failed: int
-    references_other: int
     def __bool__(self) -> bool:
         return not self.differences
 
@@ -240,8 +243,9 @@ class Study:
             pass
 
 
-def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] = 200, *, seed: SupportsIndex = 1,
-          threads: SupportsIndex = 0, progress: Optional[Callable[[float], object]] = None) -> Audit:
+def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] = 200, *,
+          seed: Optional[SupportsIndex] = None, threads: SupportsIndex = 0,
+          progress: Optional[Callable[[float], object]] = None) -> Audit:
     """Makes rows of a study again from their keys, and all its reference images, and compares them bit for bit.
 
     Parameters
@@ -250,8 +254,9 @@ def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] 
         A study's folder, which is only read. No run may use it meanwhile; close a `Study` first.
     rows : int or None
         How many rows are drawn at random; None: all.
-    seed : int
-        Of the draw. The rows that are drawn depend on it and the folder alone.
+    seed : int or None
+        Of the draw. The rows that are drawn depend on it and the folder alone, so that the result's `seed` repeats a draw.
+        None: 64 random bits from the operating system. The bound holds only if nobody who could change the rows knew it.
     threads, progress
         As in `Study.run`. Ctrl-C ends the audit without a result.
 
@@ -278,11 +283,12 @@ def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] 
     """
     lines: List[str] = []
     differs = s.Differs(lambda _context, line: lines.append(line.decode(errors="replace")))
+    used = secrets.randbits(64) if seed is None else whole("seed", seed, 0, s.MAX_SEED)
     options = s.AuditOptions(text(folder, "folder"), 0 if rows is None else whole("rows", rows, 1, (1 << 63) - 1),
-                             whole("seed", seed, 0, s.MAX_SEED), differs, None)
+                             used, differs, None)
     raw = s.Audit()
     call(lab().koksma_study_audit, byref(options), byref(raw), threads=threads, run_at=1, progress=progress)
-    return Audit(raw.rows, raw.other_rows, raw.drawn, raw.agree, raw.bound, raw.references, raw.references_agree,
+    return Audit(raw.rows, raw.other_rows, used, raw.drawn, raw.agree, raw.bound, raw.references, raw.references_agree,
                  raw.references_missing, raw.references_failed, raw.references_other, tuple(lines), raw.other.decode(errors="replace"))
 
 

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """store_audit.py KOKSMA: what `koksma study audit` says of folders that a stranger made. All reference images are
-rendered again, whichever rows are drawn, and those that cannot be are counted."""
+rendered again, whichever rows are drawn, and those that cannot be are counted. Nobody can know before which rows are
+drawn."""
+import json
 import os
 import re
 import shutil
@@ -99,6 +101,27 @@ def references():
          r"not compared: 12 rows and 1 reference images made by other revisions, such as .*77.*")
 
 
+# ---- The draw -------------------------------------------------------------------------------------------------
+
+
+def draw():
+    """Half of the rows are wrong. Each audit has a random seed, which is printed and repeats its draw."""
+    copy("d")
+    change("d", "UPDATE result SET v0 = v0 / 2, v1 = v1 / 2 WHERE id IN (SELECT id FROM result ORDER BY id LIMIT 1000)")
+    seeds = []
+    for _ in range(12):
+        told = audit("d", "--rows", "1")
+        seed = re.search(r"^1 rows drawn with seed (\d+), of which ([01]) agree: ", told.stdout, re.MULTILINE)
+        check(seed, f"a seed is printed: {told}")
+        if seed:
+            seeds.append(int(seed[1]))
+            again = audit("d", "--rows", "1", "-s", seed[1])
+            check((again.stdout, again.returncode) == (told.stdout, told.returncode), f"seed {seed[1]}: {again} {told}")
+    check(len(set(seeds)) == 12 and max(seeds, default=0) > 1 << 32, f"seeds of the operating system: {seeds}")
+    row = json.loads(audit("sound", "--rows", "5", "--json").stdout)
+    check(json.loads(audit("sound", "--rows", "5", "--json", "--seed", str(row["seed"])).stdout) == row, f"seed in JSON: {row}")
+
+
 os.chdir(tempfile.mkdtemp(prefix="koksma-store-audit-"))
 try:
     with open("plan.json", "w") as file:
@@ -106,7 +129,7 @@ try:
     shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references,:
+    for part in references, draw:
         part()
 finally:
     here = os.getcwd()

@@ -232,6 +232,8 @@ class Studies(unittest.TestCase):
                              [theirs[key] for key in ("rows", "drawn", "agree", "wrong_below")])
             self.assertTrue(0.05 < found.bound < 1 - 0.05 ** (1 / 20) + 1e-12)  # of draws with replacement at most that
             self.assertTrue(done and all(0 <= f <= 1 for f in done))
+            drawn = [koksma.audit(folder, rows=20) for _ in range(2)]
+            self.assertEqual((found.seed, len({a.seed for a in drawn})), (3, 2))
             everything = koksma.audit(folder, rows=None)
             self.assertEqual((everything.drawn, everything.bound), (60, 0))
 
