@@ -108,6 +108,10 @@ const char *cli_command_name(const void *table, size_t i);
 const char *cli_integrator_name(const void *table, size_t i);
 const char *cli_filter_name(const void *table, size_t i);
 
+/* Returns a name or path as one line of valid UTF-8 (koksma_text_escape), cut to 4095 bytes. The result is valid until
+   the fourth next call. */
+const char *cli_one_line(const char *text);
+
 /* Prints "koksma NAME: text" on stderr. The text becomes one line of valid UTF-8: koksma_text_escape() escapes other
    characters. command: the NAME, or "" for a message of the program as a whole. */
 void cli_say(const char *command, const char *format, ...) KOKSMA_PRINTF(2, 3);

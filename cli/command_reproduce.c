@@ -134,7 +134,7 @@ static int run(const cli_arguments *arguments)
     }
     if (folder && !cli_flag(arguments, "quiet")) {
         fprintf(stderr, "%zu jobs, %zu of them done before; report: %s/report.html\n", summary.jobs,
-                summary.done_before, folder);
+                summary.done_before, cli_one_line(folder));
     }
     return code;
 }

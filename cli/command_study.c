@@ -135,7 +135,7 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
             percent(summary.idle_seconds, summary.workers * summary.seconds),
             percent(summary.store_seconds, summary.processor_seconds),
             summary.complete || refused ? "" : "; the time limit ended the run; the same command continues it",
-            options->folder);
+            cli_one_line(options->folder));
     }
     if (refused) {
         return refused;

@@ -364,6 +364,16 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
     return true;
 }
 
+const char *cli_one_line(const char *text)
+{
+    static char lines[4][4096];
+    static size_t next;
+    char *line = lines[next++ % (sizeof lines / sizeof *lines)];
+    snprintf(line, sizeof *lines, "%s", text);
+    koksma_text_escape(line, sizeof *lines);
+    return line;
+}
+
 static void put_line(const char *command, const char *format, va_list list)
 {
     char text[4096];

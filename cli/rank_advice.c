@@ -17,16 +17,16 @@ static const char *base_of(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* Returns a pattern's name for the advice. A file is shown without its folder if no other has the same name. */
+/* Returns a pattern's name for the advice (cli_one_line). A file is shown without its folder if no other has the same name. */
 static const char *name_of(const koksma_rank_options *options, size_t pattern)
 {
     const char *base = base_of(options->patterns[pattern]);
     for (size_t i = 0; i < options->n_patterns; i++) {
         if (i != pattern && !strcmp(base_of(options->patterns[i]), base)) {
-            return options->patterns[pattern];
+            return cli_one_line(options->patterns[pattern]);
         }
     }
-    return base;
+    return cli_one_line(base);
 }
 
 static const char *in_bands(const koksma_rank_row *row)

@@ -38,6 +38,18 @@ cli_rows *cli_rows_open(bool json)
     return rows ? rows : &no_rows;
 }
 
+/* A copy of a text as one line of valid UTF-8; NULL without memory. */
+static char *one_line(const char *text)
+{
+    const size_t size = 4 * strlen(text) + 1;
+    char *line = malloc(size);
+    if (line) {
+        strcpy(line, text);
+        koksma_text_escape(line, size);
+    }
+    return line;
+}
+
 static void push(cli_rows *rows, const char *key, const char *text, bool is_number)
 {
     if (rows->failed) {
@@ -54,22 +66,43 @@ static void push(cli_rows *rows, const char *key, const char *text, bool is_numb
         rows->capacity = capacity;
     }
     cli_cell *c = &rows->cells[rows->n++];
-    *c = (cli_cell){key ? strdup(key) : NULL, text ? strdup(text) : NULL, is_number};
+    *c = (cli_cell){key ? strdup(key) : NULL, text ? one_line(text) : NULL, is_number};
     rows->failed |= (key && !c->key) || (text && !c->text);
 }
 
+/* The number of bytes of the character of UTF-8 at `text`; 0 if there is none. koksma_text_escape changes all other
+   bytes, and also control characters, which the caller treats before. */
+static size_t character_length(const char *text)
+{
+    const unsigned char c = (unsigned char)*text;
+    const size_t length = strnlen(text, c < 0x80 ? 1 : c < 0xe0 ? 2 : c < 0xf0 ? 3 : 4);
+    char escaped[32] = "";
+    memcpy(escaped, text, length);
+    koksma_text_escape(escaped, sizeof escaped);
+    return strlen(escaped) == length && !memcmp(escaped, text, length) ? length : 0;
+}
+
+/* Writes a text as the library's JSON has it: U+FFFD replaces bytes that are not UTF-8. All control characters are
+   escaped, because terminals would execute them. */
 static void json_text(const char *text)
 {
     putchar('"');
-    for (; *text; text++) {
-        const unsigned char c = (unsigned char)*text;
+    while (*text) {
+        const unsigned char c = (unsigned char)text[0], next = (unsigned char)text[1];
+        const bool high = c == 0xc2 && next >= 0x80 && next < 0xa0;
+        size_t length = 1;
         if (c == '"' || c == '\\') {
             printf("\\%c", c);
-        } else if (c < 0x20) {
-            printf("\\u%04x", c);
+        } else if (c < 0x20 || c == 0x7f || high) {
+            printf("\\u%04x", high ? next : c);
+            length = 1 + high;
+        } else if ((length = character_length(text))) {
+            printf("%.*s", (int)length, text);
         } else {
-            putchar(c);
+            fputs("\xef\xbf\xbd", stdout);
+            length = 1;
         }
+        text += length;
     }
     putchar('"');
 }

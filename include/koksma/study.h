@@ -149,7 +149,8 @@ typedef struct koksma_audit_options {
     const char *folder; /* folder of the study, which is only read */
     long long rows;     /* number of rows to draw at random, each with the same probability; 0: all */
     uint64_t seed; /* seed of the random draw; the bound holds only if nobody who could change the rows knew it */
-    /* Called with a line of text for each difference, by one thread at a time; may be NULL. */
+    /* Called with a line of text for each difference, in which control characters and bytes that are not UTF-8 are
+       escaped (koksma_text_escape), by one thread at a time; may be NULL. */
     void (*differs)(void *context, const char *text);
     void *context;
 } koksma_audit_options;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """store_audit.py KOKSMA: what `koksma study audit` says of folders that a stranger made. All reference images are
 rendered again, whichever rows are drawn, and those that cannot be are counted. Nobody can know before which rows are
-drawn."""
+drawn. No text of a plan or store reaches the terminal with control characters, and --json is JSON."""
 import json
 import os
 import re
@@ -122,14 +122,70 @@ def draw():
     check(json.loads(audit("sound", "--rows", "5", "--json", "--seed", str(row["seed"])).stdout) == row, f"seed in JSON: {row}")
 
 
+# ---- Texts ----------------------------------------------------------------------------------------------------
+
+
+def texts():
+    """Control characters of plans and stores are escaped once, wherever they are printed."""
+    name = "pts\x1b[31m\nred\x9b1m.txt"
+    shutil.copy("points.txt", name)
+    with open("red.json", "w") as file:
+        json.dump({"name": "red", "title": "r", "discrepancies": [{"patterns": ["file:" + name, "random"], "measures": ["star"],
+                                                                   "n": [16, 32], "trials": 2, "skip": True}]}, file)
+    escaped = r"file:pts\x1b[31m\x0ared\xc2\x9b1m.txt"
+    for more in ("study", "run", "./red.json", "-o", "red"), ("study", "export", "red", "-o", "red.csv"):
+        told = koksma(*more)
+        (line,) = [line for line in told.stderr.split("\n") if "left out" in line]
+        check(line.startswith(f"left out: {escaped}, N = 32: ") and plain(told.stderr), f"{more}: {told}")
+    evil = "char(27)||'[31m'||char(10)||'x'"
+    for column, kind, change_of in (("scene", "a difference", f"UPDATE series SET scene = {evil} WHERE scene = 'checker'"),
+                                    ("made_by", "other revisions", f"UPDATE series SET made_by = {evil}"),
+                                    ("pattern", "a difference", f"UPDATE series SET pattern = {evil}"),
+                                    ("options", "a difference", f"UPDATE reference SET options = {evil}"),
+                                    ("made_by", "other references", f"UPDATE reference SET made_by = {evil}"),
+                                    ("left out", "a list", "INSERT OR REPLACE INTO meta VALUES ('left-out', char(27)||'[31mx'||char(10))"),
+                                    ("left out", "a list", "INSERT OR REPLACE INTO meta VALUES ('failed', char(27)||'[31mx'||char(9)||'1'||"
+                                     "char(9)||'1'||char(9)||'1'||char(9)||char(27))")):
+        copy("t", "red" if column == "left out" else "sound")
+        change("t", change_of)
+        for verb in ("audit", "--rows", "all"), ("export", "-o", "t.csv"), ("report",):
+            told = koksma("study", verb[0], "t", *verb[1:])
+            check(plain(told.stdout) and plain(told.stderr), f"{column} in {kind}: {verb}: {told}")
+        if column != "left out":
+            check("\\x1b[31m\\x0ax" in audit("t", "--rows", "all").stdout, f"{column} in {kind} is shown escaped")
+    told = koksma("measure", name, "-m", "star")
+    check(plain(told.stdout) and r"pts\x1b[31m\x0ared" in told.stdout, f"a cell of a table: {told}")
+    for value in "x'ff41'", "x'c3'", "x'eda080'", "x'f4908080'", "x'41c28541'", "x'7f0a22'", "x'e2829a'":
+        for column in ("scene", "pattern", "made_by")[:3 if value == "x'ff41'" else 1]:
+            copy("t")
+            change("t", f"UPDATE series SET {column} = CAST({value} AS TEXT) WHERE scene = 'checker'", sealed=False)
+            told = subprocess.run([KOKSMA, "study", "audit", "t", "--rows", "all", "--json"], capture_output=True, timeout=60)
+            try:
+                rows = [json.loads(line) for line in told.stdout.decode().rstrip("\n").split("\n")]
+                check("differences" in rows[-1] and plain(told.stdout.decode()), f"{column} = {value}: {told}")
+            except ValueError as problem:
+                check(False, f"{column} = {value}: {problem}: {told}")
+    with open(b"\xff\xc2\x85\xc3\xa9.txt", "w") as file:
+        file.write("0.5 0.5\n")
+    told = subprocess.run([KOKSMA.encode(), b"measure", b"\xff\xc2\x85\xc3\xa9.txt", b"-m", b"star", b"--json"], capture_output=True)
+    check(b'"source":"\xef\xbf\xbd\\u0085\xc3\xa9.txt"' in told.stdout, f"a name that is no UTF-8: {told}")
+
+
+def plain(text):
+    """Whether no line has a control character, which also U+0080 to U+009F are."""
+    return not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", text)
+
+
 os.chdir(tempfile.mkdtemp(prefix="koksma-store-audit-"))
 try:
     with open("plan.json", "w") as file:
         file.write(PLAN)
     shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
+    with open("points.txt", "w") as file:
+        file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, draw:
+    for part in references, draw, texts:
         part()
 finally:
     here = os.getcwd()

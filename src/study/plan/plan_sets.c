@@ -132,7 +132,7 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     if (!reason[0]) {
         return KOKSMA_OK;
     }
-    const size_t size = strlen(line) + strlen(reason) + 3;
+    const size_t size = 4 * (strlen(line) + strlen(reason)) + 3; /* every byte of the pattern may become \xNN */
     char *text = malloc(size);
     if (!text) {
         return koksma__fail_memory(size);
@@ -141,6 +141,7 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     const size_t name = strcspn(t->patterns->at[p], ":");
     const bool twice = !strncmp(reason, line, name) && !strncmp(reason + name, ": ", 2);
     snprintf(text, size, "%s: %s", line, reason + (twice ? name + 2 : 0));
+    koksma_text_escape(text, size);
     out->lines.at[out->lines.n++] = text;
     return KOKSMA_OK;
 }

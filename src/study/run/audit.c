@@ -46,6 +46,7 @@ static void differ(audit *a, const char *format, ...)
     va_start(arguments, format);
     koksma__vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    koksma_text_escape(text, sizeof text); /* texts of the store must not forge lines or command a terminal */
     pthread_mutex_lock(&a->lock);
     a->out->differences++;
     if (a->options->differs) {
@@ -285,6 +286,7 @@ static koksma_status check(audit *a, koksma__audit_series *s)
         snprintf(a->out->other, sizeof a->out->other, "%.24s%s%.24s (here: %.24s%s%.24s)", s->key.made_by,
                  s->is_reference ? "" : "; ", s->key.measured_by, here.points, s->is_reference ? "" : "; ",
                  here.value);
+        koksma_text_escape(a->out->other, sizeof a->out->other);
     }
     return KOKSMA_OK;
 }

@@ -57,6 +57,19 @@ static bool same_label(const fields *a, const fields *b)
     return a->label_length == b->label_length && !strncmp(a->label, b->label, (size_t)a->label_length);
 }
 
+/* Appends a text as one line of UTF-8: a pattern may name a file whose name has control characters. */
+static koksma_status add_line(koksma__texts *lines, const char *text)
+{
+    const size_t size = 4 * strlen(text) + 1;
+    char *line = malloc(size);
+    KOKSMA__REQUIRE_MEMORY(line, size);
+    strcpy(line, text);
+    koksma_text_escape(line, size);
+    const koksma_status status = koksma__texts_add(lines, line);
+    free(line);
+    return status;
+}
+
 /* Appends to `lines` one line for all tasks with the label of task `first`, and marks them as shown. */
 static koksma_status show(const fields *tasks, size_t n, size_t first, bool *shown, koksma__texts *lines)
 {
@@ -74,7 +87,7 @@ static koksma_status show(const fields *tasks, size_t n, size_t first, bool *sho
     }
     fprintf(f, ": %s", tasks[first].reason);
     koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
-    status = status ? status : koksma__texts_add(lines, text);
+    status = status ? status : add_line(lines, text);
     free(text);
     return status;
 }
@@ -99,19 +112,26 @@ koksma_status koksma__left_out_show(const koksma__texts *stored, koksma__texts *
 
 /* ---- The store ----------------------------------------------------------------------------------------- */
 
-koksma_status koksma__left_out_recall(koksma__store *store, koksma__texts *stored)
+/* Reads a text of the store and passes each of its lines to `add`. */
+static koksma_status each_line(koksma__store *store, const char *key, koksma__texts *lines,
+                               koksma_status (*add)(koksma__texts *lines, const char *line))
 {
     char *text = NULL;
-    koksma_status status = koksma__store_get_text(store, failed_key, &text);
+    koksma_status status = koksma__store_get_text(store, key, &text);
     for (char *line = text; !status && line && *line;) {
         const size_t length = strcspn(line, "\n");
         const bool last = !line[length];
         line[length] = '\0';
-        status = koksma__texts_add(stored, line);
+        status = add(lines, line);
         line += length + !last;
     }
     free(text);
     return status;
+}
+
+koksma_status koksma__left_out_recall(koksma__store *store, koksma__texts *stored)
+{
+    return each_line(store, failed_key, stored, koksma__texts_add);
 }
 
 /* Writes a text into the store unless its present value is the same; a missing text counts as empty. */
@@ -124,17 +144,24 @@ static koksma_status set_text(koksma__store *store, const char *key, const char 
     return same ? KOKSMA_OK : koksma__store_set_text(store, key, value);
 }
 
-/* Writes the lines into the store as one text. */
-static koksma_status set_lines(koksma__store *store, const char *key, const koksma__texts *lines)
+/* Joins the lines; each ends with a newline. The caller frees *text, also after an error. */
+static koksma_status join(const koksma__texts *lines, char **text)
 {
-    char *text = NULL;
     size_t size = 0;
-    FILE *f = open_memstream(&text, &size);
+    *text = NULL;
+    FILE *f = open_memstream(text, &size);
     KOKSMA__REQUIRE_MEMORY(f, 1);
     for (size_t i = 0; i < lines->n; i++) {
         fprintf(f, "%s\n", lines->at[i]);
     }
-    koksma_status status = fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
+    return fclose(f) ? koksma__fail_memory(size) : KOKSMA_OK;
+}
+
+/* Writes the lines into the store as one text. */
+static koksma_status set_lines(koksma__store *store, const char *key, const koksma__texts *lines)
+{
+    char *text;
+    koksma_status status = join(lines, &text);
     status = status ? status : set_text(store, key, text);
     free(text);
     return status;
@@ -164,11 +191,14 @@ koksma_status koksma_study_left_out(const char *folder, char **lines)
     *lines = NULL;
     snprintf(path, sizeof path, "%s/results.sqlite", folder);
     KOKSMA__TRY(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
-    koksma_status status = koksma__store_get_text(store, left_out_key, lines);
+    koksma__texts of = {0};
+    koksma_status status = each_line(store, left_out_key, &of, add_line);
     koksma__store_close(store);
-    if (!status && !*lines) {
-        *lines = strdup("");
-        status = *lines ? KOKSMA_OK : koksma__fail_memory(1);
+    status = status ? status : join(&of, lines);
+    koksma__texts_fini(&of);
+    if (status) {
+        free(*lines);
+        *lines = NULL;
     }
     return status;
 }
