@@ -101,6 +101,35 @@ def references():
          r"not compared: 12 rows and 1 reference images made by other revisions, such as .*77.*")
 
 
+def reasons():
+    """A row that can't be computed again has the reason: a file that is not there has not changed."""
+    with open("files.json", "w") as file:
+        json.dump({"name": "f", "title": "f", "discrepancies": [{"patterns": ["file:points.txt"], "measures": ["star"], "n": [16], "trials": 1}],
+                   "images": [{"scenes": ["./mine.json"], "patterns": ["random"], "spp": [16], "size": [8, 6], "trials": 1,
+                               "references": [{"name": "r", "pattern": "file:points.txt", "spp": 16}]}]}, file)
+    check(koksma("study", "run", "./files.json", "-o", "files", "-q").returncode == 0, "a study of files")
+    of_row = r"differs: discrepancy file:points\.txt, .* can't be computed again: the file of its points"
+    of_reference = r"differs: reference r:file:points\.txt@16x1 of \./mine\.json, 8 x 6 can't be rendered again: "
+    says(audit("files"), 0, "1 reference images rendered again, of which 1 agree")
+    os.rename("points.txt", "kept.txt")
+    says(audit("files"), 1, of_row + r": points\.txt: can't be read: No such file or directory",
+         of_reference + r"the file of its points: points\.txt: can't be read: No such file or directory")
+    os.mkfifo("points.txt")
+    says(audit("files"), 1, of_row + r": points\.txt: can't be read: it is a pipe .*")
+    os.remove("points.txt")
+    os.mkdir("points.txt")
+    says(audit("files"), 1, of_row + r": points\.txt: .*directory.*")
+    os.rmdir("points.txt")
+    shutil.copy("mine.json", "points.txt")
+    says(audit("files"), 1, of_row + " has changed since", of_reference + "the file of its points has changed since")
+    os.rename("kept.txt", "points.txt")
+    with open("mine.json", "a") as file:
+        file.write("\n")
+    says(audit("files"), 1, r"differs: image \./mine\.json, .* can't be computed again: its scene has changed since",
+         of_reference + "its scene has changed since")
+    shutil.copy(HERE + "/../../scenes/checker.json", "mine.json")
+
+
 # ---- The draw -------------------------------------------------------------------------------------------------
 
 
@@ -185,7 +214,7 @@ try:
         file.writelines(f"{i / 16} {(3 * i + 1) % 16 / 16}\n" for i in range(16))
     made = koksma("study", "run", "./plan.json", "-o", "sound", "-q")
     assert made.returncode == 0, made.stderr
-    for part in references, draw, texts:
+    for part in references, reasons, draw, texts:
         part()
 finally:
     here = os.getcwd()

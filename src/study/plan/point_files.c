@@ -11,6 +11,7 @@
 #include "core/capacity.h"
 #include "core/modifiers.h"
 #include "core/read_file.h"
+#include "core/status.h"
 #include "patterns/shared/file_names.h"
 
 /* Finds the path in a pattern or in the name of a reference; *length is the path's length without modifiers. NULL:
@@ -84,6 +85,27 @@ void koksma__hash_with_points(koksma__point_files *known, const char *hash, cons
                  (unsigned long long)look_up(known, path));
     }
     free(path);
+}
+
+koksma_status koksma__points_can_be_read(const char *spec)
+{
+    size_t length, count = 0;
+    const char *at = path_in(spec, &length);
+    char *path = at ? strndup(at, length) : NULL;
+    koksma__file_set *sets = NULL;
+    koksma_status status = at && !path ? koksma__fail_memory(length) : KOKSMA_OK;
+    uint64_t hash;
+    if (path && (koksma__file_has(path, "{n}") || koksma__file_has(path, "{seed}"))) {
+        status = koksma__file_sets(path, &sets, &count);
+        if (!status && !count) {
+            status = koksma__fail(KOKSMA_MISSING, "%s: no file has such a name", path);
+        }
+        free(sets);
+    } else if (path) {
+        status = koksma__hash_file(path, &hash);
+    }
+    free(path);
+    return status;
 }
 
 void koksma__point_files_fini(koksma__point_files *known)

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <koksma/koksma.h>
+
 typedef struct koksma__point_file {
     char *path;
     uint64_t hash;
@@ -21,10 +23,13 @@ typedef struct koksma__point_files {
 enum { KOKSMA__HASH_TEXT = 40 };
 
 /* Writes `hash` to out, followed by the hash of the file if `spec` is "file:PATH" or ends in ":file:PATH@…" as
-   the name of a reference does. A file that can't be read has the hash 0; generating its points later reports
-   why. known may be NULL. */
+   the name of a reference does. A file that can't be read has the hash 0; koksma__points_can_be_read
+   tells why. known may be NULL. */
 void koksma__hash_with_points(koksma__point_files *known, const char *hash, const char *spec,
                               char out[KOKSMA__HASH_TEXT]);
+
+/* Fails if the file of points that `spec` names can't be read, with the reason; OK also if it names none. */
+koksma_status koksma__points_can_be_read(const char *spec);
 
 void koksma__point_files_fini(koksma__point_files *known);
 

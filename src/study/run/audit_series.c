@@ -172,12 +172,30 @@ static koksma_status check_image(const koksma__study_scene *scene, const koksma_
     return status;
 }
 
+/* Checks that the hash in a key, of the scene and of the file of points, is that of the present files. */
+static koksma_status check_hash(koksma__audit_list *list, const koksma__audit_series *series, const char *scene)
+{
+    const koksma__series *key = &series->key;
+    const char *points = series->is_reference ? key->what : key->pattern;
+    char hash[KOKSMA__HASH_TEXT];
+    koksma__hash_with_points(&list->files, scene, points, hash);
+    if (!strcmp(hash, key->scene_hash)) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__points_can_be_read(points);
+    if (status) {
+        return koksma__fail_in(status == KOKSMA_MEMORY ? status : KOKSMA_MISSING, "the file of its points");
+    }
+    const bool same_scene = !strncmp(key->scene_hash, scene, strlen(scene));
+    return koksma__fail(KOKSMA_MALFORMED, "%s has changed since",
+                        same_scene ? "the file of its points" : "its scene");
+}
+
 koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list, koksma__audit_series *series,
                                   koksma__made_by *here)
 {
     const koksma__series *key = &series->key;
     const bool image = strcmp(key->kind, "discrepancy") != 0;
-    char hash[KOKSMA__HASH_TEXT];
     series->state = KOKSMA__AUDIT_WRONG;
     koksma_status status =
         koksma__find_made_by(image, key->pattern, key->options, key->what, key->metric, false, here);
@@ -196,13 +214,7 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
         status = koksma__study_open_scene(study, key->scene);
     }
     const koksma__study_scene *scene = !status && image ? koksma__study_scene_of(study, key->scene) : NULL;
-    if (!status) {
-        koksma__hash_with_points(&list->files, scene ? scene->hash : "",
-                                 series->is_reference ? key->what : key->pattern, hash);
-        status = !strcmp(hash, key->scene_hash)
-                     ? KOKSMA_OK
-                     : koksma__fail(KOKSMA_MALFORMED, "its scene, or the file of its points, has changed since");
-    }
+    status = status ? status : check_hash(list, series, scene ? scene->hash : "");
     status = !status && scene ? check_image(scene, series) : status;
     series->state = status ? KOKSMA__AUDIT_WRONG : KOKSMA__AUDIT_OURS;
     return status;
